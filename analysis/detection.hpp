@@ -1,0 +1,66 @@
+// Detection rates: alarms per fault size at a threshold taken from an independent healthy sample.
+// MIL-HDBK-1823A, section 4; intervals: Wilson (1927).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gearpod::analysis {
+
+// Which side of the threshold raises the alarm.
+enum class Alarm { high, low };
+
+// One group of gearboxes whose fault sizes lie in [low_m, high_m]; both are equal for a fixed level.
+struct SizeGroup {
+    double low_m = 0.0;
+    double high_m = 0.0;
+};
+
+// Detections in one size group at one noise level.
+struct DetectionCell {
+    SizeGroup size;
+    long tested = 0;    // gearboxes with a finite feature value
+    long detected = 0;  // of these, alarms
+    long failed = 0;    // gearboxes without a value (diverged, or the feature is not a number)
+    double pd = 0.0;    // detected / tested; NaN if none was tested
+    double lower = 0.0;  // Wilson bounds at the confidence asked for
+    double upper = 0.0;
+};
+
+// One feature at one noise level.
+struct LevelDetection {
+    double noise_level = 0.0;  // factor on the sensor and encoder noise
+    double threshold = 0.0;    // in the feature's unit; NaN if the sample was too small
+    long threshold_sample = 0;  // healthy gearboxes that set it
+    long threshold_alarms = 0;  // of these, how many lie beyond it
+    std::vector<DetectionCell> cells;  // ascending size
+};
+
+struct FeatureDetection {
+    std::string feature;
+    Alarm alarm = Alarm::high;
+    std::vector<LevelDetection> levels;  // ascending noise
+    std::vector<std::string> warnings;   // e.g. a threshold sample too small for the rate asked for
+};
+
+struct DetectionRequest {
+    double false_alarm_rate = 0.05;
+    double confidence = 0.95;
+    std::vector<double> noise_levels;
+    std::vector<SizeGroup> groups;  // ascending; from levels or from edges
+};
+
+// Values of one feature for one set of gearboxes, row-major: values[i * levels + level].
+// NaN marks a gearbox that failed.
+struct FeatureSample {
+    std::span<const double> fault_size_m;  // one per gearbox
+    std::span<const double> values;        // gearboxes x noise levels
+};
+
+// Thresholds from `healthy` (all of them, whatever their fault_size_m), rates from `graded`.
+// Throws std::invalid_argument if the shapes disagree.
+FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
+                        const FeatureSample& graded, const DetectionRequest& request);
+
+}  // namespace gearpod::analysis
