@@ -1,0 +1,75 @@
+// Lockstep accelerations of the rotations alone, 3 + N: carrier, ring, sun, planets 1..N.
+// Bearings are rigid, so a planet rides on the carrier: x_n = -u_c sin psi_n, y_n = u_c cos psi_n, and
+// both meshes see -u_c cos(alpha). The planets' masses count in the carrier's inertia (make_lanes).
+#pragma once
+
+#include <cmath>
+
+#include "dynamics/translational_motion.hpp"
+
+namespace gearpod::dynamics {
+
+template <int W>
+struct TorsionalMotion {
+    static constexpr int kWidth = W;
+    static constexpr int degrees_of_freedom(int planets) { return 3 + planets; }
+
+    // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane]; k, c: [pair][lane].
+    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const double* __restrict k, const double* __restrict c,
+                                             double* __restrict a) {
+        for (int body = 0; body < 3; ++body) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                a[body * W + l] =
+                    p.force[body][l] - spring_damper(p.support_stiffness[body][l], q[body * W + l],
+                                                     p.support_damping[body][l], v[body * W + l]);
+            }
+        }
+        for (int n = 0; n < p.planets; ++n) {
+            planet_forces(p, n, q, v, k, c, a);
+        }
+        for (int body = 0; body < 3; ++body) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                a[body * W + l] *= p.inverse_inertia[body][l];
+            }
+        }
+    }
+
+    using PlanetMotion = typename TranslationalMotion<WithoutInertialTerms, W>::PlanetMotion;
+    static GEARPOD_INLINE PlanetMotion planet_motion(const PlanetaryLanes<W>& p, int n, int l,
+                                                     const double* q, const double* v,
+                                                     const double* a) {
+        const double x = -p.sin_psi[n], y = p.cos_psi[n];
+        return {q[l] * x, q[l] * y, v[l] * x, v[l] * y, a[l] * x, a[l] * y};
+    }
+
+  private:
+    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const double* __restrict k, const double* __restrict c,
+                                             double* __restrict f) {
+        const double ca = p.cos_pressure_angle;
+        const int o = (3 + n) * W;
+        const double *k_sun = k + n * W, *c_sun = c + n * W;
+        const double *k_ring = k + (p.planets + n) * W, *c_ring = c + (p.planets + n) * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double u = q[o + l], vu = v[o + l];
+            const double f_sun =
+                spring_damper(k_sun[l], std::fma(-q[l], ca, q[2 * W + l] + u), c_sun[l],
+                              std::fma(-v[l], ca, v[2 * W + l] + vu));
+            const double f_ring =
+                spring_damper(k_ring[l], std::fma(-q[l], ca, q[W + l] - u), c_ring[l],
+                              std::fma(-v[l], ca, v[W + l] - vu));
+            f[l] = std::fma(f_sun + f_ring, ca, f[l]);
+            f[W + l] -= f_ring;
+            f[2 * W + l] -= f_sun;
+            f[o + l] = (f_ring - f_sun) * p.inverse_inertia[planet][l];
+        }
+    }
+};
+
+}  // namespace gearpod::dynamics

@@ -1,0 +1,141 @@
+// Lockstep accelerations of the 9 + 3N model: carrier, ring, sun, planets with x, y and u each.
+// Same physics as planetary.cpp's matrices (tests compare the two), written out per spring-damper.
+#pragma once
+
+#include <cmath>
+
+#include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/planetary_lanes.hpp"
+
+namespace gearpod::dynamics {
+
+// Force of a spring-damper with deflection d and rate r.
+GEARPOD_INLINE double spring_damper(double k, double d, double c, double r) {
+    return std::fma(k, d, c * r);
+}
+
+template <class InertialTerms, int W>
+struct TranslationalMotion {
+    static constexpr int kWidth = W;
+    static constexpr int degrees_of_freedom(int planets) { return 9 + 3 * planets; }
+
+    // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane]; k, c: [pair][lane].
+    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const double* __restrict k, const double* __restrict c,
+                                             double* __restrict a) {
+        for (int body = 0; body < 3; ++body) {
+            central_bearing(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
+        }
+        for (int n = 0; n < p.planets; ++n) {
+            planet_forces(p, n, q, v, k + n * W, c + n * W, k + (p.planets + n) * W,
+                          c + (p.planets + n) * W, a);
+        }
+        for (int body = 0; body < 3; ++body) {
+            central_acceleration(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
+        }
+    }
+
+    // Planet n's x, y: displacement, velocity and acceleration in the carrier frame.
+    struct PlanetMotion {
+        double x, y, vx, vy, ax, ay;
+    };
+    static GEARPOD_INLINE PlanetMotion planet_motion(const PlanetaryLanes<W>&, int n, int l,
+                                                     const double* q, const double* v,
+                                                     const double* a) {
+        const int x = (9 + 3 * n) * W + l;
+        return {q[x], q[x + W], v[x], v[x + W], a[x], a[x + W]};
+    }
+
+  private:
+    static GEARPOD_INLINE void central_bearing(const PlanetaryLanes<W>& p, int body,
+                                               const double* __restrict q,
+                                               const double* __restrict v, double* __restrict f) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double k = p.bearing_stiffness[body][l];
+            const double c = p.bearing_damping[body][l];
+            f[l] = -spring_damper(k, q[l], c, v[l]);
+            f[W + l] = -spring_damper(k, q[W + l], c, v[W + l]);
+            f[2 * W + l] = p.force[body][l] - spring_damper(p.support_stiffness[body][l],
+                                                            q[2 * W + l],
+                                                            p.support_damping[body][l],
+                                                            v[2 * W + l]);
+        }
+    }
+
+    static GEARPOD_INLINE void central_acceleration(const PlanetaryLanes<W>& p, int body,
+                                                    const double* __restrict q,
+                                                    const double* __restrict v,
+                                                    double* __restrict a) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double w = p.speed[l];
+            a[l] = std::fma(a[l], p.inverse_mass[body][l], InertialTerms::x(q[l], v[W + l], w));
+            a[W + l] =
+                std::fma(a[W + l], p.inverse_mass[body][l], InertialTerms::y(q[W + l], v[l], w));
+            a[2 * W + l] *= p.inverse_inertia[body][l];
+        }
+    }
+
+    // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
+    // the forces on carrier, ring and sun.
+    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const double* __restrict k_sun,
+                                             const double* __restrict c_sun,
+                                             const double* __restrict k_ring,
+                                             const double* __restrict c_ring,
+                                             double* __restrict f) {
+        const int o = (9 + 3 * n) * W;
+        const double cs = p.cos_sun[n], ss = p.sin_sun[n];
+        const double cr = p.cos_ring[n], sr = p.sin_ring[n];
+        const double cp = p.cos_psi[n], sp = p.sin_psi[n];
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double x = q[o + l], y = q[o + W + l], u = q[o + 2 * W + l];
+            const double vx = v[o + l], vy = v[o + W + l], vu = v[o + 2 * W + l];
+
+            const double d_sun =
+                std::fma(q[6 * W + l] - x, cs, std::fma(q[7 * W + l] - y, ss, q[8 * W + l] + u));
+            const double r_sun =
+                std::fma(v[6 * W + l] - vx, cs, std::fma(v[7 * W + l] - vy, ss, v[8 * W + l] + vu));
+            const double f_sun = spring_damper(k_sun[l], d_sun, c_sun[l], r_sun);
+
+            const double d_ring =
+                std::fma(q[3 * W + l] - x, cr, std::fma(q[4 * W + l] - y, sr, q[5 * W + l] - u));
+            const double r_ring =
+                std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
+            const double f_ring = spring_damper(k_ring[l], d_ring, c_ring[l], r_ring);
+
+            const double kb = p.bearing_stiffness[planet][l];
+            const double cb = p.bearing_damping[planet][l];
+            const double f_x = spring_damper(kb, std::fma(q[2 * W + l], sp, x - q[l]), cb,
+                                             std::fma(v[2 * W + l], sp, vx - v[l]));
+            const double f_y = spring_damper(kb, std::fma(-q[2 * W + l], cp, y - q[W + l]), cb,
+                                             std::fma(-v[2 * W + l], cp, vy - v[W + l]));
+
+            f[l] += f_x;
+            f[W + l] += f_y;
+            f[2 * W + l] = std::fma(f_y, cp, std::fma(-f_x, sp, f[2 * W + l]));
+            f[3 * W + l] = std::fma(-f_ring, cr, f[3 * W + l]);
+            f[4 * W + l] = std::fma(-f_ring, sr, f[4 * W + l]);
+            f[5 * W + l] -= f_ring;
+            f[6 * W + l] = std::fma(-f_sun, cs, f[6 * W + l]);
+            f[7 * W + l] = std::fma(-f_sun, ss, f[7 * W + l]);
+            f[8 * W + l] -= f_sun;
+
+            const double w = p.speed[l];
+            const double pull = p.centrifugal[l];
+            f[o + l] = std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)),
+                                p.inverse_mass[planet][l],
+                                InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
+            f[o + W + l] = std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)),
+                                    p.inverse_mass[planet][l],
+                                    InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
+            f[o + 2 * W + l] = (f_ring - f_sun) * p.inverse_inertia[planet][l];
+        }
+    }
+};
+
+}  // namespace gearpod::dynamics

@@ -1,0 +1,140 @@
+// The lockstep kernels' accelerations against M q'' = f - (C + G) q' - (K + K_c) q, assembled from
+// spring rows, and the statics of a loaded train.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "dynamics/torsional_motion.hpp"
+#include "dynamics/translational_motion.hpp"
+
+using namespace gearpod::dynamics;
+
+namespace {
+
+PlanetaryInputs random_inputs(std::mt19937& engine) {
+    std::uniform_real_distribution<double> uniform(0.5, 1.5);
+    PlanetaryInputs in;
+    for (int body = 0; body < body_count; ++body) {
+        in.mass_kg[body] = 2.0 * uniform(engine);
+        in.inertia_over_r2_kg[body] = uniform(engine);
+        in.bearing_stiffness_N_m[body] = 1e8 * uniform(engine);
+        in.bearing_damping_N_s_m[body] = 1e3 * uniform(engine);
+    }
+    in.support_stiffness_N_m = 1e9 * uniform(engine);
+    in.support_damping_N_s_m = 1e3 * uniform(engine);
+    in.mesh_damping = 0.07 * uniform(engine);
+    in.carrier_speed_rad_s = 100.0 * uniform(engine);
+    in.mesh_period_s = 1e-3;
+    for (double& force : in.force_N) {
+        force = 1e4 * uniform(engine);
+    }
+    return in;
+}
+
+// Largest error of the kernel's accelerations of one lane among eight, relative to the largest.
+template <class Model>
+double kernel_error(PlanetaryLayout layout, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    constexpr int W = Model::kWidth;
+    std::vector<PlanetaryInputs> inputs;
+    for (int l = 0; l < W; ++l) {
+        inputs.push_back(random_inputs(engine));
+    }
+    const auto lanes = make_lanes<W>(layout, inputs);
+    const auto degrees = static_cast<std::size_t>(layout.degrees_of_freedom());
+    const auto pairs = static_cast<std::size_t>(layout.pairs());
+    std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W), k(pairs * W), c(pairs * W);
+    for (auto& x : q) {
+        x = 1e-5 * unit(engine);
+    }
+    for (auto& x : v) {
+        x = 1e-2 * unit(engine);
+    }
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        for (std::size_t l = 0; l < W; ++l) {
+            k[pair * W + l] = 4e8 * (1.5 + unit(engine));
+            c[pair * W + l] =
+                pair_damping(layout, inputs[l], static_cast<int>(pair), k[pair * W + l]);
+        }
+    }
+    Model::accelerations(lanes, q.data(), v.data(), k.data(), c.data(), a.data());
+
+    double error = 0.0, scale = 0.0;
+    for (std::size_t l = 0; l < W; ++l) {
+        std::vector<double> stiffness(pairs);
+        for (std::size_t pair = 0; pair < pairs; ++pair) {
+            stiffness[pair] = k[pair * W + l];
+        }
+        const PlanetaryMatrices m = assemble(layout, inputs[l], stiffness);
+        Eigen::VectorXd ql(degrees), vl(degrees);
+        for (std::size_t d = 0; d < degrees; ++d) {
+            ql(static_cast<Eigen::Index>(d)) = q[d * W + l];
+            vl(static_cast<Eigen::Index>(d)) = v[d * W + l];
+        }
+        const Eigen::VectorXd expected =
+            m.mass.ldlt().solve(m.force - (m.damping + m.gyroscopic) * vl -
+                                (m.stiffness + m.centrifugal) * ql);
+        for (std::size_t d = 0; d < degrees; ++d) {
+            const double e = expected(static_cast<Eigen::Index>(d));
+            error = std::max(error, std::abs(a[d * W + l] - e));
+            scale = std::max(scale, std::abs(e));
+        }
+    }
+    return error / scale;
+}
+
+PlanetaryLayout layout_of(int planets, Motion motion, bool inertial, MeshDamping damping) {
+    PlanetaryLayout layout;
+    layout.planets = planets;
+    layout.pressure_angle_rad = 20 * std::numbers::pi / 180;
+    layout.carrier_radius_m = 0.0794;
+    layout.motion = motion;
+    layout.inertial_terms = inertial;
+    layout.mesh_damping = damping;
+    return layout;
+}
+
+}  // namespace
+
+TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 to 8 planets") {
+    for (int n = 2; n <= 8; ++n) {
+        for (const auto damping :
+             {MeshDamping::ratio, MeshDamping::proportional, MeshDamping::constant}) {
+            const auto seed = static_cast<unsigned>(n);
+            using Inertial = TranslationalMotion<WithInertialTerms, 8>;
+            using Still = TranslationalMotion<WithoutInertialTerms, 8>;
+            const auto full = Motion::translational_torsional;
+            CHECK(kernel_error<Inertial>(layout_of(n, full, true, damping), seed) < 1e-13);
+            CHECK(kernel_error<Still>(layout_of(n, full, false, damping), seed) < 1e-13);
+            CHECK(kernel_error<TorsionalMotion<8>>(
+                      layout_of(n, Motion::torsional, false, damping), seed) < 1e-13);
+        }
+    }
+}
+
+TEST_CASE("At rest every planet carries the same share and the held ring takes its reaction") {
+    // Z_s/Z_p/Z_r = 19/31/81: base radii and centre distance of module 3.175 mm.
+    PlanetaryLayout layout = layout_of(4, Motion::translational_torsional, false,
+                                       MeshDamping::ratio);
+    std::mt19937 engine(1);
+    PlanetaryInputs in = random_inputs(engine);
+    const double cos_a = std::cos(layout.pressure_angle_rad);
+    const double m = 3.175e-3, torque = 429.0;
+    const double r_s = 19 * m / 2 * cos_a, r_c = 25 * m;
+    in.force_N[sun] = torque / r_s;
+    in.force_N[ring] = 0.0;
+    in.force_N[carrier] = -torque * (1 + 81.0 / 19) / r_c;
+    const std::vector<double> k(8, 5e8);
+    const PlanetaryMatrices matrices = assemble(layout, in, k);
+    const Eigen::VectorXd q = static_equilibrium(matrices);
+    CHECK((matrices.stiffness * q - matrices.force).norm() < 1e-9 * matrices.force.norm());
+    for (int n = 0; n < 4; ++n) {
+        CHECK(5e8 * sun_planet_row(layout, n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+        CHECK(5e8 * ring_planet_row(layout, n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+    }
+    const double reaction = in.support_stiffness_N_m * q(motion_index(ring) + 2);
+    CHECK(reaction == Approx(-torque / r_s).epsilon(1e-9));
+}
