@@ -171,6 +171,29 @@ PlanetaryMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs&
     return m;
 }
 
+Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
+    // From zero deflection of both meshes: u_s + u_n = u_c cos a and u_r - u_n = u_c cos a.
+    const double cos_a = std::cos(layout.pressure_angle_rad);
+    const Body held = held_body(layout.fixed);
+    const double u_c = held == carrier ? 0.0 : 1.0;
+    const double u_s = held == sun ? 0.0 : held == ring ? 2.0 * cos_a : 1.0;
+    const double u_n = u_c * cos_a - u_s;
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(layout.degrees_of_freedom());
+    const bool torsional = layout.motion == Motion::torsional;
+    const auto u = [&](int body) { return torsional ? body : 3 * body + 2; };
+    turn(u(carrier)) = u_c;
+    turn(u(ring)) = u_c * cos_a + u_n;
+    turn(u(sun)) = u_s;
+    for (int n = 0; n < layout.planets; ++n) {
+        turn(u(planet + n)) = u_n;
+        if (!torsional) {
+            turn(motion_index(planet, n)) = -u_c * std::sin(layout.planet_angle(n));
+            turn(motion_index(planet, n) + 1) = u_c * std::cos(layout.planet_angle(n));
+        }
+    }
+    return turn;
+}
+
 Eigen::VectorXd static_equilibrium(const PlanetaryMatrices& matrices) {
     // The complete orthogonal decomposition gives the least-norm solution, which leaves the rigid
     // rotation, the null vector of a free gearbox, at zero. Rows are balanced first: the scale of the

@@ -79,6 +79,11 @@ Body held_body(gears::FixedMember fixed);
 double pair_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair,
                     double stiffness_N_m);
 
+// The motion that deflects nothing: the train turning freely past its held member. It is neutral in a
+// real gearbox. The linearised centrifugal term W^2 x lets it grow at a rate near W, since the linear
+// model lacks the turn of the bearing pull that cancels it; so the march removes it (lockstep/tile).
+Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout);
+
 // Displacements at rest under the load; the free rigid rotation, if any, is left at zero.
 Eigen::VectorXd static_equilibrium(const PlanetaryMatrices& matrices);
 

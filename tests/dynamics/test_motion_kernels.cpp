@@ -138,3 +138,20 @@ TEST_CASE("At rest every planet carries the same share and the held ring takes i
     const double reaction = in.support_stiffness_N_m * q(motion_index(ring) + 2);
     CHECK(reaction == Approx(-torque / r_s).epsilon(1e-9));
 }
+
+TEST_CASE("A free train turns past its held member without deflecting a spring") {
+    std::mt19937 engine(2);
+    using gearpod::gears::FixedMember;
+    for (const auto fixed : {FixedMember::ring, FixedMember::sun, FixedMember::carrier}) {
+        for (const auto motion : {Motion::translational_torsional, Motion::torsional}) {
+            PlanetaryLayout layout = layout_of(5, motion, false, MeshDamping::ratio);
+            layout.fixed = fixed;
+            const PlanetaryMatrices m =
+                assemble(layout, random_inputs(engine), std::vector<double>(10, 5e8));
+            const Eigen::VectorXd turn = rigid_rotation(layout);
+            CHECK(turn.norm() > 1.0);
+            CHECK((m.stiffness * turn).norm() < 1e-12 * m.stiffness.norm());
+            CHECK((m.damping * turn).norm() < 1e-12 * m.damping.norm());
+        }
+    }
+}

@@ -1,0 +1,27 @@
+// Steps of one mesh period, the same for all lanes: a node on every sample and on every contact
+// transition of every pair, so that integrators keep their order across the jumps of stiffness.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace gearpod::lockstep {
+
+struct Step {
+    double phase = 0.0;   // start, mesh periods
+    double length = 0.0;  // mesh periods
+    int kind = 0;         // index into PhaseGrid::lengths
+    int sample = -1;      // sample taken at the start of the step, or -1
+};
+
+struct PhaseGrid {
+    int samples = 0;              // per mesh period, at phases i / samples
+    std::vector<Step> steps;      // ascending phase, covering [0, 1)
+    std::vector<double> lengths;  // distinct step lengths, mesh periods
+};
+
+// At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at `transitions`
+// (phases in [0, 1)). Throws std::invalid_argument for samples < 1 or steps_per_mesh < 1.
+PhaseGrid make_phase_grid(int samples, int steps_per_mesh, std::span<const double> transitions);
+
+}  // namespace gearpod::lockstep

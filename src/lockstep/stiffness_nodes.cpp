@@ -1,0 +1,83 @@
+#include "lockstep/stiffness_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/effects/mesh_damping.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Adds the stiffness of the tooth pair that began to engage at phase `start` to column `pair`.
+void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid,
+                    const stiffness::PairStiffness& curve, int pair, double start) {
+    const ToothPositions positions = tooth_positions(grid, 0.0, start, curve.contact_ratio());
+    std::vector<double> k(positions.tau.size());
+    curve.tooth_pair(positions.tau, k);
+    for (int i = positions.first_step * kStageNodes; i < positions.last_step * kStageNodes; ++i) {
+        nodes.stiffness[static_cast<std::size_t>(i * nodes.pairs + pair)] +=
+            k[static_cast<std::size_t>(i)];
+    }
+}
+
+}  // namespace
+
+std::vector<double> contact_transitions(const PairSet& pairs) {
+    std::vector<double> phases;
+    for (int i = 0; i < pairs.pairs(); ++i) {
+        const double start = pairs.start[static_cast<std::size_t>(i)];
+        phases.push_back(fraction(start));
+        phases.push_back(fraction(start + pairs.curve(i).contact_ratio()));
+    }
+    std::sort(phases.begin(), phases.end());
+    return phases;
+}
+
+ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
+                               double contact_ratio) {
+    ToothPositions positions;
+    positions.tau.reserve(grid.steps.size() * kStageNodes);
+    const auto engaged = [&](const Step& step) {
+        // A step lies wholly inside or outside the engagement; its middle decides.
+        const double middle = mesh + step.phase + 0.5 * step.length - start;
+        return middle > 0.0 && middle < contact_ratio;
+    };
+    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), engaged);
+    const auto last = std::find_if_not(first, grid.steps.end(), engaged);
+    positions.first_step = static_cast<int>(first - grid.steps.begin());
+    positions.last_step = static_cast<int>(last - grid.steps.begin());
+    for (const Step& step : grid.steps) {
+        for (const double part : {0.0, 0.5, 1.0}) {
+            const double tau = mesh + step.phase + part * step.length - start;
+            positions.tau.push_back(std::clamp(tau, 0.0, contact_ratio));
+        }
+    }
+    return positions;
+}
+
+StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
+                        dynamics::MeshDamping damping) {
+    StiffnessNodes nodes;
+    nodes.pairs = pairs.pairs();
+    nodes.stiffness.assign(grid.steps.size() * kStageNodes * static_cast<std::size_t>(nodes.pairs),
+                           0.0);
+    for (int pair = 0; pair < nodes.pairs; ++pair) {
+        const auto& curve = pairs.curve(pair);
+        // Tooth pairs that began in this or in an earlier mesh period and are still in contact.
+        const int earlier = static_cast<int>(std::ceil(curve.contact_ratio()));
+        for (int age = 0; age <= earlier; ++age) {
+            add_tooth_pair(nodes, grid, curve, pair,
+                           pairs.start[static_cast<std::size_t>(pair)] - age);
+        }
+    }
+    nodes.damping_shape.resize(nodes.stiffness.size());
+    dynamics::with_mesh_damping(damping, [&](auto law) {
+        std::transform(nodes.stiffness.begin(), nodes.stiffness.end(), nodes.damping_shape.begin(),
+                       [&](double k) { return law.shape(k); });
+    });
+    return nodes;
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,51 @@
+// Stiffness of all pairs at the stage nodes of a phase grid: one contiguous load per pair and node.
+#pragma once
+
+#include <vector>
+
+#include "dynamics/planetary.hpp"
+#include "lockstep/phase_grid.hpp"
+#include "stiffness/pair_stiffness.hpp"
+
+namespace gearpod::lockstep {
+
+// Nodes of a step that the integrator's stages use: start (right limit), middle, end (left limit).
+inline constexpr int kStageNodes = 3;
+
+// A planetary train's 2N pairs: sp1..spN, rp1..rpN. Pair i's tooth pairs start engaging at the phases
+// start[i] + integer, in mesh periods since sp1 was at its pitch point.
+struct PairSet {
+    const stiffness::PairStiffness* sun_planet = nullptr;
+    const stiffness::PairStiffness* ring_planet = nullptr;
+    std::vector<double> start;  // in [0, 1)
+
+    int pairs() const { return static_cast<int>(start.size()); }
+    const stiffness::PairStiffness& curve(int pair) const {
+        return 2 * pair < pairs() ? *sun_planet : *ring_planet;
+    }
+};
+
+// Phases in [0, 1) at which the number of tooth pairs in contact jumps, of all pairs.
+std::vector<double> contact_transitions(const PairSet& pairs);
+
+// Stiffness and damping shape (dynamics::MeshDamping), [step][stage node][pair].
+struct StiffnessNodes {
+    int pairs = 0;
+    std::vector<double> stiffness;      // N/m
+    std::vector<double> damping_shape;  // see effects/mesh_damping.hpp
+};
+
+StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);
+
+// Position of one tooth pair at the stage nodes of every step of mesh `mesh` (an integer count of mesh
+// periods), in mesh periods since it began to engage at phase `start` (not reduced), clamped to
+// [0, contact_ratio]; `engaged` is the range of steps during which it is in contact.
+struct ToothPositions {
+    std::vector<double> tau;  // [step][stage node]
+    int first_step = 0;
+    int last_step = 0;  // one past the last
+};
+ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
+                               double contact_ratio);
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,401 @@
+#include "lockstep/tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "dynamics/effects/mesh_damping.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+// A motion this large is no gearbox any more; it only grows from there.
+constexpr double kDivergedMotion_m = 1.0;
+
+template <int W>
+void copy_lane(const AlignedVector& from, AlignedVector& to, int lane) {
+    for (std::size_t i = static_cast<std::size_t>(lane); i < from.size(); i += W) {
+        to[i] = from[i];
+    }
+}
+
+template <int W>
+double largest(const AlignedVector& values, int lane) {
+    double result = 0.0;
+    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
+        result = std::isfinite(values[i]) ? std::max(result, std::abs(values[i])) : INFINITY;
+    }
+    return result;
+}
+
+template <int W>
+double largest_difference(const AlignedVector& a, const AlignedVector& b, int lane) {
+    double result = 0.0;
+    for (std::size_t i = static_cast<std::size_t>(lane); i < a.size(); i += W) {
+        result = std::max(result, std::abs(a[i] - b[i]));
+    }
+    return result;
+}
+
+template <int W>
+class TileMarch {
+  public:
+    TileMarch(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
+              const FaultCurves& faults, const TileSettings& settings)
+        : plan_(plan),
+          faults_(faults),
+          settings_(settings),
+          lanes_(dynamics::make_lanes<W>(plan.layout, inputs)),
+          filter_(filter_coefficients<W>(plan, lanes_)) {
+        result_.status.assign(W, LaneStatus::ok);
+        prepare_rigid_rotation(inputs);
+        rest(inputs);
+    }
+
+    TileResult run() {
+        settle();
+        if (settings_.march_meshes > 0) {
+            march_everything();
+        } else {
+            march_pattern();
+        }
+        return std::move(result_);
+    }
+
+  private:
+    bool faulty(int lane) const {
+        return faults_.cracked[static_cast<std::size_t>(lane)].has_value() &&
+               result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
+    }
+
+    // The rigid rotation and, per lane, the weights that measure it in a state: phi M / phi M phi.
+    void prepare_rigid_rotation(std::span<const dynamics::PlanetaryInputs> inputs) {
+        turn_ = dynamics::rigid_rotation(plan_.layout);
+        const std::vector<double> none(static_cast<std::size_t>(plan_.layout.pairs()), 0.0);
+        for (int l = 0; l < W; ++l) {
+            const auto m = dynamics::assemble(plan_.layout, inputs[static_cast<std::size_t>(l)], none);
+            const Eigen::VectorXd weighted = m.mass * turn_;
+            turn_weight_[static_cast<std::size_t>(l)] = weighted / weighted.dot(turn_);
+        }
+    }
+
+    void remove_rigid_rotation(AlignedVector& motion) const {
+        for (std::size_t l = 0; l < W; ++l) {
+            double turned = 0.0;
+            for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+                turned += turn_weight_[l](d) * motion[static_cast<std::size_t>(d) * W + l];
+            }
+            for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+                motion[static_cast<std::size_t>(d) * W + l] -= turned * turn_(d);
+            }
+        }
+    }
+
+    // Static equilibrium under the load at phase 0.
+    void rest(std::span<const dynamics::PlanetaryInputs> inputs) {
+        const auto pairs = plan_.nodes.stiffness.begin();
+        const std::vector<double> stiffness(pairs, pairs + plan_.nodes.pairs);
+        const auto degrees = static_cast<std::size_t>(plan_.layout.degrees_of_freedom());
+        state_.q.assign(degrees * W, 0.0);
+        state_.v.assign(degrees * W, 0.0);
+        state_.filter.assign(static_cast<std::size_t>(plan_.channels()) * kFilterStates * W, 0.0);
+        for (std::size_t l = 0; l < W; ++l) {
+            const Eigen::VectorXd q = dynamics::static_equilibrium(
+                dynamics::assemble(plan_.layout, inputs[l], stiffness));
+            for (std::size_t d = 0; d < degrees; ++d) {
+                state_.q[d * W + l] = q(static_cast<Eigen::Index>(d));
+            }
+        }
+    }
+
+    void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
+        march_mesh<W>(plan_, lanes_, filter_, overrides, state_, record);
+        remove_rigid_rotation(state_.q);
+        remove_rigid_rotation(state_.v);
+        ++result_.marched_meshes;
+    }
+
+    MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
+
+    void copy_record_lane(const MeshRecord& from, MeshRecord& to, int lane) const {
+        copy_lane<W>(from.acceleration, to.acceleration, lane);
+        copy_lane<W>(from.te, to.te, lane);
+        copy_lane<W>(from.motion, to.motion, lane);
+    }
+
+    static void copy_state_lane(const TileState& from, TileState& to, int lane) {
+        copy_lane<W>(from.q, to.q, lane);
+        copy_lane<W>(from.v, to.v, lane);
+        copy_lane<W>(from.filter, to.filter, lane);
+    }
+
+    // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
+    // edge, filtered accelerations against the largest recorded one.
+    double distance(const TileState& a, const TileState& b, const MeshRecord& record,
+                    int lane) const {
+        const double scale = largest<W>(b.q, lane);
+        const double acceleration = largest<W>(record.acceleration, lane);
+        const double dq = largest_difference<W>(a.q, b.q, lane);
+        const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
+        double df = 0.0;
+        for (std::size_t i = static_cast<std::size_t>(lane); i < a.filter.size();
+             i += 2 * W) {  // the sections' outputs; their rates follow
+            df = std::max(df, std::abs(a.filter[i] - b.filter[i]));
+        }
+        const double motion = scale > 0.0 ? std::max(dq, dv) / scale : 0.0;
+        return std::max(motion, acceleration > 0.0 ? df / acceleration : 0.0);
+    }
+
+    bool diverged(int lane) const {
+        return !(largest<W>(state_.q, lane) < kDivergedMotion_m) ||
+               !std::isfinite(largest<W>(state_.v, lane));
+    }
+
+    // Takes a lane that diverged out of the march: its records say NaN, its state rests at zero.
+    void retire(int lane) {
+        result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
+        for (MeshRecord& record : result_.records) {
+            for (AlignedVector* values : {&record.acceleration, &record.te, &record.motion}) {
+                for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
+                    (*values)[i] = NAN;
+                }
+            }
+        }
+        for (AlignedVector* values : {&orbit_.q, &orbit_.v, &orbit_.filter}) {
+            for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
+                (*values)[i] = 0.0;
+            }
+        }
+    }
+
+    // Marches until every lane's mesh period repeats the one before, and keeps that one.
+    void settle() {
+        result_.records.push_back(new_record());
+        orbit_ = state_;
+        MeshRecord record = new_record();
+        std::array<bool, W> settled{};
+        for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
+            const TileState before = state_;
+            march({}, record);
+            bool waiting = false;
+            for (int l = 0; l < W; ++l) {
+                if (settled[static_cast<std::size_t>(l)]) {
+                    continue;
+                }
+                copy_record_lane(record, result_.records[0], l);
+                copy_state_lane(state_, orbit_, l);
+                const bool lost = diverged(l);
+                if (lost) {
+                    retire(l);
+                }
+                const bool done =
+                    lost || distance(state_, before, record, l) <= settings_.tolerance;
+                settled[static_cast<std::size_t>(l)] = done;
+                waiting = waiting || !done;
+            }
+            if (!waiting) {
+                break;
+            }
+        }
+        for (int l = 0; l < W; ++l) {
+            if (!settled[static_cast<std::size_t>(l)]) {
+                result_.status[static_cast<std::size_t>(l)] = LaneStatus::unsettled;
+            }
+        }
+        state_ = orbit_;
+    }
+
+    // Does a passage touch mesh k of the pattern (its own start, or carried over from the pattern
+    // before)? If so, `start` is where it began.
+    bool touches(const FaultPassage& passage, int k, double& start) const {
+        const double ratio = faults_.pairs->curve(passage.pair).contact_ratio();
+        for (const double from : {passage.start, passage.start - faults_.pattern.length}) {
+            if (from < k + 1 && from + ratio > k) {
+                start = from;
+                return true;
+            }
+        }
+        return false;
+    }
+
+    std::vector<PairOverride> overrides(int k) const {
+        std::vector<PairOverride> all;
+        double start = 0.0;
+        for (const FaultPassage& passage : faults_.pattern.passages) {
+            if (touches(passage, k, start)) {
+                all.push_back(make_override(passage.pair, k, start));
+            }
+        }
+        return all;
+    }
+
+    // The cracked tooth in place of the healthy one, lane by lane.
+    PairOverride make_override(int pair, int k, double start) const {
+        const auto& curve = faults_.pairs->curve(pair);
+        const ToothPositions at = tooth_positions(plan_.grid, k, start, curve.contact_ratio());
+        const auto first = static_cast<std::size_t>(at.first_step) * kStageNodes;
+        const auto count = static_cast<std::size_t>(at.last_step) * kStageNodes - first;
+        const auto tau = std::span(at.tau).subspan(first, count);
+        std::vector<double> healthy(count), cracked(count);
+        curve.tooth_pair(tau, healthy);
+
+        PairOverride o{pair, at.first_step, at.last_step, AlignedVector(count * W),
+                       AlignedVector(count * W)};
+        const auto column = [&](std::size_t i) {
+            return (first + i) * static_cast<std::size_t>(plan_.nodes.pairs) +
+                   static_cast<std::size_t>(pair);
+        };
+        for (std::size_t l = 0; l < W; ++l) {
+            if (!faults_.cracked[l]) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    o.stiffness[i * W + l] = plan_.nodes.stiffness[column(i)];
+                    o.damping_shape[i * W + l] = plan_.nodes.damping_shape[column(i)];
+                }
+                continue;
+            }
+            faults_.cracked[l]->tooth_pair(tau, cracked);
+            dynamics::with_mesh_damping(faults_.damping, [&](auto law) {
+                for (std::size_t i = 0; i < count; ++i) {
+                    // Where the tooth carries alone, the rest is rounding: exactly nothing then.
+                    const double others = plan_.nodes.stiffness[column(i)] - healthy[i];
+                    const double k_pair =
+                        (others > 1e-9 * healthy[i] ? others : 0.0) + cracked[i];
+                    o.stiffness[i * W + l] = k_pair;
+                    o.damping_shape[i * W + l] = law.shape(k_pair);
+                }
+            });
+        }
+        return o;
+    }
+
+    // A passage still in contact at the end of mesh k?
+    bool passage_continues(int k) const {
+        double start = 0.0;
+        return std::any_of(faults_.pattern.passages.begin(), faults_.pattern.passages.end(),
+                           [&](const FaultPassage& p) {
+                               return touches(p, k, start) &&
+                                      start + faults_.pairs->curve(p.pair).contact_ratio() > k + 1;
+                           });
+    }
+
+    // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
+    void march_pattern_mesh(int k, std::array<bool, W>& quiet,
+                            const std::array<bool, W>& finished) {
+        const std::vector<PairOverride> passages = overrides(k);
+        bool any = false;
+        for (int l = 0; l < W; ++l) {
+            auto& q = quiet[static_cast<std::size_t>(l)];
+            q = q && (passages.empty() || !faulty(l));
+            any = any || (!q && !finished[static_cast<std::size_t>(l)]);
+        }
+        if (!any) {
+            return;
+        }
+        MeshRecord record = new_record();
+        march(passages, record);
+        int& id = result_.content[static_cast<std::size_t>(k)];
+        if (id == 0) {
+            id = static_cast<int>(result_.records.size());
+            result_.records.push_back(result_.records[0]);
+        }
+        for (int l = 0; l < W; ++l) {
+            auto& q = quiet[static_cast<std::size_t>(l)];
+            if (q) {
+                copy_state_lane(orbit_, state_, l);
+                continue;
+            }
+            if (finished[static_cast<std::size_t>(l)]) {
+                continue;
+            }
+            copy_record_lane(record, result_.records[static_cast<std::size_t>(id)], l);
+            if (diverged(l)) {
+                retire(l);
+                q = true;
+            } else if (!passage_continues(k) &&
+                       distance(state_, orbit_, result_.records[0], l) <= settings_.tolerance) {
+                q = true;
+            }
+            if (q) {
+                copy_state_lane(orbit_, state_, l);
+            }
+        }
+    }
+
+    // Marches the pattern from the healthy orbit; where a disturbance outlives the pattern, again
+    // from its own end, until that repeats.
+    void march_pattern() {
+        const int length = faults_.pattern.length;
+        result_.content.assign(static_cast<std::size_t>(length), 0);
+        std::array<bool, W> quiet;
+        std::array<bool, W> finished;
+        for (int l = 0; l < W; ++l) {
+            quiet[static_cast<std::size_t>(l)] = true;
+            finished[static_cast<std::size_t>(l)] = !faulty(l);
+        }
+        const int passes = 1 + (settings_.max_meshes + length - 1) / length;
+        for (int pass = 0; pass < passes; ++pass) {
+            const TileState before = state_;
+            for (int k = 0; k < length; ++k) {
+                march_pattern_mesh(k, quiet, finished);
+            }
+            bool waiting = false;
+            for (int l = 0; l < W; ++l) {
+                auto& done = finished[static_cast<std::size_t>(l)];
+                done = done || quiet[static_cast<std::size_t>(l)] ||
+                       distance(state_, before, result_.records[0], l) <= settings_.tolerance;
+                waiting = waiting || !done;
+            }
+            if (!waiting) {
+                return;
+            }
+        }
+        for (int l = 0; l < W; ++l) {
+            if (!finished[static_cast<std::size_t>(l)]) {
+                result_.status[static_cast<std::size_t>(l)] = LaneStatus::unsettled;
+            }
+        }
+    }
+
+    // Every mesh of the span for itself.
+    void march_everything() {
+        const int length = faults_.pattern.length;
+        for (int k = 0; k < settings_.march_meshes; ++k) {
+            result_.content.push_back(static_cast<int>(result_.records.size()));
+            result_.records.push_back(new_record());
+            march(overrides(k % length), result_.records.back());
+        }
+        for (int l = 0; l < W; ++l) {
+            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
+                retire(l);
+            }
+        }
+    }
+
+    const MarchPlan& plan_;
+    const FaultCurves& faults_;
+    const TileSettings& settings_;
+    const dynamics::PlanetaryLanes<W> lanes_;
+    const AlignedVector filter_;
+    Eigen::VectorXd turn_;
+    std::array<Eigen::VectorXd, W> turn_weight_;
+    TileState state_;
+    TileState orbit_;  // the healthy orbit at an integer phase
+    TileResult result_;
+};
+
+}  // namespace
+
+template <int W>
+TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
+                    const FaultCurves& faults, const TileSettings& settings) {
+    assert(inputs.size() == W && faults.cracked.size() == W);
+    return TileMarch<W>(plan, inputs, faults, settings).run();
+}
+
+template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+                                const FaultCurves&, const TileSettings&);
+template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+                                const FaultCurves&, const TileSettings&);
+
+}  // namespace gearpod::lockstep
