@@ -1,0 +1,109 @@
+// Liang's planetary gearbox (2016, Table 4.1) as a tile needs it; module 3.175 mm.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "gears/mesh_geometry.hpp"
+#include "gears/planetary.hpp"
+#include "lockstep/tile.hpp"
+
+namespace gearpod::test {
+
+struct LiangTrain {
+    static constexpr double kModule = 3.175e-3;
+    static constexpr double kAngle = 20 * std::numbers::pi / 180;
+
+    gears::Gear sun{19, false, kModule, kAngle}, planet{31, false, kModule, kAngle},
+        ring{81, true, kModule, kAngle};
+    stiffness::Material steel{2.068e11, 0.3, 0.0381};
+    gears::MeshGeometry sun_mesh{sun, planet}, ring_mesh{planet, ring};
+    stiffness::PairStiffness sun_planet{sun_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::PairStiffness ring_planet{ring_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::CrackedPairFamily cracked{ring_mesh, steel, stiffness::Profile::root_circle, 1,
+                                         std::numbers::pi / 4};
+    lockstep::PairSet pairs;
+
+    LiangTrain() {
+        const gears::PlanetaryTrain train{19, 31, 81, 4};
+        pairs.sun_planet = &sun_planet;
+        pairs.ring_planet = &ring_planet;
+        const auto add = [&](double pitch_phase, double pitch_position) {
+            const double start = pitch_phase - pitch_position;
+            pairs.start.push_back(start - std::floor(start));
+        };
+        for (int n = 0; n < 4; ++n) {
+            add(gears::sun_mesh_phase(train, n), sun_planet.pitch_position());
+        }
+        for (int n = 0; n < 4; ++n) {
+            add(gears::ring_mesh_phase(train, n), ring_planet.pitch_position());
+        }
+    }
+
+    static const LiangTrain& instance() {
+        static const LiangTrain train;
+        return train;
+    }
+
+    lockstep::MarchPlan plan(int samples, int steps, dynamics::Motion motion,
+                             bool inertial = true) const {
+        lockstep::MarchPlan p;
+        p.layout.planets = 4;
+        p.layout.pressure_angle_rad = kAngle;
+        p.layout.carrier_radius_m = 25 * kModule;
+        p.layout.motion = motion;
+        p.layout.inertial_terms = inertial;
+        p.grid = lockstep::make_phase_grid(samples, steps, lockstep::contact_transitions(pairs));
+        p.nodes = lockstep::tabulate(pairs, p.grid, p.layout.mesh_damping);
+        p.low_pass_rad_s = 2 * std::numbers::pi * 800;
+        p.te_weight[0] = -100.0 / 19 / p.layout.carrier_radius_m;
+        p.te_weight[2] = 1.0 / sun.base_radius();
+        return p;
+    }
+
+    // Carrier at 8.87 rpm times `speedup`, 429 N m on the sun.
+    dynamics::PlanetaryInputs inputs(double speedup = 1.0, double bearing_N_m = 1e8) const {
+        dynamics::PlanetaryInputs in;
+        const double cos_a = std::cos(kAngle);
+        const double masses[] = {10.0, 5.982, 0.700, 1.822};
+        for (int body = 0; body < dynamics::body_count; ++body) {
+            in.mass_kg[body] = masses[body];
+            const double share = body == dynamics::carrier ? 0.5 : 0.5 / (cos_a * cos_a);
+            in.inertia_over_r2_kg[body] = share * masses[body];
+            in.bearing_stiffness_N_m[body] = bearing_N_m;
+            in.bearing_damping_N_s_m[body] = 1.5e3;
+        }
+        in.support_stiffness_N_m = 1e8;
+        in.support_damping_N_s_m = 1.5e3;
+        in.mesh_damping = 0.07;
+        in.carrier_speed_rad_s = speedup * 8.87 * 2 * std::numbers::pi / 60;
+        in.mesh_period_s = 60.0 / (81 * 8.87 * speedup);
+        in.force_N[dynamics::sun] = 429.0 / sun.base_radius();
+        in.force_N[dynamics::carrier] = -429.0 * (1 + 81.0 / 19) / (25 * kModule);
+        return in;
+    }
+
+    lockstep::FaultCurves no_fault(int lanes) const {
+        lockstep::FaultCurves f;
+        f.pairs = &pairs;
+        f.cracked.resize(static_cast<std::size_t>(lanes));
+        return f;
+    }
+
+    // A crack of the given depths on the ring side of planet 1, one a lane; 0: healthy.
+    lockstep::FaultCurves ring_side_cracks(const std::vector<double>& depths_m) const {
+        lockstep::FaultCurves f = no_fault(static_cast<int>(depths_m.size()));
+        f.pattern.length = 31;
+        f.pattern.passages = {{4, pairs.start[4]}};
+        for (std::size_t l = 0; l < depths_m.size(); ++l) {
+            if (depths_m[l] > 0.0) {
+                f.cracked[l] = cracked.at(depths_m[l]);
+            }
+        }
+        return f;
+    }
+};
+
+}  // namespace gearpod::test
