@@ -1,0 +1,53 @@
+// Where a tooth pair touches, from the start of its engagement to the end, at the standard centre
+// distance. Positions are counted in mesh periods (base pitches along the line of action).
+// Sources: Tian (2004), Eqs. 2.1, 2.50-2.60, 2.71 (external pair); Liang (2016),
+// Eqs. 2.2.13-2.2.14, 2.2.30-2.2.31, 2.3.5-2.3.6 (internal pair, pitch point).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gears/gear.hpp"
+
+namespace gearpod::gears {
+
+// Gear 1 drives and is external: the sun of a sun-planet pair, the planet of a ring-planet pair.
+// Its tooth is touched low first, its mate's tooth at the tip first.
+class MeshGeometry {
+  public:
+    // Throws std::invalid_argument with all of mesh_problems().
+    MeshGeometry(const Gear& gear_1, const Gear& gear_2);
+
+    const Gear& gear(int which) const { return which == 1 ? gear_1_ : gear_2_; }
+    bool internal() const { return gear_2_.internal; }
+    // Mean number of tooth pairs in contact: how many mesh periods one pair stays engaged.
+    double contact_ratio() const { return contact_ratio_; }
+    // Mesh periods from the start of an engagement to the contact at the pitch point.
+    double pitch_position() const { return pitch_position_; }
+    // The angle between the contact force and the normal to the tooth's centre line, tau mesh
+    // periods after the engagement began: alpha_1 of an external tooth, beta_1 of an internal one.
+    // Linear in tau.
+    double contact_angle(int which, double tau) const {
+        return contact_angle_at_start(which) + contact_angle_rate(which) * tau;
+    }
+    double contact_angle_at_start(int which) const { return start_[which - 1]; }
+    double contact_angle_rate(int which) const { return rate_[which - 1]; }  // rad per mesh period
+    double centre_distance() const;
+    // Turn of gear 1 during which two pairs touch, (c - 1) 2 pi / N1, and one pair, for 1 <= c
+    // <= 2.
+    double double_pair_span() const;
+    double single_pair_span() const;
+
+  private:
+    Gear gear_1_, gear_2_;
+    double contact_ratio_ = 0;
+    double pitch_position_ = 0;
+    double start_[2] = {0, 0};
+    double rate_[2] = {0, 0};
+};
+
+// Everything that keeps the two from meshing over their full flanks, one sentence each
+// (gear_problems included).
+std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2);
+
+}  // namespace gearpod::gears

@@ -1,0 +1,60 @@
+// A planetary train with equally spaced planets: assembly, mesh phases and speeds.
+// Sources: Liang (2016), section 2.3 and Table 2.2, after Parker and Lin (2004); Kahraman (1994)
+// for the mesh frequency. Planets count from 0; planet n sits at psi_n = 2 pi n / N. Phases are in
+// mesh periods.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gearpod::gears {
+
+struct PlanetaryTrain {
+    int sun_teeth = 0;
+    int planet_teeth = 0;
+    int ring_teeth = 0;
+    int planets = 0;
+};
+
+enum class FixedMember { ring, sun, carrier };
+enum class Member { sun, ring, carrier };
+// Sense in which the planets turn relative to the carrier; it decides in which order the planets
+// reach a mesh phase.
+enum class PlanetSense { clockwise, counter_clockwise };
+
+// What keeps the train from being assembled, one sentence each, with the numbers and what would be
+// right.
+std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
+                                           double addendum_coefficient = 1);
+
+// Pair n's stiffness is pair 0's at t - gamma T_m (Liang, Eqs. 2.3.3-2.3.4). Reduced to (-1, 1) by
+// whole mesh periods, sign as in the formula: +Z_s psi_n / 2 pi and -Z_r psi_n / 2 pi for clockwise
+// planets, opposite for counter-clockwise.
+double sun_mesh_phase(const PlanetaryTrain& train, int planet,
+                      PlanetSense sense = PlanetSense::clockwise);
+double ring_mesh_phase(const PlanetaryTrain& train, int planet,
+                       PlanetSense sense = PlanetSense::clockwise);
+// How much later than its sun mesh a planet's ring mesh is at its pitch point: 0 or 1/2.
+double ring_to_sun_phase(const PlanetaryTrain& train);
+
+// Angular speeds in the fixed frame, in any one unit; planet is the planet's own absolute spin.
+struct Speeds {
+    double sun = 0;
+    double planet = 0;
+    double ring = 0;
+    double carrier = 0;
+};
+
+// All speeds from one of them (Willis). Throws std::invalid_argument if the given member is the
+// fixed one.
+Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given, double speed);
+
+// Meshes per unit of time (speeds in turns) or radians of mesh phase (speeds in radians): Z_s |W_s
+// - W_c|, which is Liang (2016), Eq. 2.3.9 for each fixed member.
+double mesh_frequency(const PlanetaryTrain& train, const Speeds& speeds);
+
+// Z_r with the ring fixed, Z_s with the sun fixed, none if the carrier stands.
+std::optional<int> meshes_per_carrier_turn(const PlanetaryTrain& train, FixedMember fixed);
+
+}  // namespace gearpod::gears

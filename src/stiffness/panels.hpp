@@ -1,0 +1,44 @@
+// Cuts a stretch of the beam into panels on which the integrands are smooth, and the Gauss rule for
+// a panel.
+#pragma once
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+namespace gearpod::stiffness {
+
+// panel(a, b) for each panel of [from, to], in order; to may lie below from. The thickness changes
+// at most by a factor of 1.5 on a panel: the pole of 1 / t^3 then lies two panel lengths or more
+// outside it, where a Gauss rule of n points converges as 9.9^(-2 n). The thickness must be
+// positive; it may turn only where it is nearly constant.
+template <typename Thickness, typename Panel>
+void for_panels(double from, double to, Thickness&& thickness, Panel&& panel) {
+    constexpr double kMaxRatio = 1.5;
+    double here = thickness(from);
+    while (from != to) {
+        double next = to;
+        double there = thickness(next);
+        while (there > kMaxRatio * here || here > kMaxRatio * there) {
+            next = 0.5 * (from + next);
+            there = thickness(next);
+        }
+        panel(from, next);
+        from = next;
+        here = there;
+    }
+}
+
+// add(weight, position) at the points of a Gauss rule on the panel; weights are positive.
+template <int kPoints, typename Add>
+void for_gauss_points(double from, double to, Add&& add) {
+    using Rule = boost::math::quadrature::gauss<double, kPoints>;
+    const double middle = 0.5 * (from + to), half = 0.5 * std::abs(to - from);
+    for (int i = 0; i < kPoints / 2; ++i) {
+        const double offset = half * Rule::abscissa()[i];
+        const double weight = half * Rule::weights()[i];
+        add(weight, middle - offset);
+        add(weight, middle + offset);
+    }
+}
+
+}  // namespace gearpod::stiffness

@@ -1,0 +1,26 @@
+// Which of many ascending positions lie within an interval.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace gearpod::stiffness {
+
+// Mesh periods. Positions this close to the end of an engagement count as inside; a phase reduced
+// from thousands of meshes carries a rounding error of that order.
+inline constexpr double kPositionTolerance = 1e-10;
+
+struct PositionRange {
+    std::size_t first = 0, count = 0;
+};
+
+inline PositionRange positions_within(std::span<const double> ascending, double begin, double end) {
+    const auto low =
+        std::lower_bound(ascending.begin(), ascending.end(), begin - kPositionTolerance);
+    const auto high = std::upper_bound(low, ascending.end(), end + kPositionTolerance);
+    return {static_cast<std::size_t>(low - ascending.begin()),
+            static_cast<std::size_t>(high - low)};
+}
+
+}  // namespace gearpod::stiffness
