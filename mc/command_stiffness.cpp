@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mc/command_support.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string pair_name(const Scene& scene, int pair) {
+    const int n = scene.train().planets;
+    return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
+}
+
+// The fault sizes to show: levels, or the nominal depth.
+std::vector<double> fault_depths(const Study& study) {
+    std::set<double> depths;
+    if (const RandomInput* random = study.find_random("fault.depth_mm")) {
+        for (const double level : random->distribution.levels()) {
+            depths.insert(level * random->to_si);
+        }
+    }
+    if (depths.empty() && study.fault.depth_m) {
+        depths.insert(*study.fault.depth_m);
+    }
+    depths.erase(0.0);
+    return {depths.begin(), depths.end()};
+}
+
+// Columns of the faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
+struct FaultColumn {
+    std::string name;
+    int period = 0;  // after the one in which the tooth engages
+    stiffness::CrackedToothCurve curve;
+};
+
+std::vector<FaultColumn> fault_columns(const Scene& scene) {
+    std::vector<FaultColumn> columns;
+    const int pair = scene.faulty_pair();
+    if (pair < 0) {
+        return columns;
+    }
+    const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
+    const int periods =
+        static_cast<int>(std::ceil(start + scene.pairs().curve(pair).contact_ratio()));
+    for (const double depth : fault_depths(scene.study())) {
+        for (int period = 0; period < periods; ++period) {
+            columns.push_back({fmt::format("{}_crack_{:g}mm_period{}", pair_name(scene, pair),
+                                           1e3 * depth, period + 1),
+                               period, *scene.cracked_tooth(depth)});
+        }
+    }
+    return columns;
+}
+
+std::string csv_text(const Scene& scene, int points) {
+    const auto columns = fault_columns(scene);
+    std::string text = "phase";
+    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+        text += fmt::format(",{}", pair_name(scene, pair));
+    }
+    for (const FaultColumn& column : columns) {
+        text += fmt::format(",{}", column.name);
+    }
+    text += "\n";
+    const int faulty = scene.faulty_pair();
+    for (int i = 0; i < points; ++i) {
+        const double phase = static_cast<double>(i) / points;
+        text += fmt::format("{:.9g}", phase);
+        for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+            const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
+            text += fmt::format(",{:.9g}", scene.pairs().curve(pair).mesh(phase - start));
+        }
+        for (const FaultColumn& column : columns) {
+            const auto& healthy = scene.pairs().curve(faulty);
+            const double start = scene.pairs().start[static_cast<std::size_t>(faulty)];
+            const double tau = phase + column.period - start;
+            const double k = healthy.mesh(phase - start) - healthy.tooth_pair(tau) +
+                             column.curve.tooth_pair(tau);
+            text += fmt::format(",{:.9g}", std::max(k, 0.0));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+void print_summary(const Scene& scene) {
+    const auto show = [](const char* name, const stiffness::PairStiffness& curve) {
+        fmt::print("{}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
+                   "engagement\n",
+                   name, curve.contact_ratio(), curve.mean(), curve.pitch_position());
+    };
+    show("sun-planet ", scene.sun_planet());
+    show("ring-planet", scene.ring_planet());
+    if (scene.faulty_pair() >= 0) {
+        fmt::print("faulty tooth on pair {}; it breaks off at a crack of {:.3f} mm\n",
+                   pair_name(scene, scene.faulty_pair()), 1e3 * scene.max_depth_m());
+    }
+    fmt::print("curves: --csv FILE, or --csv - for standard output\n");
+}
+
+}  // namespace
+
+int stiffness_command(const StiffnessOptions& options) {
+    const auto scene = load_scene(options.study);
+    if (!scene) {
+        return kBadInput;
+    }
+    if (options.csv.empty()) {
+        print_summary(*scene);
+        return kDone;
+    }
+    return write_text_to(options.csv, csv_text(*scene, options.points)) ? kDone : kBadInput;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,88 @@
+#include "mc/command_support.hpp"
+
+#include <fmt/core.h>
+
+#include <exception>
+#include <span>
+
+#include "lockstep/dispatch.hpp"
+#include "mc/atomic_file.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void choose_instruction_set(InstructionSet set) {
+    switch (set) {
+        case InstructionSet::baseline:
+            return lockstep::use_instruction_set(lockstep::InstructionSet::baseline);
+        case InstructionSet::x86_64_v3:
+            return lockstep::use_instruction_set(lockstep::InstructionSet::x86_64_v3);
+        case InstructionSet::x86_64_v4:
+            return lockstep::use_instruction_set(lockstep::InstructionSet::x86_64_v4);
+        case InstructionSet::automatic:
+            break;
+    }
+    lockstep::use_instruction_set(lockstep::best_instruction_set());
+}
+
+}  // namespace
+
+void print_problems(const Problems& problems) { fmt::print(stderr, "{}", format(problems)); }
+
+std::optional<Study> load_study(const StudyOptions& options) {
+    StudyReading reading = read_study(options.path, options.overrides);
+    if (!reading.study) {
+        print_problems(reading.problems);
+    }
+    return std::move(reading.study);
+}
+
+std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
+    const auto study = load_study(options);
+    if (!study) {
+        return nullptr;
+    }
+    if (!study->gearbox.has_teeth() || !study->gearbox.module_m) {
+        print_problems({{options.path, 0, "gearbox.sun_teeth",
+                         "no tooth numbers or no module (only modes and describe do without)",
+                         "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});
+        return nullptr;
+    }
+    try {
+        choose_instruction_set(study->numerics.instruction_set);
+    } catch (const std::exception& error) {
+        print_problems({{options.path, 0, "numerics.instruction_set", error.what(), "use auto"}});
+        return nullptr;
+    }
+    auto scene = std::make_unique<Scene>(*study);
+    const Problems problems = scene_problems(*scene, options.path);
+    if (!problems.empty()) {
+        print_problems(problems);
+        return nullptr;
+    }
+    return scene;
+}
+
+bool can_write(const std::string& path) {
+    const std::string reason = why_not_writable(path);
+    if (!reason.empty()) {
+        fmt::print(stderr, "{}: cannot be written: {}\n", path, reason);
+    }
+    return reason.empty();
+}
+
+bool write_text_to(const std::string& path, const std::string& text) {
+    if (path == "-") {
+        fmt::print("{}", text);
+        return true;
+    }
+    try {
+        write_file(path, std::as_bytes(std::span(text)));
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return false;
+    }
+    return true;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,29 @@
+// What several commands share: reading a study, printing problems, writing text.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mc/commands.hpp"
+#include "mc/scene.hpp"
+
+namespace gearpod::mc {
+
+// Prints every problem on stderr, one a line.
+void print_problems(const Problems& problems);
+
+// The study, or nothing after its problems were printed.
+std::optional<Study> load_study(const StudyOptions& options);
+
+// The scene of a study, or nothing after its problems were printed; also sets the kernels'
+// instruction set.
+std::unique_ptr<Scene> load_scene(const StudyOptions& options);
+
+// Prints why `path` cannot be written, if so.
+bool can_write(const std::string& path);
+
+// Writes to a file, or to standard output for "-". False after a message if the file fails.
+bool write_text_to(const std::string& path, const std::string& text);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,56 @@
+// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gearpod::mc {
+
+inline constexpr int kDone = 0;
+inline constexpr int kBadInput = 2;
+inline constexpr int kSomeFailed = 3;
+
+// A study file and what the command line changes in it.
+struct StudyOptions {
+    std::string path;
+    std::vector<std::string> overrides;  // "section.key=value"
+};
+
+struct RunOptions {
+    StudyOptions study;
+    std::string out;  // "": the study's name with .h5, in the working folder
+    bool quiet = false;
+};
+int run_command(const RunOptions& options);
+
+struct ReportOptions {
+    std::string results;
+    std::string json;  // "": none; "-": standard output
+};
+int report_command(const ReportOptions& options);
+
+int describe_command(const StudyOptions& options);
+
+struct StiffnessOptions {
+    StudyOptions study;
+    std::string csv;  // "": a summary; "-": standard output
+    int points = 1000;
+};
+int stiffness_command(const StiffnessOptions& options);
+
+struct ModesOptions {
+    StudyOptions study;
+    std::string json;
+};
+int modes_command(const ModesOptions& options);
+
+struct SimulateOptions {
+    StudyOptions study;
+    long instance = 0;  // row of the results file
+    long meshes = 0;    // 0: one planet turn
+    std::string out;    // .h5 or .csv
+};
+int simulate_command(const SimulateOptions& options);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,40 @@
+// W gearboxes of a study from their sampled inputs to recorded motion and folded signals.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lockstep/tile.hpp"
+#include "mc/sampling.hpp"
+#include "mc/scene.hpp"
+#include "signals/tile_signals.hpp"
+#include "signals/transmission_path.hpp"
+
+namespace gearpod::mc {
+
+// Which gearbox: row `index` of its group.
+struct GearboxId {
+    Group group = Group::graded;
+    std::uint64_t index = 0;
+};
+
+// A tile's results; `march.records` owns what `views` shows.
+struct GearboxTile {
+    std::vector<InstanceInputs> inputs;  // one per lane
+    lockstep::TileResult march;
+    signals::TileSignals views;
+    lockstep::AlignedVector folded;   // [bin][lane], (m/s^2)^2
+    lockstep::AlignedVector te_turn;  // [sample][lane], rad
+
+    double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+};
+
+// The path's tables for a scene.
+signals::PathGrid path_grid(const Scene& scene);
+
+// Runs the gearboxes in `ids` (1 of 1 lane, up to 8 of 8 lanes; missing lanes repeat the last one).
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler,
+                          const signals::PathGrid& path, std::span<const GearboxId> ids, int lanes,
+                          bool with_motion = false);
+
+}  // namespace gearpod::mc

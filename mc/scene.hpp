@@ -1,0 +1,86 @@
+// What all gearboxes of a study share, made once: gears, stiffness curves, phase grid, fault
+// pattern.
+#pragma once
+
+#include <optional>
+
+#include "gears/planetary.hpp"
+#include "lockstep/tile.hpp"
+#include "mc/sampling.hpp"
+#include "mc/study.hpp"
+#include "stiffness/cracked_pair.hpp"
+#include "stiffness/pair_stiffness.hpp"
+
+namespace gearpod::mc {
+
+class Scene {
+  public:
+    // The study must have tooth numbers (Study::gearbox.has_teeth()).
+    explicit Scene(const Study& study);
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    const Study& study() const { return study_; }
+    const gears::PlanetaryTrain& train() const { return train_; }
+    const stiffness::PairStiffness& sun_planet() const { return *sun_planet_; }
+    const stiffness::PairStiffness& ring_planet() const { return *ring_planet_; }
+    const lockstep::PairSet& pairs() const { return pairs_; }
+    const lockstep::MarchPlan& plan() const { return plan_; }
+    const lockstep::FaultPattern& pattern() const { return pattern_; }
+    // The pair that the first passage of the faulty tooth weakens, or -1.
+    int faulty_pair() const { return pattern_.passages.empty() ? -1 : pattern_.passages[0].pair; }
+
+    // Z_p Z_r: the meshes after which every planet tooth has met every ring tooth.
+    int span_meshes() const { return train_.planet_teeth * train_.ring_teeth; }
+    // Meshes after which the path to the sensor repeats; 1 if the carrier stands still.
+    int path_meshes() const;
+    // Samples of the sensor, and of the encoders, in one mesh period.
+    int samples_per_mesh() const { return plan_.grid.samples; }
+    int te_samples_per_mesh() const { return te_samples_; }
+    double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
+    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot sample,
+    // and mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e.
+    int stable_steps() const { return stable_steps_; }
+    double decay_meshes() const { return decay_meshes_; }
+    // All pairs at their stiffest: the bound for the integrator's step.
+    std::vector<double> stiffest_pairs() const;
+    std::vector<double> mean_pairs() const;
+
+    dynamics::PlanetaryInputs inputs(const InstanceInputs& instance) const;
+    // The faulty tooth of one gearbox; none if its depth is 0.
+    std::optional<stiffness::CrackedToothCurve> cracked_tooth(double depth_m) const;
+    double max_depth_m() const;
+
+  private:
+    void build_pairs();
+    void build_pattern();
+    void build_plan();
+    void set_te_weights();
+    int sampling(double frequency_Hz) const;
+    int choose_steps();
+
+    Study study_;
+    Member speed_member_;
+    gears::PlanetaryTrain train_;
+    double sun_radius_ = 0.0, ring_radius_ = 0.0, carrier_radius_ = 0.0;  // base, base, centres; m
+    std::optional<stiffness::PairStiffness> sun_planet_, ring_planet_;
+    std::optional<stiffness::CrackedPairFamily> cracked_;
+    lockstep::PairSet pairs_;
+    lockstep::FaultPattern pattern_;
+    lockstep::MarchPlan plan_;
+    int te_samples_ = 0;
+    int stable_steps_ = 0;
+    double decay_meshes_ = 0.0;
+    double nominal_mesh_frequency_Hz_ = 0.0;
+};
+
+// Problems that only the built scene can see: a step too long for the integrator.
+Problems scene_problems(const Scene& scene, const std::string& path);
+
+// The dynamic model's choices, also for gearboxes without teeth (modes).
+dynamics::PlanetaryLayout layout(const Study& study);
+
+// Masses, bearings, supports and damping of one gearbox; speed and load are left at zero.
+dynamics::PlanetaryInputs body_inputs(const InstanceInputs& instance);
+
+}  // namespace gearpod::mc
