@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "mc/command_support.hpp"
+#include "mc/study_sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -12,21 +12,6 @@ namespace {
 std::string pair_name(const Scene& scene, int pair) {
     const int n = scene.train().planets;
     return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
-}
-
-// The fault sizes to show: levels, or the nominal depth.
-std::vector<double> fault_depths(const Study& study) {
-    std::set<double> depths;
-    if (const RandomInput* random = study.find_random("fault.depth_mm")) {
-        for (const double level : random->distribution.levels()) {
-            depths.insert(level * random->to_si);
-        }
-    }
-    if (depths.empty() && study.fault.depth_m) {
-        depths.insert(*study.fault.depth_m);
-    }
-    depths.erase(0.0);
-    return {depths.begin(), depths.end()};
 }
 
 // Columns of the faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
@@ -45,7 +30,7 @@ std::vector<FaultColumn> fault_columns(const Scene& scene) {
     const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
     const int periods =
         static_cast<int>(std::ceil(start + scene.pairs().curve(pair).contact_ratio()));
-    for (const double depth : fault_depths(scene.study())) {
+    for (const double depth : fault_depths_m(scene.study())) {
         for (int period = 0; period < periods; ++period) {
             columns.push_back({fmt::format("{}_crack_{:g}mm_period{}", pair_name(scene, pair),
                                            1e3 * depth, period + 1),

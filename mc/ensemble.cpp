@@ -7,11 +7,11 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <set>
 
 #include "analysis/feature_alarm.hpp"
 #include "mc/gearbox_tile.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/study_sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -175,34 +175,6 @@ Results run_ensemble(const Scene& scene, Progress& progress) {
 
 int thread_count(const Study& study) {
     return study.numerics.threads > 0 ? study.numerics.threads : omp_get_num_procs();
-}
-
-analysis::DetectionRequest detection_request(const Study& study) {
-    analysis::DetectionRequest request;
-    request.false_alarm_rate = study.detection.false_alarm_rate;
-    request.confidence = study.detection.confidence;
-    request.noise_levels = study.sensor.noise_levels;
-    const auto& edges = study.detection.size_edges_m;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        request.groups.push_back({edges[i - 1], edges[i]});
-    }
-    if (!edges.empty()) {
-        return request;
-    }
-    std::set<double> sizes;
-    if (study.fault.kind == FaultKind::none) {
-        sizes.insert(0.0);
-    } else if (const RandomInput* depth = study.find_random("fault.depth_mm")) {
-        for (const double level : depth->distribution.levels()) {
-            sizes.insert(level * depth->to_si);
-        }
-    } else {
-        sizes.insert(*study.fault.depth_m);
-    }
-    for (const double size : sizes) {
-        request.groups.push_back({size, size});
-    }
-    return request;
 }
 
 std::vector<analysis::FeatureDetection> detect_all(const Results& results) {

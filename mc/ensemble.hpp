@@ -14,9 +14,6 @@ Results run_ensemble(const Scene& scene, Progress& progress);
 // Threads that the study asks for; all processors for 0.
 int thread_count(const Study& study);
 
-// Size groups and rates that the study asks for.
-analysis::DetectionRequest detection_request(const Study& study);
-
 // Detection of every feature from a results file's columns.
 std::vector<analysis::FeatureDetection> detect_all(const Results& results);
 

@@ -29,6 +29,19 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
         doc);
 }
 
+// Says that `name` is no command, if so.
+bool is_command(CLI::App& app, const std::string& name) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) {
+            return true;
+        }
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    fmt::print(stderr, "{}: unknown command; the commands are {}\n", name, names);
+    return false;
+}
+
 int run_program(int argc, char** argv) {
     CLI::App app{"gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
                  "found, and how surely?"};
@@ -83,6 +96,9 @@ int run_program(int argc, char** argv) {
         ->check(CLI::PositiveNumber);
     simulate_app->callback([&] { code = simulate_command(simulate); });
 
+    if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
+        return kBadInput;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,110 @@
+#include "mc/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+namespace gearpod::mc {
+namespace {
+
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() { close(); }
+
+    int get() const { return fd_; }
+    bool close() {
+        const int fd = fd_;
+        fd_ = -1;
+        return fd < 0 || ::close(fd) == 0;
+    }
+
+  private:
+    int fd_;
+};
+
+std::string temporary_name(const std::string& path) {
+    return path + ".part-" + std::to_string(::getpid());
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool write_all(int fd, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            return false;
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+// errno of the first failure, 0 if the bytes are safely on the disk under the temporary's name.
+int write_temporary(const std::string& name, std::span<const std::byte> bytes) {
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) {
+        return errno;
+    }
+    const bool good = write_all(file.get(), bytes) && ::fsync(file.get()) == 0 && file.close();
+    return good ? 0 : errno;
+}
+
+// A rename is on the disk once its folder is; some file systems cannot sync folders, and need not.
+void sync_folder(const std::string& path) {
+    const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.get() >= 0) {
+        ::fsync(folder.get());
+    }
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::span<const std::byte> bytes) {
+    const std::string temporary = temporary_name(path);
+    int error = write_temporary(temporary, bytes);
+    if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
+        error = errno;
+    }
+    if (error != 0) {
+        ::unlink(temporary.c_str());
+        throw std::runtime_error(path + ": cannot be written (" + std::strerror(error) + ")");
+    }
+    sync_folder(path);
+}
+
+std::string why_not_writable(const std::string& path) {
+    struct stat status {};
+    if (path.empty()) {
+        return "the file name is empty";
+    }
+    if (path.back() == '/' || (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode))) {
+        return "it is a folder";
+    }
+    const std::string folder = folder_of(path);
+    if (::stat(folder.c_str(), &status) != 0) {
+        return "its folder " + folder + " cannot be used (" + std::strerror(errno) + ")";
+    }
+    if (!S_ISDIR(status.st_mode)) {
+        return folder + " is not a folder";
+    }
+    const std::string temporary = temporary_name(path);
+    const int error = write_temporary(temporary, {});
+    ::unlink(temporary.c_str());
+    return error == 0 ? "" : std::strerror(error);
+}
+
+}  // namespace gearpod::mc

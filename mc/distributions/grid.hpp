@@ -1,0 +1,51 @@
+// Equally spaced values in turn, both ends included: gearbox i has the (i mod count)-th.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/distribution.hpp"
+#include "mc/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+struct Grid {
+    static constexpr std::string_view kName = "grid";
+    double low = 0.0;
+    double high = 0.0;
+    int count = 0;
+
+    static constexpr auto fields() {
+        return std::tuple{Field{"low", &Grid::low}, Field{"high", &Grid::high},
+                          Field{"count", &Grid::count}};
+    }
+    std::string problem() const {
+        if (!(low < high)) {
+            return "low must be below high";
+        }
+        return count >= 2 && count <= 100000 ? "" : "count must be between 2 and 100000";
+    }
+    double median() const { return value((count - 1) / 2); }
+    Support support() const { return {low, high, false, false}; }
+    std::vector<double> levels() const {
+        std::vector<double> values;
+        for (int i = 0; i < count; ++i) {
+            values.push_back(value(i));
+        }
+        return values;
+    }
+    double draw(Philox&, std::uint64_t instance) const {
+        return value(static_cast<int>(instance % static_cast<std::uint64_t>(count)));
+    }
+    bool operator==(const Grid&) const = default;
+
+  private:
+    double value(int i) const {
+        return i == count - 1 ? high : low + (high - low) * i / (count - 1);
+    }
+};
+
+}  // namespace gearpod::mc

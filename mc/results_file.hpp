@@ -1,0 +1,78 @@
+// The results file: HDF5, self-describing, versioned.
+//
+//   /                      attributes: format, format_version and the provenance
+//   /instances/<parameter> one value a gearbox, attribute `unit`
+//   /instances/group       0 threshold sample, 1 graded
+//   /features/<feature>    gearboxes x noise levels, attributes `unit` and `alarm`
+//   /noise_levels          factors on the sensor and encoder noise
+//   /status                one value a gearbox, attribute `meanings`
+//   /detection             attributes false_alarm_rate, confidence
+//   /detection/<feature>/  size_low_m, size_high_m (sizes), noise_level, threshold,
+//   threshold_sample,
+//                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
+//                          (levels x sizes); attributes `alarm`, `warnings`
+//   /timing/<name>         seconds
+//
+// A checksum follows the HDF5 part (results_seal.hpp); other programs do not see it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/detection.hpp"
+#include "mc/atomic_file.hpp"  // why_not_writable(path), to ask before a long run
+
+namespace gearpod::mc {
+
+// Raised when a reader of the current version would misread the file.
+inline constexpr int kResultsFormatVersion = 1;
+
+enum class Status { ok = 0, diverged = 1, not_settled = 2 };
+
+struct ParameterResult {
+    std::string name;
+    std::string unit;
+    std::vector<double> values;  // one per row
+};
+
+struct FeatureResult {
+    std::string name;
+    std::string unit;
+    analysis::Alarm alarm = analysis::Alarm::high;
+    std::vector<double> values;  // rows x noise levels, row-major; NaN: no value
+};
+
+struct Timing {
+    std::string name;
+    double seconds = 0.0;
+};
+
+// A row is a gearbox: the threshold group in order of instance, then the graded group.
+struct Results {
+    // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
+    // The file's format and format_version are written and checked by this module.
+    std::vector<std::pair<std::string, std::string>> provenance;
+    std::vector<ParameterResult> parameters;
+    std::vector<int> group;   // Group per row
+    std::vector<int> status;  // Status per row
+    std::vector<double> noise_levels;
+    std::vector<FeatureResult> features;
+    analysis::DetectionRequest request;
+    std::vector<analysis::FeatureDetection> detection;
+    std::vector<Timing> timing;
+
+    // The value of a provenance entry, "" if absent.
+    std::string provenance_value(const std::string& name) const;
+};
+
+// Writes to a temporary in the same folder, flushes, fsyncs and renames: the file at `path` is
+// either the old or the complete new one. Throws std::runtime_error naming the path and the reason
+// (not writable, disk full), std::invalid_argument if the shapes in `results` disagree.
+void write_results(const std::string& path, const Results& results);
+
+// Throws std::runtime_error naming the path and the reason: missing, not HDF5, not a gearpod
+// results file, damaged or truncated, written by a newer version.
+Results read_results(const std::string& path);
+
+}  // namespace gearpod::mc

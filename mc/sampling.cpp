@@ -1,0 +1,156 @@
+#include "mc/sampling.hpp"
+
+#include <cmath>
+
+#include "mc/schema.hpp"
+#include "mc/study_gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr const char* kDepth = "fault.depth_mm";
+
+const Key& key_of(const RandomInput& input) {
+    const std::size_t dot = input.key.find('.');
+    return *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+}
+
+// J / r^2 from whichever of J / r^2, J and the mass of a solid disc is given. For a disc on the
+// pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
+double over_r2(const std::optional<double>& inertia_over_r2, const std::optional<double>& inertia,
+               double radius_m, double disc_over_r2) {
+    if (inertia_over_r2) {
+        return *inertia_over_r2;
+    }
+    return inertia ? *inertia / (radius_m * radius_m) : disc_over_r2;
+}
+
+void resolve_inertias(const Gearbox& g, InstanceInputs& inputs) {
+    double sun_m = 0.0, planet_m = 0.0, ring_m = 0.0, centre_m = 0.0;
+    if (g.has_teeth() && g.module_m) {
+        sun_m = gear_of(g, Member::sun).base_radius();
+        planet_m = gear_of(g, Member::planet).base_radius();
+        ring_m = gear_of(g, Member::ring).base_radius();
+        centre_m = 0.5 * *g.module_m * (*g.sun_teeth + *g.planet_teeth);
+    }
+    const double cosine = std::cos(g.pressure_angle_rad);
+    const double disc = 0.5 / (cosine * cosine);
+    inputs.sun_inertia_over_r2_kg =
+        over_r2(g.sun_inertia_over_r2_kg, g.sun_inertia_kg_m2, sun_m, disc * g.sun_mass_kg);
+    inputs.planet_inertia_over_r2_kg = over_r2(g.planet_inertia_over_r2_kg, g.planet_inertia_kg_m2,
+                                               planet_m, disc * g.planet_mass_kg);
+    inputs.ring_inertia_over_r2_kg =
+        over_r2(g.ring_inertia_over_r2_kg, g.ring_inertia_kg_m2, ring_m, disc * g.ring_mass_kg);
+    inputs.carrier_inertia_over_r2_kg = over_r2(
+        g.carrier_inertia_over_r2_kg, g.carrier_inertia_kg_m2, centre_m, 0.5 * g.carrier_mass_kg);
+}
+
+double mesh_damping(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    switch (study.effects.mesh_damping) {
+        case MeshDamping::ratio:
+            return g.mesh_damping_ratio.value_or(0.0);
+        case MeshDamping::proportional:
+            return g.mesh_damping_time_s.value_or(0.0);
+        case MeshDamping::constant:
+            return g.mesh_damping_N_s_m.value_or(0.0);
+    }
+    return 0.0;
+}
+
+double speed(const Operation& o) {
+    return o.sun_speed_rad_s ? *o.sun_speed_rad_s
+                             : o.ring_speed_rad_s.value_or(o.carrier_speed_rad_s.value_or(0.0));
+}
+
+}  // namespace
+
+InstanceInputs resolve_inputs(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    InstanceInputs inputs{};
+    inputs.sun_mass_kg = g.sun_mass_kg;
+    inputs.planet_mass_kg = g.planet_mass_kg;
+    inputs.ring_mass_kg = g.ring_mass_kg;
+    inputs.carrier_mass_kg = g.carrier_mass_kg;
+    resolve_inertias(g, inputs);
+    inputs.sun_bearing_stiffness_N_m = g.sun_bearing_stiffness_N_m.value_or(0.0);
+    inputs.planet_bearing_stiffness_N_m = g.planet_bearing_stiffness_N_m.value_or(0.0);
+    inputs.ring_bearing_stiffness_N_m = g.ring_bearing_stiffness_N_m.value_or(0.0);
+    inputs.carrier_bearing_stiffness_N_m = g.carrier_bearing_stiffness_N_m.value_or(0.0);
+    inputs.sun_bearing_damping_N_s_m = g.sun_bearing_damping_N_s_m;
+    inputs.planet_bearing_damping_N_s_m = g.planet_bearing_damping_N_s_m;
+    inputs.ring_bearing_damping_N_s_m = g.ring_bearing_damping_N_s_m;
+    inputs.carrier_bearing_damping_N_s_m = g.carrier_bearing_damping_N_s_m;
+    inputs.support_stiffness_N_m = g.support_stiffness_N_m;
+    inputs.support_damping_N_s_m = g.support_damping_N_s_m;
+    inputs.mesh_damping = mesh_damping(study);
+    inputs.torque_N_m = study.operation.torque_N_m;
+    inputs.speed_rad_s = speed(study.operation);
+    inputs.path_exponent = study.sensor.path_exponent;
+    inputs.noise_m_s2 = study.sensor.noise_m_s2;
+    inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
+    inputs.fault_depth_m =
+        study.fault.kind == FaultKind::crack ? study.fault.depth_m.value_or(0.0) : 0.0;
+    return inputs;
+}
+
+Sampler::Sampler(const Study& study) : study_(study) {}
+
+Study Sampler::draw(Group group, std::uint64_t index) const {
+    Study drawn = study_;
+    for (const RandomInput& input : study_.random) {
+        Philox engine(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
+                      parameter_id(input.key));
+        const double value = input.distribution.draw(engine, index);
+        std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
+    }
+    if (group == Group::threshold || drawn.fault.kind == FaultKind::none) {
+        drawn.fault.depth_m = 0.0;
+    }
+    return drawn;
+}
+
+InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
+    return resolve_inputs(draw(group, index));
+}
+
+InstanceInputs Sampler::nominal() const {
+    return resolve_inputs(study_);
+}
+
+Member Sampler::speed_member() const {
+    return study_.operation.sun_speed_rad_s    ? Member::sun
+           : study_.operation.ring_speed_rad_s ? Member::ring
+                                               : Member::carrier;
+}
+
+std::vector<ParameterColumn> Sampler::columns() const {
+    std::vector<ParameterColumn> columns;
+    for (const RandomInput& input : study_.random) {
+        if (input.key == kDepth) {
+            continue;
+        }
+        const Key& key = key_of(input);
+        std::string name(key.stem());
+        if (!key.unit.si_suffix.empty()) {
+            name += "_" + std::string(key.unit.si_suffix);
+        }
+        columns.push_back({name, std::string(key.unit.si_name)});
+    }
+    columns.push_back({"fault_depth_m", "m"});
+    return columns;
+}
+
+std::vector<double> Sampler::row(Group group, std::uint64_t index) const {
+    const Study drawn = draw(group, index);
+    std::vector<double> row;
+    for (const RandomInput& input : study_.random) {
+        if (input.key != kDepth) {
+            row.push_back(std::get<NumberAccess>(key_of(input).access).get(drawn).value_or(0.0));
+        }
+    }
+    row.push_back(drawn.fault.depth_m.value_or(0.0));
+    return row;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,65 @@
+// The gearboxes of an ensemble: which values instance k of a group has.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mc/philox.hpp"
+#include "mc/study.hpp"
+
+namespace gearpod::mc {
+
+// All inputs that may differ between gearboxes, SI. Names as in Study.
+struct InstanceInputs {
+    double sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
+    // J / r^2, r: base radius, carrier: centre distance; resolved whichever way the study gives it.
+    double sun_inertia_over_r2_kg, planet_inertia_over_r2_kg, ring_inertia_over_r2_kg,
+        carrier_inertia_over_r2_kg;
+    // 0 where a torsional study leaves them out.
+    double sun_bearing_stiffness_N_m, planet_bearing_stiffness_N_m, ring_bearing_stiffness_N_m,
+        carrier_bearing_stiffness_N_m;
+    double sun_bearing_damping_N_s_m, planet_bearing_damping_N_s_m, ring_bearing_damping_N_s_m,
+        carrier_bearing_damping_N_s_m;
+    double support_stiffness_N_m, support_damping_N_s_m;
+    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
+    double torque_N_m;
+    double speed_rad_s;  // of Sampler::speed_member()
+    double path_exponent;
+    double noise_m_s2;         // rms
+    double encoder_noise_rad;  // rms
+    double fault_depth_m;      // 0 in the threshold group and without a fault
+};
+
+struct ParameterColumn {
+    std::string name;  // "planet_bearing_stiffness_N_m", "fault_depth_m"
+    std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
+};
+
+// Instances of both groups of one study. Immutable; safe to share between threads.
+class Sampler {
+  public:
+    explicit Sampler(const Study& study);
+
+    // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
+    InstanceInputs sample(Group group, std::uint64_t index) const;
+    // Nominal values; fault_depth_m is the nominal depth.
+    InstanceInputs nominal() const;
+
+    // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier.
+    Member speed_member() const;
+
+    // Every random input, and fault_depth_m last: what /instances holds.
+    std::vector<ParameterColumn> columns() const;
+    // The values of one instance in that order, SI.
+    std::vector<double> row(Group group, std::uint64_t index) const;
+
+  private:
+    Study draw(Group group, std::uint64_t index) const;
+    Study study_;
+};
+
+// J / r^2 and the rest of one gearbox, from the nominal values of a study.
+InstanceInputs resolve_inputs(const Study& study);
+
+}  // namespace gearpod::mc

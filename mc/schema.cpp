@@ -1,0 +1,94 @@
+#include "mc/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gearpod::mc {
+
+bool Range::contains(double value) const {
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+bool Range::contains(const Support& support) const {
+    const bool low_inside = support.low_open ? support.low >= low : contains(support.low);
+    const bool high_inside = support.high_open ? support.high <= high : contains(support.high);
+    return low_inside && high_inside;
+}
+
+std::string Range::text() const {
+    const bool has_low = low > -std::numeric_limits<double>::infinity();
+    const bool has_high = high < std::numeric_limits<double>::infinity();
+    if (has_low && has_high && !low_open && !high_open) {
+        return fmt::format("between {} and {}", low, high);
+    }
+    std::string text;
+    if (has_low) {
+        text = fmt::format("{} {}", low_open ? ">" : ">=", low);
+    }
+    if (has_high) {
+        text += fmt::format("{}{} {}", has_low ? " and " : "", high_open ? "<" : "<=", high);
+    }
+    return text;
+}
+
+std::string Key::path() const {
+    return fmt::format("{}.{}", section, name);
+}
+
+std::string_view Key::stem() const {
+    return unit.suffix.empty() ? name : name.substr(0, name.size() - unit.suffix.size() - 1);
+}
+
+std::span<const std::string_view> section_names() {
+    static constexpr std::array<std::string_view, 10> names{
+        "gearbox", "operation", "effects",   "fault",    "sensor",
+        "random",  "features",  "detection", "numerics", "ensemble"};
+    return names;
+}
+
+const Key* find_key(std::string_view section, std::string_view name) {
+    const auto keys = schema();
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) {
+        return key.section == section && key.name == name;
+    });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+namespace {
+
+struct KindText {
+    std::string operator()(const NumberAccess&) const { return "number"; }
+    std::string operator()(const IntegerAccess&) const { return "integer"; }
+    std::string operator()(const BooleanAccess&) const { return "true or false"; }
+    std::string operator()(const NumbersAccess&) const { return "list of numbers"; }
+    std::string operator()(const TextsAccess&) const { return "list of strings"; }
+    std::string operator()(const ChoiceAccess& choice) const {
+        std::vector<std::string> names;
+        for (const ChoiceName& name : choice.names) {
+            names.push_back(fmt::format("\"{}\"", name.text));
+        }
+        return fmt::format("{}", fmt::join(names, " | "));
+    }
+};
+
+}  // namespace
+
+std::string schema_help() {
+    std::string text;
+    std::string_view section;
+    for (const Key& key : schema()) {
+        if (key.section != section) {
+            section = key.section;
+            text += fmt::format("[{}]\n", section);
+        }
+        const std::string range = key.range.text();
+        text += fmt::format("  {:<34} {}{}{}; {}\n", key.name, std::visit(KindText{}, key.access),
+                            range.empty() ? "" : " " + range,
+                            key.may_be_random() ? ", may be random" : "", key.doc);
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,53 @@
+// A study while it is being read: what was given where, and what went wrong.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "mc/schema.hpp"
+#include "mc/study_document.hpp"
+
+namespace gearpod::mc {
+
+struct StudyDraft {
+    Study study;
+    Problems problems;
+    std::map<std::string, Position> given;         // by key path, in its section
+    std::map<std::string, Position> given_random;  // by key path, in [random]
+    std::set<std::string> bad;                     // keys and sections whose value is not usable
+    std::map<std::string, Position> sections;
+
+    bool is_given(const std::string& path) const {
+        return given.contains(path) || given_random.contains(path);
+    }
+    // Neither missing nor bad: safe to use in further checks.
+    bool usable(const std::string& path) const { return !bad.contains(path); }
+    // Where a key was written (its section if it was not, else the file), to report a problem with
+    // it.
+    Position position(const std::string& path) const;
+    // Appends a problem with a key and marks it bad.
+    void reject(const Position& at, const std::string& path, std::string what, std::string remedy);
+};
+
+// study_values.cpp: one value of a section into the study, type and range checked.
+void read_value(StudyDraft& draft, const Key& key, const Entry& entry);
+
+// study_random.cpp: the section [random].
+void read_random(StudyDraft& draft, const Value& section);
+
+// study_presence.cpp: what is missing, or given where it has no place.
+void check_presence(StudyDraft& draft);
+
+// study_checks.cpp: what no key can know alone.
+void check_consistency(StudyDraft& draft);
+
+// study_fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
+void check_fault(StudyDraft& draft);
+
+// study_reader.cpp: rejects an unknown key of a section, "random." + section in [random]. The key
+// that was probably meant counts as bad, not as missing.
+void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
+                        const Entry& entry);
+
+}  // namespace gearpod::mc

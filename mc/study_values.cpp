@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mc/study_draft.hpp"
+#include "mc/study_spelling.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+class ValueReader {
+  public:
+    ValueReader(StudyDraft& draft, const Key& key, const Entry& entry)
+        : draft_(draft), key_(key), value_(entry.value), at_(entry.position) {}
+
+    void operator()(const NumberAccess& access) {
+        if (finite(value_) && in_range(value_.number)) {
+            access.set(draft_.study, value_.number * key_.unit.to_si);
+        }
+    }
+
+    void operator()(const IntegerAccess& access) {
+        if (value_.kind != Value::Kind::integer) {
+            reject(fmt::format("must be an integer, but is {}", value_.kind_name()), range_hint());
+        } else if (in_range(value_.number)) {
+            access.set(draft_.study, value_.integer);
+        }
+    }
+
+    void operator()(const BooleanAccess& access) {
+        if (value_.kind != Value::Kind::boolean) {
+            reject(fmt::format("must be true or false, but is {}", value_.kind_name()), "");
+        } else {
+            access.set(draft_.study, value_.boolean);
+        }
+    }
+
+    void operator()(const ChoiceAccess& access) {
+        std::vector<std::string_view> names;
+        for (const ChoiceName& name : access.names) {
+            names.push_back(name.text);
+            if (value_.kind == Value::Kind::text && value_.text == name.text) {
+                access.set(draft_.study, name.value);
+                return;
+            }
+        }
+        const std::string choices = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
+        if (value_.kind != Value::Kind::text) {
+            reject(fmt::format("must be a string, but is {}", value_.kind_name()), choices);
+        } else {
+            reject(fmt::format("unknown value \"{}\" ({})", value_.text, choices),
+                   suggest(value_.text, names));
+        }
+    }
+
+    void operator()(const NumbersAccess& access) {
+        std::vector<double> numbers;
+        if (!nonempty_list("numbers")) {
+            return;
+        }
+        for (const Value& element : value_.elements) {
+            if (!finite(element) || !in_range(element.number)) {
+                return;
+            }
+            numbers.push_back(element.number * key_.unit.to_si);
+            if (numbers.size() > 1 && !(numbers[numbers.size() - 2] < numbers.back())) {
+                reject(fmt::format("must ascend, but {} is not above the value before it",
+                                   element.number),
+                       "sort the list and remove repeated values");
+                return;
+            }
+        }
+        access.set(draft_.study, numbers);
+    }
+
+    void operator()(const TextsAccess& access) {
+        std::vector<std::string> texts;
+        if (!nonempty_list("strings")) {
+            return;
+        }
+        for (const Value& element : value_.elements) {
+            if (element.kind != Value::Kind::text) {
+                reject(fmt::format("must be a list of strings, but holds {}", element.kind_name()),
+                       "");
+                return;
+            }
+            texts.push_back(element.text);
+        }
+        access.set(draft_.study, texts);
+    }
+
+  private:
+    bool finite(const Value& value) {
+        if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
+            reject(fmt::format("must be a number, but is {}", value.kind_name()), range_hint());
+            return false;
+        }
+        if (!std::isfinite(value.number)) {
+            reject(fmt::format("must be a finite number, but is {}", value.number), range_hint());
+            return false;
+        }
+        return true;
+    }
+
+    bool in_range(double number) {
+        if (key_.range.contains(number)) {
+            return true;
+        }
+        reject(fmt::format("must be {}, but is {}", key_.range.text(), number), "");
+        return false;
+    }
+
+    bool nonempty_list(std::string_view of) {
+        if (value_.kind != Value::Kind::array) {
+            reject(fmt::format("must be a list of {}, but is {}", of, value_.kind_name()),
+                   "write it in [brackets]");
+            return false;
+        }
+        if (value_.elements.empty()) {
+            reject("is an empty list", "give at least one value, or leave the key out");
+            return false;
+        }
+        return true;
+    }
+
+    std::string range_hint() const {
+        const std::string range = key_.range.text();
+        return range.empty() ? "" : "give a value " + range;
+    }
+
+    void reject(std::string what, std::string remedy) {
+        draft_.reject(at_, key_.path(), std::move(what), std::move(remedy));
+    }
+
+    StudyDraft& draft_;
+    const Key& key_;
+    const Value& value_;
+    const Position& at_;
+};
+
+}  // namespace
+
+void read_value(StudyDraft& draft, const Key& key, const Entry& entry) {
+    draft.given[key.path()] = entry.position;
+    std::visit(ValueReader(draft, key, entry), key.access);
+}
+
+}  // namespace gearpod::mc

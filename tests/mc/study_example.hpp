@@ -1,0 +1,68 @@
+// A complete planetary study that the tests vary.
+#pragma once
+
+#include <string>
+
+namespace gearpod::tests {
+
+// Liang (2016), Tables 3.1 and 4.1; a crack on the ring side of a planet tooth.
+inline const std::string kExampleStudy = R"(title = "example"
+
+[gearbox]
+kind = "planetary"
+planets = 4
+sun_teeth = 19
+planet_teeth = 31
+ring_teeth = 81
+module_mm = 3.175
+pressure_angle_deg = 20
+face_width_mm = 38.1
+young_modulus_Pa = 2.068e11
+poisson_ratio = 0.3
+sun_mass_kg = 0.7
+planet_mass_kg = 1.822
+ring_mass_kg = 5.982
+carrier_mass_kg = 10
+sun_bearing_stiffness_N_m = 1e8
+planet_bearing_stiffness_N_m = 1e8
+ring_bearing_stiffness_N_m = 1e8
+carrier_bearing_stiffness_N_m = 1e8
+support_stiffness_N_m = 1e9
+mesh_damping_ratio = 0.07
+
+[operation]
+torque_N_m = 429
+carrier_speed_rpm = 8.87
+
+[fault]
+kind = "crack"
+member = "planet"
+side = "ring"
+
+[sensor]
+sampling_Hz = 5000
+low_pass_Hz = 800
+encoder_sampling_Hz = 5000
+encoder_noise_arcsec = 1.5
+noise_m_s2 = 0.3
+noise_levels = [0, 0.5, 1]
+
+[random]
+gearbox.planet_bearing_stiffness_N_m = { distribution = "lognormal", median = 1.1e8, cv = 0.2 }
+fault.depth_mm = { distribution = "levels", values = [0, 1, 2, 3, 4.3] }
+sensor.path_exponent = { distribution = "truncated-normal", mean = 0.1, sd = 0.05, low = -0.1, high = 0.3 }
+
+[ensemble]
+instances = 100
+threshold_instances = 50
+seed = 7
+)";
+
+// The example with the first occurrence of `from` replaced.
+inline std::string example_with(const std::string& from, const std::string& to) {
+    std::string text = kExampleStudy;
+    const std::size_t at = text.find(from);
+    return at == std::string::npos ? "" : text.replace(at, from.size(), to);
+}
+
+}  // namespace gearpod::tests

@@ -1,0 +1,169 @@
+// The program as a user runs it: exit codes, what it prints and what it leaves behind.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int code = 0;
+    std::string output;  // both streams
+};
+
+class Folder {
+  public:
+    Folder() : path_(fs::temp_directory_path() / ("gearpod-test-" + std::to_string(getpid()))) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+    bool empty() const { return fs::is_empty(path_); }
+
+  private:
+    fs::path path_;
+};
+
+Outcome gearpod(const std::string& arguments) {
+    const std::string command = std::string(GEARPOD_PROGRAM) + " " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    Outcome outcome;
+    std::array<char, 4096> buffer;
+    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
+        outcome.output += buffer.data();
+    }
+    outcome.code = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+std::string study(const std::string& name) {
+    return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
+}
+
+bool mentions(const Outcome& outcome, const std::string& text) {
+    return outcome.output.find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("A run ends with the table and a file that report reads to the same numbers") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const Outcome run = gearpod("run " + study("planet-crack.toml") +
+                                " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
+    CHECK(run.code == 0);
+    CHECK(mentions(run, "window_ratio"));
+    CHECK(mentions(run, "where the time went"));
+    CHECK(mentions(run, out));
+    const Outcome text = gearpod("report " + out);
+    CHECK(text.code == 0);
+    CHECK(run.output.find(text.output) != std::string::npos);
+    const Outcome json = gearpod("report " + out + " --json -");
+    const auto parsed = nlohmann::json::parse(json.output);
+    CHECK(parsed["gearboxes"] == 54);
+    CHECK(parsed["failed"] == 0);
+    CHECK(parsed["detection"]["features"].size() == 7);
+    CHECK(parsed["provenance"]["seed"] == "1");
+}
+
+TEST_CASE("Natural frequencies come as JSON, with the published value") {
+    const Outcome modes = gearpod("modes " + study("lin-parker-n4.toml") + " --json -");
+    CHECK(modes.code == 0);
+    const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
+    REQUIRE(frequencies.size() == 21);
+    CHECK(frequencies[20].get<double>() == Approx(13071.1).margin(0.4));
+}
+
+TEST_CASE("Stiffness curves have the contract's columns and the mean that the summary prints") {
+    const Outcome csv = gearpod("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
+    CHECK(csv.code == 0);
+    CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
+    CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
+}
+
+TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const std::string good = study("planet-crack.toml");
+    const struct {
+        std::string arguments, words;
+    } cases[] = {
+        {"run " + folder.file("missing.toml") + " --out " + out, "missing.toml"},
+        {"run " + good + " --set gearbox.modul_mm=3 --out " + out, "module_mm"},
+        {"run " + good + " --set gearbox.sun_mass_kg=-1 --out " + out, "sun_mass_kg"},
+        {"run " + good + " --set gearbox.ring_teeth=80 --out " + out, "ring"},
+        {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
+        {"run " + good + " --instances none --out " + out, "instances"},
+        {"run " + good + " --out " + folder.file("no/such/folder/r.h5"), "no/such/folder"},
+        {"run " + good + " --frobnicate", "frobnicate"},
+        {"frobnicate", "frobnicate"},
+        {"describ " + good, "describe"},
+        {"report " + folder.file("missing.h5"), "missing.h5"},
+        {"report " + good, "planet-crack.toml"},
+        {"stiffness " + study("lin-parker-n4.toml"), "teeth"},
+        {"simulate " + good + " --instance 99999999 --out " + folder.file("s.csv"), "--instance"},
+        {"simulate " + good + " --instance 1 --out " + folder.file("s.xyz"), ".csv"},
+    };
+    for (const auto& c : cases) {
+        const Outcome outcome = gearpod(c.arguments);
+        INFO(c.arguments << "\n" << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(mentions(outcome, c.words));
+        CHECK(folder.empty());
+    }
+}
+
+TEST_CASE("Problems of the study and of the output are told together") {
+    const Outcome outcome = gearpod("run " + study("planet-crack.toml") +
+                                    " --set gearbox.sun_mass_kg=-1 --set gearbox.frob=1"
+                                    " --out /nonexistent-folder/r.h5");
+    CHECK(outcome.code == 2);
+    CHECK(mentions(outcome, "sun_mass_kg"));
+    CHECK(mentions(outcome, "frob"));
+    CHECK(mentions(outcome, "/nonexistent-folder"));
+}
+
+TEST_CASE("Gearboxes that fail are counted, exit with 3 and leave a file") {
+    const Folder folder;
+    const Outcome outcome = gearpod("run " + study("planet-crack.toml") +
+                                    " --instances 7 --set ensemble.threshold_instances=20"
+                                    " --set numerics.max_meshes=1 --out " +
+                                    folder.file("r.h5"));
+    CHECK(outcome.code == 3);
+    CHECK(mentions(outcome, "27 of 27 failed (0 diverged, 27 did not settle)"));
+    CHECK(fs::exists(folder.file("r.h5")));
+}
+
+TEST_CASE("A simulated gearbox has the features that the ensemble found for its row") {
+    const Folder folder;
+    const std::string small = " --set ensemble.instances=14 --set ensemble.threshold_instances=5";
+    const std::string good = study("planet-crack.toml");
+    CHECK(gearpod("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
+    CHECK(gearpod("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5"))
+              .code == 0);
+    // The row's five noise levels as h5dump prints them, from either file.
+    const auto values = [&](const std::string& file, const std::string& subset) {
+        const std::string command = "h5dump -y -m %.17g -d /features/te_rms " + subset +
+                                    folder.file(file) + " | grep -m1 -A1 'DATA {' | tail -1";
+        FILE* pipe = popen(command.c_str(), "r");
+        REQUIRE(pipe != nullptr);
+        std::array<char, 4096> line{};
+        REQUIRE(fgets(line.data(), line.size(), pipe) != nullptr);
+        pclose(pipe);
+        return std::string(line.data());
+    };
+    const std::string from_run = values("r.h5", "-s 18,0 -c 1,5 ");
+    CHECK(std::count(from_run.begin(), from_run.end(), ',') == 4);
+    CHECK(values("s.h5", "") == from_run);
+}

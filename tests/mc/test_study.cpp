@@ -1,0 +1,185 @@
+// A study file read, converted to SI, overridden and written back.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "mc/schema.hpp"
+#include "mc/study.hpp"
+#include "mc/study_sizes.hpp"
+#include "mc/study_spelling.hpp"
+#include "study_example.hpp"
+
+using namespace gearpod::mc;
+using gearpod::tests::example_with;
+using gearpod::tests::kExampleStudy;
+
+namespace {
+
+Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    StudyReading reading = read_study_text(text, "study.toml", overrides);
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+// Natural frequencies are defined without teeth.
+const char* const kConstantStudy = R"(
+[gearbox]
+kind = "planetary"
+planets = 3
+pressure_angle_deg = 24.6
+tooth_profile = "constant"
+sun_planet_stiffness_N_m = 5e8
+ring_planet_stiffness_N_m = 5e8
+sun_mass_kg = 0.4
+planet_mass_kg = 0.66
+ring_mass_kg = 2.35
+carrier_mass_kg = 5.43
+sun_inertia_over_r2_kg = 0.39
+planet_inertia_over_r2_kg = 0.61
+ring_inertia_over_r2_kg = 3.0
+carrier_inertia_over_r2_kg = 6.29
+sun_bearing_stiffness_N_m = 1e8
+planet_bearing_stiffness_N_m = 1e8
+ring_bearing_stiffness_N_m = 1e8
+carrier_bearing_stiffness_N_m = 1e8
+support_stiffness_N_m = 1e9
+mesh_damping_time_s = 3.99e-6
+[effects]
+mesh_damping = "proportional"
+inertial_terms = false
+[operation]
+torque_N_m = 0.1
+sun_speed_rpm = 1234.567891234567
+[fault]
+kind = "none"
+[sensor]
+sampling_Hz = 20000
+low_pass_Hz = 0.3
+encoder_sampling_Hz = 333.3333333333333
+encoder_noise_arcsec = 0.7
+[ensemble]
+instances = 1
+threshold_instances = 1
+seed = 9223372036854775807
+)";
+
+}  // namespace
+
+TEST_CASE("Values of a study file are in SI units and radians") {
+    const Study study = study_of(kExampleStudy);
+    CHECK(study.title == "example");
+    CHECK(study.gearbox.module_m == Approx(0.003175).epsilon(1e-15));
+    CHECK(study.gearbox.pressure_angle_rad == Approx(M_PI / 9).epsilon(1e-15));
+    CHECK(*study.operation.carrier_speed_rad_s == Approx(8.87 * 2 * M_PI / 60).epsilon(1e-15));
+    CHECK(study.sensor.encoder_noise_rad == Approx(1.5 / 3600 * M_PI / 180).epsilon(1e-15));
+    CHECK(study.fault.angle_rad == M_PI / 4);
+    CHECK(study.sensor.noise_levels == std::vector<double>{0.0, 0.5, 1.0});
+    CHECK(study.features.use.size() == 7);
+}
+
+TEST_CASE("The nominal value of a random input is the one given, else the median") {
+    const Study study = study_of(kExampleStudy);
+    CHECK(*study.gearbox.planet_bearing_stiffness_N_m == 1e8);
+    CHECK(*study.fault.depth_m == Approx(0.002));
+    const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
+    CHECK(*without.gearbox.planet_bearing_stiffness_N_m == 1.1e8);
+    CHECK(study.find_random("fault.depth_mm")->to_si == 1e-3);
+    CHECK(study.find_random("sensor.noise_m_s2") == nullptr);
+}
+
+TEST_CASE("Overrides replace what the file says and may leave strings unquoted") {
+    const Study study = study_of(
+        kExampleStudy,
+        {"ensemble.seed=12", "fault.side=sun", "effects.motion='torsional'",
+         "random.fault.depth_mm={distribution=\"grid\", low=0, high=4, count=3}",
+         "random.gearbox.planet_bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
+    CHECK(study.ensemble.seed == 12);
+    CHECK(study.fault.side == Member::sun);
+    CHECK(study.effects.motion == Motion::torsional);
+    CHECK(study.find_random("fault.depth_mm")->distribution.levels() ==
+          std::vector<double>{0.0, 2.0, 4.0});
+    CHECK(study.find_random("gearbox.planet_bearing_stiffness_N_m")->distribution.toml() ==
+          "{ distribution = \"lognormal\", median = 110000000, cv = 0.5 }");
+    CHECK(study.detection.confidence == 0.9);
+}
+
+TEST_CASE("The resolved text reads back to the same study, bit for bit") {
+    std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
+    studies.push_back(study_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",
+                                            "\"triangular\", low = 0.1, mode = 0.7, high = 3.3"),
+                               {"detection.size_edges_mm=[0.1, 0.7, 1.1, 3.3]",
+                                "title=\"a \\\"quoted\\\" \\\\ title \\u0001 é\""}));
+    studies.push_back(study_of(
+        kExampleStudy, {"random.sensor.noise_m_s2 = {distribution='uniform', "
+                        "low = 0.1, high = 0.2}",
+                        "fault.angle_deg = 51.3", "gearbox.module_mm=0.7",
+                        "random.fault.depth_mm.values=[0.1, 0.3]", "features.use=['te_fc']"}));
+    for (const Study& study : studies) {
+        const std::string text = resolved_text(study);
+        INFO(text);
+        CHECK(study_of(text) == study);
+        CHECK(resolved_text(study_of(text)) == text);
+    }
+    CHECK(resolved_text(studies[0]).find("module_mm = 3.175\n") != std::string::npos);
+}
+
+TEST_CASE("The resolved text spells out every key that may be given") {
+    const std::string text = resolved_text(study_of(kExampleStudy));
+    for (const Key& key : schema()) {
+        const bool optional_here =
+            key.presence(study_of(kExampleStudy)).need == Need::optional &&
+            (key.name.find("inertia") != std::string_view::npos ||
+             key.name.find("speed") != std::string_view::npos || key.name == "size_edges_mm");
+        const bool forbidden = key.presence(study_of(kExampleStudy)).need == Need::forbidden;
+        INFO(key.path());
+        CHECK((optional_here || forbidden ||
+               text.find("\n" + std::string(key.name) + " = ") != std::string::npos));
+    }
+}
+
+TEST_CASE("A gearbox of constant stiffness may have teeth or none") {
+    CHECK_FALSE(study_of(kConstantStudy).gearbox.has_teeth());
+    const Study study = study_of(
+        kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet_stiffness_N_m=1e8",
+                        "gearbox.ring_planet_stiffness_N_m=1e8", "fault.kind='none'"});
+    CHECK(study.gearbox.has_teeth());
+    CHECK(*study.gearbox.sun_planet_stiffness_N_m == 1e8);
+}
+
+TEST_CASE("Size groups are the levels in ascending order, or lie between the edges") {
+    const Study levels = study_of(kExampleStudy, {"random.fault.depth_mm.values=[3, 0, 3, 1]"});
+    const auto groups = size_groups(levels);
+    REQUIRE(groups.size() == 3);
+    CHECK(groups[0].low_m == 0.0);
+    CHECK(groups[2].low_m == 3 * 1e-3);
+    CHECK(groups[2].high_m == groups[2].low_m);
+    CHECK(fault_depths_m(levels) == std::vector<double>{1e-3, 3 * 1e-3});
+
+    const Study edges = study_of(
+        example_with("\"levels\", values = [0, 1, 2, 3, 4.3]", "\"uniform\", low = 0, high = 4"),
+        {"detection.size_edges_mm=[0, 1, 4]"});
+    REQUIRE(size_groups(edges).size() == 2);
+    CHECK(size_groups(edges)[1].low_m == 1e-3);
+    CHECK(size_groups(edges)[1].high_m == 4 * 1e-3);
+    CHECK(detection_request(edges).noise_levels == edges.sensor.noise_levels);
+    CHECK(size_groups(study_of(kExampleStudy, {"fault.kind='none'"})).size() == 1);
+}
+
+TEST_CASE("Edit distances are those of the literature") {
+    CHECK(edit_distance("kitten", "sitting") == 3);
+    CHECK(edit_distance("saturday", "sunday") == 3);
+    CHECK(edit_distance("ca", "ac") == 1);
+    CHECK(edit_distance("", "abc") == 3);
+    CHECK(without_unit("planet_bearing_stiffness_N_m") == "planet_bearing_stiffness");
+    CHECK(without_unit("sun_inertia_kg_m2") == "sun_inertia");
+    CHECK(without_unit("teeth") == "teeth");
+}
+
+TEST_CASE("The help lists every key of the schema with its section") {
+    const std::string help = schema_help();
+    for (const Key& key : schema()) {
+        CHECK(help.find("  " + std::string(key.name) + " ") != std::string::npos);
+        CHECK(help.find("[" + std::string(key.section) + "]") != std::string::npos);
+        CHECK((key.unit.suffix.empty() || key.name.ends_with("_" + std::string(key.unit.suffix))));
+    }
+}
