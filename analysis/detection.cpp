@@ -1,0 +1,155 @@
+#include "analysis/detection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/threshold.hpp"
+#include "analysis/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
+
+void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
+    if (sample.values.size() != sample.fault_size_m.size() * levels) {
+        throw std::invalid_argument(
+            fmt::format("detection: {} {} values for {} gearboxes at {} noise levels",
+                        sample.values.size(), which, sample.fault_size_m.size(), levels));
+    }
+}
+
+void check_request(const DetectionRequest& request) {
+    if (!(request.false_alarm_rate > 0.0 && request.false_alarm_rate < 1.0)) {
+        throw std::invalid_argument("detection: the false-alarm rate must lie between 0 and 1");
+    }
+    for (std::size_t g = 0; g < request.groups.size(); ++g) {
+        const SizeGroup& group = request.groups[g];
+        if (group.high_m < group.low_m || (g > 0 && group.low_m < request.groups[g - 1].high_m)) {
+            throw std::invalid_argument("detection: the size groups must ascend");
+        }
+    }
+}
+
+// A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
+// edge and leaves the upper one to the next group, unless no group begins there.
+std::size_t group_of(double size_m, const std::vector<SizeGroup>& groups) {
+    constexpr double kSameSize = 1e-9;
+    std::size_t found = kNoGroup;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const double slack = kSameSize * std::abs(groups[g].high_m);
+        const bool level = groups[g].low_m == groups[g].high_m;
+        const double low = level ? groups[g].low_m - slack : groups[g].low_m;
+        const double high = level ? groups[g].high_m + slack : groups[g].high_m;
+        if (size_m >= low && size_m <= high) {
+            found = g;
+        }
+    }
+    return found;
+}
+
+std::vector<std::size_t> groups_of(std::span<const double> sizes_m,
+                                   const std::vector<SizeGroup>& groups) {
+    std::vector<std::size_t> out;
+    out.reserve(sizes_m.size());
+    for (const double size_m : sizes_m) {
+        out.push_back(group_of(size_m, groups));
+    }
+    return out;
+}
+
+void count(DetectionCell& cell, double value, double threshold, Alarm alarm) {
+    if (!std::isfinite(value)) {
+        ++cell.failed;
+        return;
+    }
+    ++cell.tested;
+    cell.detected += is_alarm(value, threshold, alarm) ? 1 : 0;
+}
+
+// Without a threshold there is no rate, but the gearboxes are still counted.
+void rate(DetectionCell& cell, bool has_threshold, double confidence) {
+    if (!has_threshold || cell.tested == 0) {
+        cell.pd = cell.lower = cell.upper = std::numeric_limits<double>::quiet_NaN();
+        return;
+    }
+    const Interval bounds = wilson_interval(cell.detected, cell.tested, confidence);
+    cell.pd = static_cast<double>(cell.detected) / static_cast<double>(cell.tested);
+    cell.lower = bounds.lower;
+    cell.upper = bounds.upper;
+}
+
+std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
+    std::vector<double> values;
+    values.reserve(sample.fault_size_m.size());
+    for (std::size_t i = 0; i < sample.fault_size_m.size(); ++i) {
+        values.push_back(sample.values[i * levels + level]);
+    }
+    return values;
+}
+
+void warn(const LevelDetection& level, std::size_t healthy, double rate,
+          std::vector<std::string>& warnings) {
+    if (std::isnan(level.threshold)) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: no threshold, {} healthy gearboxes are too few for a false-alarm "
+            "rate of {:g}; it takes {:.0f}",
+            level.noise_level, level.threshold_sample, rate, std::ceil(1.0 / rate - 1.0 - 1e-9)));
+    }
+    const long without = static_cast<long>(healthy) - level.threshold_sample;
+    if (without > 0) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} of {} healthy gearboxes gave no value and do not count "
+            "in the threshold",
+            level.noise_level, without, healthy));
+    }
+}
+
+}  // namespace
+
+FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
+                        const FeatureSample& graded, const DetectionRequest& request) {
+    const std::size_t levels = request.noise_levels.size();
+    check_shapes(healthy, levels, "healthy");
+    check_shapes(graded, levels, "graded");
+    check_request(request);
+    FeatureDetection result;
+    result.feature = feature;
+    result.alarm = alarm;
+    const std::vector<std::size_t> group = groups_of(graded.fault_size_m, request.groups);
+    for (std::size_t n = 0; n < levels; ++n) {
+        LevelDetection level;
+        level.noise_level = request.noise_levels[n];
+        const Threshold threshold =
+            alarm_threshold(column(healthy, n, levels), alarm, request.false_alarm_rate);
+        level.threshold = threshold.value;
+        level.threshold_sample = threshold.sample;
+        level.threshold_alarms = threshold.alarms;
+        level.cells.resize(request.groups.size());
+        for (std::size_t g = 0; g < request.groups.size(); ++g) {
+            level.cells[g].size = request.groups[g];
+        }
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (group[i] != kNoGroup) {
+                count(level.cells[group[i]], graded.values[i * levels + n], level.threshold, alarm);
+            }
+        }
+        for (DetectionCell& cell : level.cells) {
+            rate(cell, !std::isnan(level.threshold), request.confidence);
+        }
+        warn(level, healthy.fault_size_m.size(), request.false_alarm_rate, result.warnings);
+        result.levels.push_back(std::move(level));
+    }
+    if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {
+        result.warnings.push_back(fmt::format(
+            "{} of {} gearboxes have a fault size outside all size groups and do not count",
+            outside, group.size()));
+    }
+    return result;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,61 @@
+#include "analysis/detection_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/reliable_size.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kReliablePd = 0.9;
+
+nlohmann::json number(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json to_json(const DetectionCell& cell) {
+    return {{"size_low_m", cell.size.low_m}, {"size_high_m", cell.size.high_m},
+            {"tested", cell.tested},         {"detected", cell.detected},
+            {"failed", cell.failed},         {"pd", number(cell.pd)},
+            {"lower", number(cell.lower)},   {"upper", number(cell.upper)}};
+}
+
+nlohmann::json to_json(const LevelDetection& level) {
+    nlohmann::json sizes = nlohmann::json::array();
+    for (const DetectionCell& cell : level.cells) {
+        sizes.push_back(to_json(cell));
+    }
+    nlohmann::json reliable(nullptr);
+    if (const auto size = reliable_size(level, kReliablePd)) {
+        reliable = {size->low_m, size->high_m};
+    }
+    return {{"noise_level", level.noise_level},
+            {"threshold", number(level.threshold)},
+            {"threshold_sample", level.threshold_sample},
+            {"threshold_alarms", level.threshold_alarms},
+            {"reliable_size_m", reliable},
+            {"sizes", sizes}};
+}
+
+}  // namespace
+
+nlohmann::json detection_json(std::span<const FeatureDetection> features,
+                              const DetectionRequest& request) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const FeatureDetection& feature : features) {
+        nlohmann::json levels = nlohmann::json::array();
+        for (const LevelDetection& level : feature.levels) {
+            levels.push_back(to_json(level));
+        }
+        list.push_back({{"name", feature.feature},
+                        {"alarm", feature.alarm == Alarm::high ? "high" : "low"},
+                        {"warnings", feature.warnings},
+                        {"levels", levels}});
+    }
+    return {{"false_alarm_rate", request.false_alarm_rate},
+            {"confidence", request.confidence},
+            {"features", list}};
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,155 @@
+#include "analysis/detection_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "analysis/reliable_size.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+using Features = std::span<const FeatureDetection>;
+
+constexpr std::size_t kWidth = 120;
+constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
+constexpr std::size_t kCountWidth = 8;  // gearboxes, failed
+constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
+constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
+constexpr double kReliablePd = 0.9;
+
+std::string size_text(const SizeGroup& size) {
+    return size.low_m == size.high_m
+               ? fmt::format("{:.4g}", 1e3 * size.high_m)
+               : fmt::format("{:.4g}-{:.4g}", 1e3 * size.low_m, 1e3 * size.high_m);
+}
+
+std::string rate_text(const DetectionCell& cell) {
+    return std::isnan(cell.pd)
+               ? std::string("-")
+               : fmt::format("{:.2f} [{:.2f}, {:.2f}]", cell.pd, cell.lower, cell.upper);
+}
+
+std::string threshold_text(const FeatureDetection& feature, const LevelDetection& level) {
+    return std::isnan(level.threshold)
+               ? std::string("none")
+               : fmt::format("{} {:.5g}", feature.alarm == Alarm::high ? ">" : "<",
+                             level.threshold);
+}
+
+std::size_t column_width(Features features) {
+    std::size_t width = kCellWidth;
+    for (const FeatureDetection& feature : features) {
+        width = std::max(width, feature.feature.size() + 2);
+    }
+    return width;
+}
+
+// A label and one right-aligned cell per feature.
+template <typename CellText>
+void add_row(std::string& out, const std::string& label, Features features, CellText text) {
+    const std::size_t width = column_width(features);
+    std::string line = fmt::format("{:<{}}", label, kLabelWidth);
+    for (const FeatureDetection& feature : features) {
+        line += fmt::format("{:>{}}", text(feature), width);
+    }
+    out += line + '\n';
+}
+
+// Failures may differ between features: the row shows the most, the JSON each.
+long most_failed(Features features, std::size_t level, std::size_t cell) {
+    long failed = 0;
+    for (const FeatureDetection& feature : features) {
+        failed = std::max(failed, feature.levels[level].cells[cell].failed);
+    }
+    return failed;
+}
+
+void add_level(std::string& out, Features features, std::size_t n) {
+    add_row(out,
+            fmt::format("{:<{}}{:>{}}{:>{}}", "size mm", kSizeWidth, "boxes", kCountWidth, "failed",
+                        kCountWidth),
+            features, [](const FeatureDetection& f) { return f.feature; });
+    add_row(out, "alarm if", features,
+            [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
+    add_row(out, "healthy sample: alarms/boxes", features, [n](const FeatureDetection& f) {
+        return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
+    });
+    const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const std::string label =
+            fmt::format("{:<{}}{:>{}}{:>{}}", size_text(cells[c].size), kSizeWidth,
+                        cells[c].tested + cells[c].failed, kCountWidth, most_failed(features, n, c),
+                        kCountWidth);
+        add_row(out, label, features,
+                [n, c](const FeatureDetection& f) { return rate_text(f.levels[n].cells[c]); });
+    }
+}
+
+void add_reliable_sizes(std::string& out, Features features) {
+    add_row(out, "noise", features, [](const FeatureDetection& f) { return f.feature; });
+    for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
+        add_row(out, fmt::format("x {:g}", features.front().levels[n].noise_level), features,
+                [n](const FeatureDetection& f) {
+                    const auto size = reliable_size(f.levels[n], kReliablePd);
+                    return size ? size_text(*size) + " mm" : std::string("not reached");
+                });
+    }
+}
+
+// A warning that several features share is said once.
+void add_warnings(std::string& out, Features features) {
+    std::vector<std::string> order;
+    std::map<std::string, std::string> names;
+    for (const FeatureDetection& feature : features) {
+        for (const std::string& warning : feature.warnings) {
+            std::string& list = names[warning];
+            if (list.empty()) {
+                order.push_back(warning);
+            }
+            list += (list.empty() ? "" : ", ") + feature.feature;
+        }
+    }
+    for (const std::string& warning : order) {
+        out += fmt::format("warning: {} ({})\n", warning, names[warning]);
+    }
+}
+
+// Features side by side, as many as fit the width, blocks apart by an empty line.
+template <typename Block>
+void in_blocks(std::string& out, Features features, Block block) {
+    const std::size_t fit =
+        std::max<std::size_t>(1, (kWidth - kLabelWidth) / column_width(features));
+    for (std::size_t first = 0; first < features.size(); first += fit) {
+        out += '\n';
+        block(features.subspan(first, std::min(fit, features.size() - first)));
+    }
+}
+
+}  // namespace
+
+std::string detection_text(Features features, const DetectionRequest& request) {
+    std::string out;
+    if (features.empty() || features.front().levels.empty()) {
+        return "no detection rates: no features or no noise levels\n";
+    }
+    out += fmt::format(
+        "Detection rates Pd [lower, upper] at {:g} % confidence (Wilson);\n"
+        "thresholds for at most {:g} % expected false alarms\n",
+        100.0 * request.confidence, 100.0 * request.false_alarm_rate);
+    for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
+        out += fmt::format("\nNoise x {:g}\n", features.front().levels[n].noise_level);
+        in_blocks(out, features, [&](Features block) { add_level(out, block, n); });
+    }
+    out += fmt::format(
+        "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
+        kReliablePd);
+    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block); });
+    add_warnings(out, features);
+    return out;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,25 @@
+// The kernel behind fold_squares; see folded_signal.hpp.
+#pragma once
+
+#include "signals/folded_signal.hpp"
+
+namespace gearpod::signals {
+
+// What the kernel reads and writes. Shapes as in TileSignals, PathGrid and FoldPlan, which must
+// agree.
+struct FoldArguments {
+    const PathGrid* path = nullptr;
+    const FoldPlan* plan = nullptr;
+    const double* const* accel = nullptr;
+    const double* exponent = nullptr;  // [lane]
+    double* whole_steps = nullptr;     // scratch, [M_c/2 + 1][lane]
+    double* weight = nullptr;          // scratch, [carrier index][planet][lane]
+    double* squares = nullptr;         // scratch, [pair][lane]
+    double* totals = nullptr;          // scratch, [sum][lane]
+    double* folded = nullptr;          // [tooth * P + p][lane]
+};
+
+void fold_squares_1(const FoldArguments& a);
+void fold_squares_8(const FoldArguments& a);
+
+}  // namespace gearpod::signals

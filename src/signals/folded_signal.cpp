@@ -1,0 +1,67 @@
+#include "signals/folded_signal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "signals/fold_squares.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
+                  std::size_t exponents) {
+    check_tile(tile, {0, plan.largest_mesh()});
+    if (path.planets() != tile.planets || path.phases() != tile.phases ||
+        path.positions() != plan.layout().carrier_meshes ||
+        exponents != static_cast<std::size_t>(tile.lanes)) {
+        throw std::invalid_argument(
+            fmt::format("fold: tile of {} planets, {} phases, {} lanes against a path of {} "
+                        "planets, {} phases, "
+                        "{} exponents; {} carrier positions against {}",
+                        tile.planets, tile.phases, tile.lanes, path.planets(), path.phases(),
+                        exponents, path.positions(), plan.layout().carrier_meshes));
+    }
+}
+
+}  // namespace
+
+void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
+                  std::span<const double> path_exponent, lockstep::AlignedVector& folded) {
+    check_shapes(tile, plan, path, path_exponent.size());
+    const std::size_t lanes = tile.lanes;
+    const std::size_t positions = path.positions();
+    const lockstep::AlignedVector exponent(path_exponent.begin(), path_exponent.end());
+    lockstep::AlignedVector whole_steps((positions / 2 + 1) * lanes);
+    lockstep::AlignedVector weight(positions * tile.planets * lanes);
+    lockstep::AlignedVector squares(plan.pairs().carrier.size() * lanes);
+    lockstep::AlignedVector totals(plan.sums().first.size() * lanes);
+    folded.resize(static_cast<std::size_t>(plan.layout().planet_teeth) * tile.phases * lanes);
+
+    FoldArguments a;
+    a.path = &path;
+    a.plan = &plan;
+    a.accel = tile.accel.data();
+    a.exponent = exponent.data();
+    a.whole_steps = whole_steps.data();
+    a.weight = weight.data();
+    a.squares = squares.data();
+    a.totals = totals.data();
+    a.folded = folded.data();
+    if (tile.lanes == lockstep::kLanes) {
+        fold_squares_8(a);
+    } else {
+        fold_squares_1(a);
+    }
+}
+
+double mean_square(std::span<const double> folded, const SpanLayout& layout) {
+    double sum = 0.0;
+    for (const double bin : folded) {
+        sum += bin;
+    }
+    return sum / (static_cast<double>(folded.size()) * layout.ring_teeth);
+}
+
+}  // namespace gearpod::signals

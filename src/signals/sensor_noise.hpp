@@ -1,0 +1,93 @@
+// Additive sensor noise, white, rms sigma per sample, added after the low-pass filter.
+//
+// A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
+// a noncentral chi-square variable; split along and across the noise-free samples,
+//
+//     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
+//
+// independent between bins. So two random numbers a bin replace the Z_r noise samples, and one draw
+// serves all noise levels.
+#pragma once
+
+#include <boost/random/normal_distribution.hpp>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "signals/chi_squared.hpp"
+
+namespace gearpod::signals {
+
+// (Z, G) of every bin of one gearbox.
+struct NoiseDraw {
+    std::vector<double> along;   // Z
+    std::vector<double> across;  // G
+};
+
+class SensorNoise {
+  public:
+    // Throws std::invalid_argument unless ring_teeth >= 3.
+    explicit SensorNoise(int ring_teeth) : across_(ring_teeth - 1) {}
+
+    // All Z first, then all G. Engine: a 64-bit uniform random bit generator.
+    template <typename Engine>
+    void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
+        boost::random::normal_distribution<double> normal;
+        out.along.resize(bins);
+        out.across.resize(bins);
+        for (double& z : out.along) {
+            z = normal(engine);
+        }
+        for (double& z : out.across) {
+            z = normal(engine);
+        }
+        across_.from_normal(out.across);
+    }
+
+  private:
+    ChiSquaredTransform across_;
+};
+
+// noisy[b] = (sigma Z_b + sqrt folded_b)^2 + sigma^2 G_b; sigma in m/s^2. Contiguous bins of one
+// gearbox. sigma = 0 gives `folded` up to rounding. Throws std::invalid_argument on unequal sizes.
+void add_sensor_noise(std::span<const double> folded, const NoiseDraw& draw, double sigma,
+                      std::span<double> noisy);
+
+// The unit noise n (times sigma it is in m/s^2) that turns a bin's Z_r noise-free samples into
+// noisy ones whose squares sum to exactly the bin's F_noisy: Z along the samples, sqrt(G) in a
+// random direction across them. `normals` are Z_r further standard normals, which give that
+// direction. Throws std::invalid_argument on unequal sizes or fewer than two samples.
+void noise_of_bin(std::span<const double> samples, double along, double across,
+                  std::span<const double> normals, std::span<double> noise);
+
+// The time signal (synthesize, whole span: Z_p Z_r P samples) with noise of rms sigma that folds to
+// add_sensor_noise's values. Bins are visited in order b = 0, 1, ...; the engine gives the
+// directions.
+template <typename Engine>
+std::vector<double> noisy_samples(std::span<const double> signal, std::size_t bins,
+                                  const NoiseDraw& draw, double sigma, Engine& engine) {
+    if (bins == 0 || signal.size() % bins != 0 || draw.along.size() != bins ||
+        draw.across.size() != bins) {
+        throw std::invalid_argument("noisy samples: signal, bins and draw disagree in size");
+    }
+    const std::size_t turns = signal.size() / bins;
+    boost::random::normal_distribution<double> normal;
+    std::vector<double> samples(turns);
+    std::vector<double> normals(turns);
+    std::vector<double> noise(turns);
+    std::vector<double> noisy(signal.begin(), signal.end());
+    for (std::size_t b = 0; b < bins; ++b) {
+        for (std::size_t i = 0; i < turns; ++i) {
+            samples[i] = signal[i * bins + b];
+            normals[i] = normal(engine);
+        }
+        noise_of_bin(samples, draw.along[b], draw.across[b], normals, noise);
+        for (std::size_t i = 0; i < turns; ++i) {
+            noisy[i * bins + b] += sigma * noise[i];
+        }
+    }
+    return noisy;
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,10 @@
+// Every planet is heard alike wherever it is: a sensor that turns with the carrier.
+#pragma once
+
+namespace gearpod::signals {
+
+inline double rectangular(double /*x_rad*/) {
+    return 1.0;
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,51 @@
+// The sensor signal straight from Liang (2016), Eq. 4.3.1, sample by sample with the library's
+// functions: what the folded and the synthesized signal are compared with.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "signals/path_window.hpp"
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::signals {
+
+inline double direct_sample(const TileSignals& tile, int lane, const Timeline& timeline,
+                            const SpanLayout& layout, const PathWindow& window, double alpha, int k,
+                            int p) {
+    const double pi = std::numbers::pi;
+    const double theta = layout.carrier_meshes == 1
+                             ? 0.0
+                             : 2.0 * pi * ((k % layout.carrier_meshes) + double(p) / tile.phases) /
+                                   layout.carrier_meshes;
+    const double* accel = tile.accel[timeline[k % timeline.size()]];
+    double y = 0.0;
+    for (int n = 0; n < tile.planets; ++n) {
+        // The wrap decides the side of a jump: nudge rounding at x = 0 to the side of exact
+        // arithmetic.
+        double x = std::fmod(theta + 2.0 * pi * n / tile.planets, 2.0 * pi);
+        if (2.0 * pi - x < 1e-12) {
+            x = 0.0;
+        }
+        const double g = std::exp(alpha * (x - pi) * (x - pi)) * window.weight(x);
+        const int channel = p * 2 * tile.planets + 2 * n;
+        y += g * (std::sin(theta) * accel[channel * tile.lanes + lane] +
+                  std::cos(theta) * accel[(channel + 1) * tile.lanes + lane]);
+    }
+    return y;
+}
+
+inline std::vector<double> direct_signal(const TileSignals& tile, int lane,
+                                         const Timeline& timeline, const SpanLayout& layout,
+                                         const PathWindow& window, double alpha) {
+    std::vector<double> signal;
+    for (int k = 0; k < layout.meshes(); ++k) {
+        for (int p = 0; p < tile.phases; ++p) {
+            signal.push_back(direct_sample(tile, lane, timeline, layout, window, alpha, k, p));
+        }
+    }
+    return signal;
+}
+
+}  // namespace gearpod::signals

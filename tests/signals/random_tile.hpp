@@ -1,0 +1,47 @@
+// A tile of random mesh periods, for tests of the signal chain.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::signals {
+
+struct RandomTile {
+    std::vector<lockstep::AlignedVector> accel, te;
+    TileSignals signals;
+
+    RandomTile(int lanes, int planets, int phases, int meshes, unsigned seed = 1) {
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> normal;
+        signals = {lanes, planets, phases, {}, {}};
+        accel.resize(meshes);
+        te.resize(meshes);
+        for (int mesh = 0; mesh < meshes; ++mesh) {
+            accel[mesh].resize(static_cast<std::size_t>(phases) * 2 * planets * lanes);
+            te[mesh].resize(static_cast<std::size_t>(phases) * lanes);
+            for (double& value : accel[mesh]) {
+                value = normal(engine);
+            }
+            for (double& value : te[mesh]) {
+                value = 1e-5 * normal(engine);
+            }
+            signals.accel.push_back(accel[mesh].data());
+            signals.te.push_back(te[mesh].data());
+        }
+    }
+    RandomTile(const RandomTile&) = delete;
+    RandomTile& operator=(const RandomTile&) = delete;
+};
+
+// The event of a crack: meshes 1..events from mesh `first` on, in a pattern of `length` meshes.
+inline Timeline event_timeline(int length, int first, int events) {
+    Timeline timeline(length, 0);
+    for (int e = 0; e < events; ++e) {
+        timeline[(first + e) % length] = e + 1;
+    }
+    return timeline;
+}
+
+}  // namespace gearpod::signals
