@@ -154,14 +154,16 @@ TEST_CASE("A simulated gearbox has the features that the ensemble found for its 
               .code == 0);
     // The row's five noise levels as h5dump prints them, from either file.
     const auto values = [&](const std::string& file, const std::string& subset) {
-        const std::string command = "h5dump -y -m %.17g -d /features/te_rms " + subset +
-                                    folder.file(file) + " | grep -m1 -A1 'DATA {' | tail -1";
+        const std::string command = "h5dump -y -w 0 -m %.17g -d /features/te_rms " + subset +
+                                    folder.file(file) +
+                                    " | sed -n '/DATA {/,/}/p' | tr -d ' \\n'";
         FILE* pipe = popen(command.c_str(), "r");
         REQUIRE(pipe != nullptr);
         std::array<char, 4096> line{};
         REQUIRE(fgets(line.data(), line.size(), pipe) != nullptr);
         pclose(pipe);
-        return std::string(line.data());
+        const std::string text = line.data();  // attributes follow the data
+        return text.substr(0, text.find('}'));
     };
     const std::string from_run = values("r.h5", "-s 18,0 -c 1,5 ");
     CHECK(std::count(from_run.begin(), from_run.end(), ',') == 4);
