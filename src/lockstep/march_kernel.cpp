@@ -74,6 +74,20 @@ GEARPOD_INLINE void planet_accelerations(const PlanetaryLanes<W>& lanes, const d
     }
 }
 
+// What the input at the step's start, middle and end adds to filter state `i`; m is one lane's column
+// of coefficients, W apart.
+template <int W>
+GEARPOD_INLINE double filter_input(const double* m, int i, double u0, double u1, double u2) {
+    return std::fma(m[(kFilterInput + i) * W], u0,
+                    std::fma(m[(kFilterInput + 4 + i) * W], u1, m[(kFilterInput + 8 + i) * W] * u2));
+}
+
+// sum + m[at] p + m[at + 1] dp.
+template <int W>
+GEARPOD_INLINE double filter_row(const double* m, int at, double p, double dp, double sum) {
+    return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
+}
+
 template <int W>
 GEARPOD_INLINE void filter_channel(const double* __restrict m, const double* __restrict u0,
                                    const double* __restrict u1, const double* __restrict u2,
@@ -81,18 +95,16 @@ GEARPOD_INLINE void filter_channel(const double* __restrict m, const double* __r
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
         const double x = f[l], dx = f[W + l], y = f[2 * W + l], dy = f[3 * W + l];
-        const auto input = [&](int i) {
-            return std::fma(m[(kFilterInput + i) * W + l], u0[l],
-                            std::fma(m[(kFilterInput + 4 + i) * W + l], u1[l],
-                                     m[(kFilterInput + 8 + i) * W + l] * u2[l]));
-        };
-        const auto section = [&](int at, double p, double dp, double sum) {
-            return std::fma(m[at * W + l], p, std::fma(m[(at + 1) * W + l], dp, sum));
-        };
-        f[l] = section(kFilterXX, x, dx, input(0));
-        f[W + l] = section(kFilterXX + 2, x, dx, input(1));
-        f[2 * W + l] = section(kFilterYX, x, dx, section(kFilterYY, y, dy, input(2)));
-        f[3 * W + l] = section(kFilterYX + 2, x, dx, section(kFilterYY + 2, y, dy, input(3)));
+        const double a = u0[l], b = u1[l], c = u2[l];
+        const double* lane = m + l;
+        f[l] = filter_row<W>(lane, kFilterXX, x, dx, filter_input<W>(lane, 0, a, b, c));
+        f[W + l] = filter_row<W>(lane, kFilterXX + 2, x, dx, filter_input<W>(lane, 1, a, b, c));
+        f[2 * W + l] = filter_row<W>(
+            lane, kFilterYX, x, dx,
+            filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(lane, 2, a, b, c)));
+        f[3 * W + l] = filter_row<W>(
+            lane, kFilterYX + 2, x, dx,
+            filter_row<W>(lane, kFilterYY + 2, y, dy, filter_input<W>(lane, 3, a, b, c)));
     }
 }
 
@@ -110,13 +122,13 @@ GEARPOD_INLINE void write_sample(const MarchPlan& plan, const TileState& state, 
     }
     const int degrees = Model::degrees_of_freedom(plan.layout.planets);
     const int stride = degrees == 3 + plan.layout.planets ? 1 : 3;  // between the u of two bodies
-    const double* u = state.q.data() + (stride - 1) * W;
+    const double* __restrict u = state.q.data() + (stride - 1) * W;
+    const double carrier = plan.te_weight[0], ring = plan.te_weight[1], sun = plan.te_weight[2];
+    double* __restrict te = record.te.data() + sample * W;
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        record.te[static_cast<std::size_t>(sample * W + l)] =
-            std::fma(plan.te_weight[0], u[l],
-                     std::fma(plan.te_weight[1], u[stride * W + l],
-                              plan.te_weight[2] * u[2 * stride * W + l]));
+        te[l] = std::fma(carrier, u[l],
+                         std::fma(ring, u[stride * W + l], sun * u[2 * stride * W + l]));
     }
     if (!record.motion.empty()) {
         std::copy_n(state.q.data(), degrees * W, record.motion.data() + sample * degrees * W);

@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -168,4 +169,22 @@ TEST_CASE("A simulated gearbox has the features that the ensemble found for its 
     const std::string from_run = values("r.h5", "-s 18,0 -c 1,5 ");
     CHECK(std::count(from_run.begin(), from_run.end(), ',') == 4);
     CHECK(values("s.h5", "") == from_run);
+}
+
+TEST_CASE("The C library's choice of elementary functions leaves no trace in the results") {
+    // As on a processor without fused multiply-adds, which the C library would serve otherwise.
+    const Folder folder;
+    const std::string run = "run " + study("planet-crack.toml") +
+                            " --quiet --instances 10 --set ensemble.threshold_instances=6 --out ";
+    CHECK(gearpod(run + folder.file("a.h5")).code == 0);
+    REQUIRE(setenv("GLIBC_TUNABLES",
+                   "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable", 1) ==
+            0);
+    CHECK(gearpod(run + folder.file("b.h5")).code == 0);
+    unsetenv("GLIBC_TUNABLES");
+    for (const char* group : {"/features", "/instances"}) {
+        const std::string command = "h5diff " + folder.file("a.h5") + " " + folder.file("b.h5") +
+                                    " " + group + " " + group;
+        CHECK(std::system(command.c_str()) == 0);
+    }
 }
