@@ -11,7 +11,8 @@ namespace gearpod::analysis {
 // Which side of the threshold raises the alarm.
 enum class Alarm { high, low };
 
-// One group of gearboxes whose fault sizes lie in [low_m, high_m]; both are equal for a fixed level.
+// One group of gearboxes whose fault sizes lie in [low_m, high_m]; both are equal for a fixed
+// level.
 struct SizeGroup {
     double low_m = 0.0;
     double high_m = 0.0;
@@ -20,20 +21,20 @@ struct SizeGroup {
 // Detections in one size group at one noise level.
 struct DetectionCell {
     SizeGroup size;
-    long tested = 0;    // gearboxes with a finite feature value
-    long detected = 0;  // of these, alarms
-    long failed = 0;    // gearboxes without a value (diverged, or the feature is not a number)
-    double pd = 0.0;    // detected / tested; NaN if none was tested
+    long tested = 0;     // gearboxes with a finite feature value
+    long detected = 0;   // of these, alarms
+    long failed = 0;     // gearboxes without a value (diverged, or the feature is not a number)
+    double pd = 0.0;     // detected / tested; NaN if none was tested
     double lower = 0.0;  // Wilson bounds at the confidence asked for
     double upper = 0.0;
 };
 
 // One feature at one noise level.
 struct LevelDetection {
-    double noise_level = 0.0;  // factor on the sensor and encoder noise
-    double threshold = 0.0;    // in the feature's unit; NaN if the sample was too small
-    long threshold_sample = 0;  // healthy gearboxes that set it
-    long threshold_alarms = 0;  // of these, how many lie beyond it
+    double noise_level = 0.0;          // factor on the sensor and encoder noise
+    double threshold = 0.0;            // in the feature's unit; NaN if the sample was too small
+    long threshold_sample = 0;         // healthy gearboxes that set it
+    long threshold_alarms = 0;         // of these, how many lie beyond it
     std::vector<DetectionCell> cells;  // ascending size
 };
 

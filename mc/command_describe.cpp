@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
@@ -10,24 +10,28 @@
 namespace gearpod::mc {
 namespace {
 
-void heading(const char* text) { fmt::print("\n{}\n", text); }
+void heading(const char* text) {
+    fmt::print("\n{}\n", text);
+}
 
-void entry(const char* name, const std::string& value) { fmt::print("  {:<26}{}\n", name, value); }
+void entry(const char* name, const std::string& value) {
+    fmt::print("  {:<26}{}\n", name, value);
+}
 
 void print_gearbox(const Scene& scene) {
     const auto& train = scene.train();
     heading("gearbox");
-    entry("teeth (sun/planet/ring)", fmt::format("{}/{}/{}, {} planets", train.sun_teeth,
-                                                 train.planet_teeth, train.ring_teeth,
-                                                 train.planets));
+    entry("teeth (sun/planet/ring)",
+          fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth, train.ring_teeth,
+                      train.planets));
     std::string sun, ring;
     for (int n = 0; n < train.planets; ++n) {
         sun += fmt::format(" {:.4g}", gears::sun_mesh_phase(train, n));
         ring += fmt::format(" {:.4g}", gears::ring_mesh_phase(train, n));
     }
     entry("mesh phases, sun", sun.substr(1));
-    entry("mesh phases, ring", ring.substr(1) + fmt::format("; ring to sun {:g}",
-                                                            gears::ring_to_sun_phase(train)));
+    entry("mesh phases, ring",
+          ring.substr(1) + fmt::format("; ring to sun {:g}", gears::ring_to_sun_phase(train)));
     const auto mesh = [&](const char* name, const stiffness::PairStiffness& pair) {
         entry(name, fmt::format("contact ratio {:.4f}, mean {:.4g} N/m", pair.contact_ratio(),
                                 pair.mean()));
@@ -48,7 +52,8 @@ void print_effects(const Study& study) {
     entry("transmission path",
           fmt::format("{} window, exponent {:g}", path[static_cast<int>(e.path)],
                       study.sensor.path_exponent));
-    entry("sensor low-pass", fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    entry("sensor low-pass",
+          fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
     if (e.inertial_terms && !torsional) {
         entry("inertial terms", "Coriolis and centrifugal, rigid rotation removed every mesh");
     }
@@ -64,12 +69,12 @@ void print_effects(const Study& study) {
     const bool sensor_noise = study.sensor.noise_m_s2 > 0.0;
     const bool encoder_noise = study.sensor.encoder_noise_rad > 0.0;
     if (sensor_noise) {
-        entry("sensor noise", fmt::format("{:g} m/s^2 rms times the noise level",
-                                          study.sensor.noise_m_s2));
+        entry("sensor noise",
+              fmt::format("{:g} m/s^2 rms times the noise level", study.sensor.noise_m_s2));
     }
     if (encoder_noise) {
-        entry("encoder noise", fmt::format("{:.4g} rad rms times the noise level",
-                                           study.sensor.encoder_noise_rad));
+        entry("encoder noise",
+              fmt::format("{:.4g} rad rms times the noise level", study.sensor.encoder_noise_rad));
     }
     heading("left out");
     if (torsional) {
@@ -111,14 +116,13 @@ void print_cost(const Scene& scene) {
     const auto& plan = scene.plan();
     heading("cost");
     entry("degrees of freedom", std::to_string(plan.layout.degrees_of_freedom()));
-    entry("samples a mesh period", fmt::format("{} (sensor), {} (encoders)",
-                                               scene.samples_per_mesh(),
-                                               scene.te_samples_per_mesh()));
-    entry("sampling rate", fmt::format("{:.1f} Hz",
-                                       scene.samples_per_mesh() * scene.nominal_mesh_frequency_Hz()));
-    entry("steps a mesh period",
-          fmt::format("{} ({} are the least that are stable)", plan.grid.steps.size(),
-                      scene.stable_steps()));
+    entry("samples a mesh period",
+          fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
+                      scene.te_samples_per_mesh()));
+    entry("sampling rate",
+          fmt::format("{:.1f} Hz", scene.samples_per_mesh() * scene.nominal_mesh_frequency_Hz()));
+    entry("steps a mesh period", fmt::format("{} ({} are the least that are stable)",
+                                             plan.grid.steps.size(), scene.stable_steps()));
     entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
                                               marched_meshes(scene), scene.span_meshes()));
     const long rows = study.ensemble.instances + study.ensemble.threshold_instances;
@@ -131,18 +135,20 @@ void print_cost(const Scene& scene) {
     const double seconds = static_cast<double>(rows) * marched_meshes(scene) *
                            static_cast<double>(plan.grid.steps.size()) * step_s * 1.3 /
                            thread_count(study);
-    entry("estimated time", fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})",
-                                        std::ceil(seconds), thread_count(study),
-                                        lockstep::name(lockstep::active_instruction_set())));
-    const double mesh_bytes = 8.0 * scene.samples_per_mesh() * study.numerics.lanes *
-                              (2.0 * scene.train().planets + 1.0);
-    const double rows_bytes = 8.0 * static_cast<double>(rows) *
-                              static_cast<double>(used_features(study).size() *
-                                                  study.sensor.noise_levels.size() +
-                                                  study.random.size() + 3);
-    entry("estimated memory",
-          fmt::format("{:.0f} MB", (mesh_bytes * marched_meshes(scene) * thread_count(study) +
-                                    rows_bytes) / 1e6 + 10.0));
+    entry("estimated time",
+          fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),
+                      thread_count(study), machine::name(machine::active_instruction_set())));
+    const double mesh_bytes =
+        8.0 * scene.samples_per_mesh() * study.numerics.lanes * (2.0 * scene.train().planets + 1.0);
+    const double rows_bytes =
+        8.0 * static_cast<double>(rows) *
+        static_cast<double>(used_features(study).size() * study.sensor.noise_levels.size() +
+                            study.random.size() + 3);
+    entry(
+        "estimated memory",
+        fmt::format(
+            "{:.0f} MB",
+            (mesh_bytes * marched_meshes(scene) * thread_count(study) + rows_bytes) / 1e6 + 10.0));
 }
 
 }  // namespace

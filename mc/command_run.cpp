@@ -58,10 +58,9 @@ void print_failures(const Results& results) {
 
 int run_command(const RunOptions& options) {
     const auto start = Clock::now();
-    const std::string out =
-        options.out.empty()
-            ? std::filesystem::path(options.study.path).stem().string() + ".h5"
-            : options.out;
+    const std::string out = options.out.empty()
+                                ? std::filesystem::path(options.study.path).stem().string() + ".h5"
+                                : options.out;
     const auto scene = load_scene(options.study);
     const bool writable = can_write(out);
     if (!scene || !writable) {
@@ -72,8 +71,7 @@ int run_command(const RunOptions& options) {
         fmt::print(stderr, "{}: {}\n", options.study.path, study.title);
     }
     const double setup = seconds_since(start);
-    Progress progress(study.ensemble.instances + study.ensemble.threshold_instances,
-                      options.quiet);
+    Progress progress(study.ensemble.instances + study.ensemble.threshold_instances, options.quiet);
     Results results = run_ensemble(*scene, progress);
     progress.finish();
 

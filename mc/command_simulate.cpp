@@ -35,8 +35,9 @@ struct Simulation {
 
 GearboxId id_of_row(const Study& study, long row) {
     const long thresholds = study.ensemble.threshold_instances;
-    return row < thresholds ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
-                            : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
+    return row < thresholds
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
 }
 
 std::vector<std::string> motion_names(const dynamics::PlanetaryLayout& layout) {
@@ -88,9 +89,8 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
                 const InstanceFeatures& features, const GearboxId& id, std::size_t rows,
                 Simulation& out) {
     const InstanceInputs& inputs = tile.inputs[0];
-    const auto clean =
-        signals::synthesize(tile.views, 0, tile.march.content, span_layout(scene), path,
-                            inputs.path_exponent, 0, scene.span_meshes());
+    const auto clean = signals::synthesize(tile.views, 0, tile.march.content, span_layout(scene),
+                                           path, inputs.path_exponent, 0, scene.span_meshes());
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };

@@ -73,9 +73,10 @@ std::string csv_text(const Scene& scene, int points) {
 
 void print_summary(const Scene& scene) {
     const auto show = [](const char* name, const stiffness::PairStiffness& curve) {
-        fmt::print("{}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
-                   "engagement\n",
-                   name, curve.contact_ratio(), curve.mean(), curve.pitch_position());
+        fmt::print(
+            "{}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
+            "engagement\n",
+            name, curve.contact_ratio(), curve.mean(), curve.pitch_position());
     };
     show("sun-planet ", scene.sun_planet());
     show("ring-planet", scene.ring_planet());

@@ -5,7 +5,7 @@
 #include <exception>
 #include <span>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "mc/atomic_file.hpp"
 
 namespace gearpod::mc {
@@ -14,20 +14,22 @@ namespace {
 void choose_instruction_set(InstructionSet set) {
     switch (set) {
         case InstructionSet::baseline:
-            return lockstep::use_instruction_set(lockstep::InstructionSet::baseline);
+            return machine::use_instruction_set(machine::InstructionSet::baseline);
         case InstructionSet::x86_64_v3:
-            return lockstep::use_instruction_set(lockstep::InstructionSet::x86_64_v3);
+            return machine::use_instruction_set(machine::InstructionSet::x86_64_v3);
         case InstructionSet::x86_64_v4:
-            return lockstep::use_instruction_set(lockstep::InstructionSet::x86_64_v4);
+            return machine::use_instruction_set(machine::InstructionSet::x86_64_v4);
         case InstructionSet::automatic:
             break;
     }
-    lockstep::use_instruction_set(lockstep::best_instruction_set());
+    machine::use_instruction_set(machine::best_instruction_set());
 }
 
 }  // namespace
 
-void print_problems(const Problems& problems) { fmt::print(stderr, "{}", format(problems)); }
+void print_problems(const Problems& problems) {
+    fmt::print(stderr, "{}", format(problems));
+}
 
 std::optional<Study> load_study(const StudyOptions& options) {
     StudyReading reading = read_study(options.path, options.overrides);

@@ -74,12 +74,10 @@ class EnsembleRun {
             std::rethrow_exception(failure);
         }
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        results_.timing = {{"sampling_thread_s", total_.sampling},
-                           {"stiffness_thread_s", total_.stiffness},
-                           {"march_thread_s", total_.march},
-                           {"signals_thread_s", total_.signals},
-                           {"features_thread_s", total_.features},
-                           {"ensemble_s", wall.count()}};
+        results_.timing = {
+            {"sampling_thread_s", total_.sampling}, {"stiffness_thread_s", total_.stiffness},
+            {"march_thread_s", total_.march},       {"signals_thread_s", total_.signals},
+            {"features_thread_s", total_.features}, {"ensemble_s", wall.count()}};
         return std::move(results_);
     }
 
@@ -126,8 +124,7 @@ class EnsembleRun {
             write_row(first + lane, ids[lane], tile, static_cast<int>(lane), features);
         }
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-        seconds += {tile.sampling_s, tile.stiffness_s, tile.march_s, tile.signals_s,
-                    spent.count()};
+        seconds += {tile.sampling_s, tile.stiffness_s, tile.march_s, tile.signals_s, spent.count()};
         progress_.advance(static_cast<long>(count));
     }
 
@@ -145,17 +142,19 @@ class EnsembleRun {
         std::vector<double> values(results_.features.size() * levels,
                                    std::numeric_limits<double>::quiet_NaN());
         if (status == lockstep::LaneStatus::ok) {
-            std::vector<double> folded(tile.folded.size() / static_cast<std::size_t>(tile.views.lanes));
-            std::vector<double> te(tile.te_turn.size() / static_cast<std::size_t>(tile.views.lanes));
+            std::vector<double> folded(tile.folded.size() /
+                                       static_cast<std::size_t>(tile.views.lanes));
+            std::vector<double> te(tile.te_turn.size() /
+                                   static_cast<std::size_t>(tile.views.lanes));
             signals::copy_lane(tile.folded, tile.views.lanes, lane, folded);
             signals::copy_lane(tile.te_turn, tile.views.lanes, lane, te);
             values = features.compute(folded, te, tile.inputs[static_cast<std::size_t>(lane)],
                                       id.group, id.index);
         }
         for (std::size_t f = 0; f < results_.features.size(); ++f) {
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * levels), levels,
-                        results_.features[f].values.begin() +
-                            static_cast<std::ptrdiff_t>(row * levels));
+            std::copy_n(
+                values.begin() + static_cast<std::ptrdiff_t>(f * levels), levels,
+                results_.features[f].values.begin() + static_cast<std::ptrdiff_t>(row * levels));
         }
     }
 

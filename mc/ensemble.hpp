@@ -1,4 +1,5 @@
-// The whole ensemble: every gearbox's features, in the order of the gearboxes whatever computed them.
+// The whole ensemble: every gearbox's features, in the order of the gearboxes whatever computed
+// them.
 #pragma once
 
 #include "mc/progress.hpp"

@@ -48,15 +48,14 @@ template <int W>
 void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
     auto start = Clock::now();
     std::vector<dynamics::PlanetaryInputs> inputs;
-    lockstep::FaultCurves faults{&scene.pairs(), scene.plan().layout.mesh_damping, scene.pattern(),
-                                 {}};
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));
         faults.cracked.push_back(scene.cracked_tooth(instance.fault_depth_m));
     }
     tile.stiffness_s = lap(start);
-    tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults,
-                                       tile_settings(scene, with_motion));
+    tile.march =
+        lockstep::run_tile<W>(scene.plan(), inputs, faults, tile_settings(scene, with_motion));
     tile.march_s = lap(start);
 }
 
@@ -67,9 +66,8 @@ signals::PathGrid path_grid(const Scene& scene) {
             scene.samples_per_mesh(), span_layout(scene)};
 }
 
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler,
-                          const signals::PathGrid& path, std::span<const GearboxId> ids, int lanes,
-                          bool with_motion) {
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int lanes, bool with_motion) {
     auto start = Clock::now();
     GearboxTile tile;
     for (const GearboxId& id : ids) {

@@ -23,8 +23,8 @@ struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
     lockstep::TileResult march;
     signals::TileSignals views;
-    lockstep::AlignedVector folded;   // [bin][lane], (m/s^2)^2
-    lockstep::AlignedVector te_turn;  // [sample][lane], rad
+    machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2
+    machine::AlignedVector te_turn;  // [sample][lane], rad
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
 };
@@ -33,8 +33,7 @@ struct GearboxTile {
 signals::PathGrid path_grid(const Scene& scene);
 
 // Runs the gearboxes in `ids` (1 of 1 lane, up to 8 of 8 lanes; missing lanes repeat the last one).
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler,
-                          const signals::PathGrid& path, std::span<const GearboxId> ids, int lanes,
-                          bool with_motion = false);
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int lanes, bool with_motion = false);
 
 }  // namespace gearpod::mc

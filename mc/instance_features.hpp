@@ -37,8 +37,8 @@ class InstanceFeatures {
   public:
     explicit InstanceFeatures(const Scene& scene);
 
-    // Values of all used features: [feature * noise levels + level]. `folded`: Z_p P bins of squared
-    // sensor signal; `te_turn`: Z_p P_te samples of averaged TE, rad.
+    // Values of all used features: [feature * noise levels + level]. `folded`: Z_p P bins of
+    // squared sensor signal; `te_turn`: Z_p P_te samples of averaged TE, rad.
     std::vector<double> compute(std::span<const double> folded, std::span<const double> te_turn,
                                 const InstanceInputs& inputs, Group group, std::uint64_t instance);
 

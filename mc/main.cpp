@@ -43,14 +43,16 @@ bool is_command(CLI::App& app, const std::string& name) {
 }
 
 int run_program(int argc, char** argv) {
-    CLI::App app{"gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
-                 "found, and how surely?"};
+    CLI::App app{
+        "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
+        "found, and how surely?"};
     app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
     int code = kDone;
 
     RunOptions run;
-    auto* run_app = app.add_subcommand("run", "simulate the whole study and report detection rates");
+    auto* run_app =
+        app.add_subcommand("run", "simulate the whole study and report detection rates");
     add_study(*run_app, run.study);
     add_shorthand(*run_app, "--instances", "ensemble.instances", "gearboxes over all fault sizes",
                   run.study);

@@ -42,9 +42,8 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     const double rate = static_cast<double>(done_) / elapsed;
     const double left = static_cast<double>(total_ - done_) / rate;
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
-    const std::string numbers =
-        fmt::format("{} of {} gearboxes, {:.0f} a second, {} left", done_, total_, rate,
-                    duration_text(left));
+    const std::string numbers = fmt::format("{} of {} gearboxes, {:.0f} a second, {} left", done_,
+                                            total_, rate, duration_text(left));
     if (terminal_) {
         constexpr int kWidth = 30;
         const int filled = static_cast<int>(share * kWidth);

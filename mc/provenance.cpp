@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "gearpod_version.hpp"
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "mc/ensemble.hpp"
 
 namespace gearpod::mc {
@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const Study& study) 
     return {{"code_version", GEARPOD_VERSION},
             {"git_hash", GEARPOD_GIT_HASH},
             {"compiler", "gcc " __VERSION__},
-            {"instruction_set", std::string(lockstep::name(lockstep::active_instruction_set()))},
+            {"instruction_set", std::string(machine::name(machine::active_instruction_set()))},
             {"study", resolved_text(study)},
             {"seed", std::to_string(study.ensemble.seed)},
             {"ranks", "1"},

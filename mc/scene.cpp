@@ -9,6 +9,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/step_limit.hpp"
+#include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -38,19 +39,12 @@ gears::Member turning_member(Member member) {
     }
 }
 
-gears::Gear make_gear(const Gearbox& gearbox, int teeth, bool internal) {
-    return {teeth,
-            internal,
-            *gearbox.module_m,
-            gearbox.pressure_angle_rad,
-            gearbox.addendum_coefficient,
-            gearbox.dedendum_coefficient};
+double fraction(double x) {
+    return x - std::floor(x);
 }
 
-double fraction(double x) { return x - std::floor(x); }
-
-// The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a whole
-// planet turn stay fast.
+// The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
+// whole planet turn stay fast.
 int round_up_to_smooth(int least) {
     for (int n = std::max(least, 1);; ++n) {
         int rest = n;
@@ -72,11 +66,12 @@ Problems scene_problems(const Scene& scene, const std::string& path) {
     if (steps == 0 || steps >= scene.stable_steps()) {
         return {};
     }
-    return {{path, 0, "numerics.steps_per_mesh",
-             fmt::format("{} steps are too few (the explicit Runge-Kutta method is unstable below {} "
-                         "for this study's stiffest gearbox)",
-                         steps, scene.stable_steps()),
-             "leave the key out to have the steps chosen"}};
+    return {
+        {path, 0, "numerics.steps_per_mesh",
+         fmt::format("{} steps are too few (the explicit Runge-Kutta method is unstable below {} "
+                     "for this study's stiffest gearbox)",
+                     steps, scene.stable_steps()),
+         "leave the key out to have the steps chosen"}};
 }
 
 dynamics::PlanetaryLayout layout(const Study& study) {
@@ -129,15 +124,14 @@ dynamics::PlanetaryInputs body_inputs(const InstanceInputs& in) {
     return out;
 }
 
-Scene::Scene(const Study& study)
-    : study_(study), speed_member_(Sampler(study).speed_member()) {
+Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).speed_member()) {
     const Gearbox& g = study_.gearbox;
     if (!g.has_teeth() || !g.module_m) {
         throw std::invalid_argument("a scene needs tooth numbers and a module");
     }
     train_ = {*g.sun_teeth, *g.planet_teeth, *g.ring_teeth, g.planets};
-    sun_radius_ = make_gear(g, train_.sun_teeth, false).base_radius();
-    ring_radius_ = make_gear(g, train_.ring_teeth, true).base_radius();
+    sun_radius_ = gear_of(g, Member::sun).base_radius();
+    ring_radius_ = gear_of(g, Member::ring).base_radius();
     plan_.layout = layout(study_);
     carrier_radius_ = plan_.layout.carrier_radius_m;
 
@@ -160,9 +154,9 @@ void Scene::build_pairs() {
         const auto profile = g.tooth_profile == ToothProfile::root_circle
                                  ? stiffness::Profile::root_circle
                                  : stiffness::Profile::base_circle;
-        const gears::Gear sun = make_gear(g, train_.sun_teeth, false);
-        const gears::Gear planet = make_gear(g, train_.planet_teeth, false);
-        const gears::Gear ring = make_gear(g, train_.ring_teeth, true);
+        const gears::Gear sun = gear_of(g, Member::sun);
+        const gears::Gear planet = gear_of(g, Member::planet);
+        const gears::Gear ring = gear_of(g, Member::ring);
         const gears::MeshGeometry sun_planet(sun, planet), ring_planet(planet, ring);
         sun_planet_.emplace(sun_planet, material, profile);
         ring_planet_.emplace(ring_planet, material, profile);
@@ -170,9 +164,8 @@ void Scene::build_pairs() {
         if (f.kind == FaultKind::crack) {
             const bool on_sun_mesh =
                 f.member == Member::sun || (f.member == Member::planet && f.side == Member::sun);
-            const int gear = f.member == Member::sun || (f.member == Member::planet && !on_sun_mesh)
-                                 ? 1
-                                 : 2;
+            const int gear =
+                f.member == Member::sun || (f.member == Member::planet && !on_sun_mesh) ? 1 : 2;
             cracked_.emplace(on_sun_mesh ? sun_planet : ring_planet, material, profile, gear,
                              f.angle_rad);
         }
@@ -190,8 +183,8 @@ void Scene::build_pairs() {
     }
 }
 
-// A cracked planet tooth meets the same gear every Z_p meshes; a sun tooth meets the next planet every
-// Z_s / N meshes, a ring tooth every Z_r / N.
+// A cracked planet tooth meets the same gear every Z_p meshes; a sun tooth meets the next planet
+// every Z_s / N meshes, a ring tooth every Z_r / N.
 void Scene::build_pattern() {
     const Fault& f = study_.fault;
     if (f.kind == FaultKind::none) {
@@ -242,9 +235,9 @@ std::vector<double> Scene::stiffest_pairs() const {
     return k;
 }
 
-// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. A pilot of
-// the ensemble, the same for every run of the study, stands for the rest; the margin covers what the
-// pilot misses, and a gearbox beyond it is reported as diverged.
+// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. A pilot
+// of the ensemble, the same for every run of the study, stands for the rest; the margin covers what
+// the pilot misses, and a gearbox beyond it is reported as diverged.
 int Scene::choose_steps() {
     constexpr int kPilot = 32;
     constexpr double kMargin = 1.2;
@@ -277,15 +270,16 @@ void Scene::build_plan() {
     while (samples % te_samples_ != 0) {
         ++te_samples_;
     }
-    plan_.grid = lockstep::make_phase_grid(samples, choose_steps(),
-                                           lockstep::contact_transitions(pairs_));
+    plan_.grid =
+        lockstep::make_phase_grid(samples, choose_steps(), lockstep::contact_transitions(pairs_));
     plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, plan_.layout.mesh_damping);
     plan_.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
     set_te_weights();
 }
 
 // Park et al. (2016), Eq. 8: input rotation less output rotation times their ratio; each operating
-// condition and its reverse. Weights of the rotations of carrier, ring and sun, then per u = r theta.
+// condition and its reverse. Weights of the rotations of carrier, ring and sun, then per u = r
+// theta.
 void Scene::set_te_weights() {
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
     double carrier = 0.0, ring = 0.0, sun = 0.0;
@@ -340,6 +334,8 @@ std::optional<stiffness::CrackedToothCurve> Scene::cracked_tooth(double depth_m)
     return cracked_->at(depth_m);
 }
 
-double Scene::max_depth_m() const { return cracked_ ? cracked_->max_depth() : 0.0; }
+double Scene::max_depth_m() const {
+    return cracked_ ? cracked_->max_depth() : 0.0;
+}
 
 }  // namespace gearpod::mc

@@ -38,8 +38,8 @@ class Scene {
     int samples_per_mesh() const { return plan_.grid.samples; }
     int te_samples_per_mesh() const { return te_samples_; }
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
-    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot sample,
-    // and mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e.
+    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot
+    // sample, and mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e.
     int stable_steps() const { return stable_steps_; }
     double decay_meshes() const { return decay_meshes_; }
     // All pairs at their stiffest: the bound for the integrator's step.

@@ -63,7 +63,9 @@ PlanetaryMatrices reduce(const PlanetaryMatrices& full, const Eigen::MatrixXd& t
 
 }  // namespace
 
-double PlanetaryLayout::planet_angle(int n) const { return 2.0 * pi * n / planets; }
+double PlanetaryLayout::planet_angle(int n) const {
+    return 2.0 * pi * n / planets;
+}
 
 Body held_body(gears::FixedMember fixed) {
     switch (fixed) {
@@ -196,8 +198,8 @@ Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
 
 Eigen::VectorXd static_equilibrium(const PlanetaryMatrices& matrices) {
     // The complete orthogonal decomposition gives the least-norm solution, which leaves the rigid
-    // rotation, the null vector of a free gearbox, at zero. Rows are balanced first: the scale of the
-    // diagonal keeps soft and stiff motions above the rank threshold.
+    // rotation, the null vector of a free gearbox, at zero. Rows are balanced first: the scale of
+    // the diagonal keeps soft and stiff motions above the rank threshold.
     const Eigen::MatrixXd k = matrices.stiffness + matrices.centrifugal;
     return k.completeOrthogonalDecomposition().solve(matrices.force);
 }
@@ -210,7 +212,7 @@ std::vector<double> natural_frequencies_Hz(const PlanetaryMatrices& matrices) {
     for (const double value : solver.eigenvalues()) {
         // A rigid rotation comes out as rounding noise of either sign.
         frequencies.push_back(std::abs(value) < 1e-10 * largest ? 0.0
-                                                               : std::sqrt(value) / (2.0 * pi));
+                                                                : std::sqrt(value) / (2.0 * pi));
     }
     return frequencies;
 }

@@ -1,7 +1,7 @@
 // Planetary gearbox with 9 + 3N degrees of freedom, as mass, damping and stiffness matrices.
 //
-// Order of the motions q: carrier, ring, sun, planets 1..N; each x, y (m, in the frame that turns with
-// the carrier) and u = r theta (m; r the base radius, for the carrier the centre distance).
+// Order of the motions q: carrier, ring, sun, planets 1..N; each x, y (m, in the frame that turns
+// with the carrier) and u = r theta (m; r the base radius, for the carrier the centre distance).
 // Every spring-damper is one row v of the deflection d = v . q; it adds k v v^T and c v v^T.
 // Lin and Parker (1999); Liang (2016), Eqs. 4.2.1-4.2.4 in this energy-consistent form.
 #pragma once
@@ -22,7 +22,9 @@ enum class MeshDamping { ratio, proportional, constant };
 enum Body { carrier, ring, sun, planet, body_count };
 
 // Index of a body's x motion; y and u follow. n = 0..N-1 for planets.
-inline int motion_index(Body body, int n = 0) { return 3 * (body + n); }
+inline int motion_index(Body body, int n = 0) {
+    return 3 * (body + n);
+}
 
 // What all gearboxes of an ensemble share.
 struct PlanetaryLayout {
@@ -36,9 +38,7 @@ struct PlanetaryLayout {
 
     int pairs() const { return 2 * planets; }
     int motions() const { return 9 + 3 * planets; }
-    int degrees_of_freedom() const {
-        return motion == Motion::torsional ? 3 + planets : motions();
-    }
+    int degrees_of_freedom() const { return motion == Motion::torsional ? 3 + planets : motions(); }
     double planet_angle(int n) const;  // psi_n, rad
 };
 
@@ -61,7 +61,8 @@ Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd planet_bearing_row(const PlanetaryLayout& layout, int n, int axis);
 
-// M q'' + (C + G) q' + (K + K_inertial) q = f at given stiffness of the 2N pairs (sp1..spN, rp1..rpN).
+// M q'' + (C + G) q' + (K + K_inertial) q = f at given stiffness of the 2N pairs (sp1..spN,
+// rp1..rpN).
 struct PlanetaryMatrices {
     Eigen::MatrixXd mass, damping, stiffness, gyroscopic, centrifugal;
     Eigen::VectorXd force;
@@ -75,13 +76,15 @@ PlanetaryMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs&
 // The member that `fixed` names.
 Body held_body(gears::FixedMember fixed);
 
-// Damping of one pair: 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.
+// Damping of one pair: 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22)
+// or c.
 double pair_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair,
                     double stiffness_N_m);
 
-// The motion that deflects nothing: the train turning freely past its held member. It is neutral in a
-// real gearbox. The linearised centrifugal term W^2 x lets it grow at a rate near W, since the linear
-// model lacks the turn of the bearing pull that cancels it; so the march removes it (lockstep/tile).
+// The motion that deflects nothing: the train turning freely past its held member. It is neutral in
+// a real gearbox. The linearised centrifugal term W^2 x lets it grow at a rate near W, since the
+// linear model lacks the turn of the bearing pull that cancels it; so the march removes it
+// (lockstep/tile).
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout);
 
 // Displacements at rest under the load; the free rigid rotation, if any, is left at zero.

@@ -33,7 +33,8 @@ struct alignas(64) PlanetaryLanes {
 
 // `inputs` holds W gearboxes.
 template <int W>
-PlanetaryLanes<W> make_lanes(const PlanetaryLayout& layout, std::span<const PlanetaryInputs> inputs);
+PlanetaryLanes<W> make_lanes(const PlanetaryLayout& layout,
+                             std::span<const PlanetaryInputs> inputs);
 
 extern template PlanetaryLanes<1> make_lanes<1>(const PlanetaryLayout&,
                                                 std::span<const PlanetaryInputs>);

@@ -1,6 +1,7 @@
 // Lockstep accelerations of the rotations alone, 3 + N: carrier, ring, sun, planets 1..N.
-// Bearings are rigid, so a planet rides on the carrier: x_n = -u_c sin psi_n, y_n = u_c cos psi_n, and
-// both meshes see -u_c cos(alpha). The planets' masses count in the carrier's inertia (make_lanes).
+// Bearings are rigid, so a planet rides on the carrier: x_n = -u_c sin psi_n, y_n = u_c cos psi_n,
+// and both meshes see -u_c cos(alpha). The planets' masses count in the carrier's inertia
+// (make_lanes).
 #pragma once
 
 #include <cmath>
@@ -15,10 +16,9 @@ struct TorsionalMotion {
     static constexpr int degrees_of_freedom(int planets) { return 3 + planets; }
 
     // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane]; k, c: [pair][lane].
-    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p,
-                                             const double* __restrict q, const double* __restrict v,
-                                             const double* __restrict k, const double* __restrict c,
-                                             double* __restrict a) {
+    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
+                                             const double* __restrict v, const double* __restrict k,
+                                             const double* __restrict c, double* __restrict a) {
         for (int body = 0; body < 3; ++body) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -58,12 +58,10 @@ struct TorsionalMotion {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double u = q[o + l], vu = v[o + l];
-            const double f_sun =
-                spring_damper(k_sun[l], std::fma(-q[l], ca, q[2 * W + l] + u), c_sun[l],
-                              std::fma(-v[l], ca, v[2 * W + l] + vu));
-            const double f_ring =
-                spring_damper(k_ring[l], std::fma(-q[l], ca, q[W + l] - u), c_ring[l],
-                              std::fma(-v[l], ca, v[W + l] - vu));
+            const double f_sun = spring_damper(k_sun[l], std::fma(-q[l], ca, q[2 * W + l] + u),
+                                               c_sun[l], std::fma(-v[l], ca, v[2 * W + l] + vu));
+            const double f_ring = spring_damper(k_ring[l], std::fma(-q[l], ca, q[W + l] - u),
+                                                c_ring[l], std::fma(-v[l], ca, v[W + l] - vu));
             f[l] = std::fma(f_sun + f_ring, ca, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;

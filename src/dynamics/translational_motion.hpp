@@ -20,10 +20,9 @@ struct TranslationalMotion {
     static constexpr int degrees_of_freedom(int planets) { return 9 + 3 * planets; }
 
     // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane]; k, c: [pair][lane].
-    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p,
-                                             const double* __restrict q, const double* __restrict v,
-                                             const double* __restrict k, const double* __restrict c,
-                                             double* __restrict a) {
+    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
+                                             const double* __restrict v, const double* __restrict k,
+                                             const double* __restrict c, double* __restrict a) {
         for (int body = 0; body < 3; ++body) {
             central_bearing(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
         }
@@ -57,10 +56,9 @@ struct TranslationalMotion {
             const double c = p.bearing_damping[body][l];
             f[l] = -spring_damper(k, q[l], c, v[l]);
             f[W + l] = -spring_damper(k, q[W + l], c, v[W + l]);
-            f[2 * W + l] = p.force[body][l] - spring_damper(p.support_stiffness[body][l],
-                                                            q[2 * W + l],
-                                                            p.support_damping[body][l],
-                                                            v[2 * W + l]);
+            f[2 * W + l] =
+                p.force[body][l] - spring_damper(p.support_stiffness[body][l], q[2 * W + l],
+                                                 p.support_damping[body][l], v[2 * W + l]);
         }
     }
 
@@ -80,13 +78,10 @@ struct TranslationalMotion {
 
     // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
     // the forces on carrier, ring and sun.
-    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
-                                             const double* __restrict q, const double* __restrict v,
-                                             const double* __restrict k_sun,
-                                             const double* __restrict c_sun,
-                                             const double* __restrict k_ring,
-                                             const double* __restrict c_ring,
-                                             double* __restrict f) {
+    static GEARPOD_INLINE void planet_forces(
+        const PlanetaryLanes<W>& p, int n, const double* __restrict q, const double* __restrict v,
+        const double* __restrict k_sun, const double* __restrict c_sun,
+        const double* __restrict k_ring, const double* __restrict c_ring, double* __restrict f) {
         const int o = (9 + 3 * n) * W;
         const double cs = p.cos_sun[n], ss = p.sin_sun[n];
         const double cr = p.cos_ring[n], sr = p.sin_ring[n];
@@ -127,12 +122,12 @@ struct TranslationalMotion {
 
             const double w = p.speed[l];
             const double pull = p.centrifugal[l];
-            f[o + l] = std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)),
-                                p.inverse_mass[planet][l],
-                                InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
-            f[o + W + l] = std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)),
-                                    p.inverse_mass[planet][l],
-                                    InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
+            f[o + l] =
+                std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)), p.inverse_mass[planet][l],
+                         InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
+            f[o + W + l] =
+                std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)), p.inverse_mass[planet][l],
+                         InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
             f[o + 2 * W + l] = (f_ring - f_sun) * p.inverse_inertia[planet][l];
         }
     }

@@ -3,9 +3,10 @@
 namespace gearpod::lockstep {
 
 template <int W>
-AlignedVector filter_coefficients(const MarchPlan& plan, const dynamics::PlanetaryLanes<W>& lanes) {
+machine::AlignedVector filter_coefficients(const MarchPlan& plan,
+                                           const dynamics::PlanetaryLanes<W>& lanes) {
     const auto& lengths = plan.grid.lengths;
-    AlignedVector all(lengths.size() * kFilterCoefficients * W);
+    machine::AlignedVector all(lengths.size() * kFilterCoefficients * W);
     for (std::size_t kind = 0; kind < lengths.size(); ++kind) {
         for (int l = 0; l < W; ++l) {
             double coefficients[kFilterCoefficients];
@@ -19,10 +20,10 @@ AlignedVector filter_coefficients(const MarchPlan& plan, const dynamics::Planeta
     return all;
 }
 
-template AlignedVector filter_coefficients<1>(const MarchPlan&,
-                                              const dynamics::PlanetaryLanes<1>&);
-template AlignedVector filter_coefficients<8>(const MarchPlan&,
-                                              const dynamics::PlanetaryLanes<8>&);
+template machine::AlignedVector filter_coefficients<1>(const MarchPlan&,
+                                                       const dynamics::PlanetaryLanes<1>&);
+template machine::AlignedVector filter_coefficients<8>(const MarchPlan&,
+                                                       const dynamics::PlanetaryLanes<8>&);
 
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion) {
     const std::size_t rows = plan.samples() * static_cast<std::size_t>(lanes);

@@ -4,8 +4,8 @@
 #include "dynamics/effects/inertial_terms.hpp"
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
-#include "lockstep/dispatch.hpp"
 #include "lockstep/march.hpp"
+#include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -61,8 +61,7 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const PlanetaryLanes<W>& l
 // (x'' - 2 W y' - W^2 x, y'' + 2 W x' - W^2 y).
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void planet_accelerations(const PlanetaryLanes<W>& lanes, const double* q,
-                                         const double* v, const double* a,
-                                         double* __restrict out) {
+                                         const double* v, const double* a, double* __restrict out) {
     for (int n = 0; n < lanes.planets; ++n) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
@@ -74,12 +73,13 @@ GEARPOD_INLINE void planet_accelerations(const PlanetaryLanes<W>& lanes, const d
     }
 }
 
-// What the input at the step's start, middle and end adds to filter state `i`; m is one lane's column
-// of coefficients, W apart.
+// What the input at the step's start, middle and end adds to filter state `i`; m is one lane's
+// column of coefficients, W apart.
 template <int W>
 GEARPOD_INLINE double filter_input(const double* m, int i, double u0, double u1, double u2) {
-    return std::fma(m[(kFilterInput + i) * W], u0,
-                    std::fma(m[(kFilterInput + 4 + i) * W], u1, m[(kFilterInput + 8 + i) * W] * u2));
+    return std::fma(
+        m[(kFilterInput + i) * W], u0,
+        std::fma(m[(kFilterInput + 4 + i) * W], u1, m[(kFilterInput + 8 + i) * W] * u2));
 }
 
 // sum + m[at] p + m[at + 1] dp.
@@ -99,9 +99,9 @@ GEARPOD_INLINE void filter_channel(const double* __restrict m, const double* __r
         const double* lane = m + l;
         f[l] = filter_row<W>(lane, kFilterXX, x, dx, filter_input<W>(lane, 0, a, b, c));
         f[W + l] = filter_row<W>(lane, kFilterXX + 2, x, dx, filter_input<W>(lane, 1, a, b, c));
-        f[2 * W + l] = filter_row<W>(
-            lane, kFilterYX, x, dx,
-            filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(lane, 2, a, b, c)));
+        f[2 * W + l] =
+            filter_row<W>(lane, kFilterYX, x, dx,
+                          filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(lane, 2, a, b, c)));
         f[3 * W + l] = filter_row<W>(
             lane, kFilterYX + 2, x, dx,
             filter_row<W>(lane, kFilterYY + 2, y, dy, filter_input<W>(lane, 3, a, b, c)));
@@ -127,19 +127,19 @@ GEARPOD_INLINE void write_sample(const MarchPlan& plan, const TileState& state, 
     double* __restrict te = record.te.data() + sample * W;
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        te[l] = std::fma(carrier, u[l],
-                         std::fma(ring, u[stride * W + l], sun * u[2 * stride * W + l]));
+        te[l] =
+            std::fma(carrier, u[l], std::fma(ring, u[stride * W + l], sun * u[2 * stride * W + l]));
     }
     if (!record.motion.empty()) {
         std::copy_n(state.q.data(), degrees * W, record.motion.data() + sample * degrees * W);
     }
 }
 
-// Classical Runge-Kutta for q'' = a(q, q'): the stage positions and velocities follow from the stage
-// accelerations, so only those are kept.
+// Classical Runge-Kutta for q'' = a(q, q'): the stage positions and velocities follow from the
+// stage accelerations, so only those are kept.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void runge_kutta_step(const MarchPlan& plan, const PlanetaryLanes<W>& lanes,
-                                     const AlignedVector& filter,
+                                     const machine::AlignedVector& filter,
                                      const std::vector<PairOverride>& overrides, int i,
                                      TileState& state, Stages<W>& s) {
     const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
@@ -211,8 +211,9 @@ GEARPOD_INLINE void runge_kutta_step(const MarchPlan& plan, const PlanetaryLanes
 
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void march(const MarchPlan& plan, const PlanetaryLanes<W>& lanes,
-                          const AlignedVector& filter, const std::vector<PairOverride>& overrides,
-                          TileState& state, MeshRecord& record) {
+                          const machine::AlignedVector& filter,
+                          const std::vector<PairOverride>& overrides, TileState& state,
+                          MeshRecord& record) {
     Stages<W> stages;
     const int steps = static_cast<int>(plan.grid.steps.size());
     for (int i = 0; i < steps; ++i) {
@@ -227,23 +228,22 @@ GEARPOD_INLINE void march(const MarchPlan& plan, const PlanetaryLanes<W>& lanes,
 }  // namespace
 
 // One kernel for each composition of effects and each width.
-#define GEARPOD_MARCH(NAME, W, ...)                                                             \
-    GEARPOD_KERNEL(NAME,                                                                        \
-                   (const MarchPlan& plan, const PlanetaryLanes<W>& lanes,                      \
-                    const AlignedVector& filter, const std::vector<PairOverride>& overrides,    \
-                    TileState& state, MeshRecord& record),                                      \
-                   (plan, lanes, filter, overrides, state, record),                             \
-                   march<__VA_ARGS__>(plan, lanes, filter, overrides, state, record))
+#define GEARPOD_MARCH(NAME, W, ...)                                                        \
+    GEARPOD_KERNEL(                                                                        \
+        NAME,                                                                              \
+        (const MarchPlan& plan, const PlanetaryLanes<W>& lanes,                            \
+         const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides, \
+         TileState& state, MeshRecord& record),                                            \
+        (plan, lanes, filter, overrides, state, record),                                   \
+        march<__VA_ARGS__>(plan, lanes, filter, overrides, state, record))
 
 namespace kernels {
 GEARPOD_MARCH(translational_inertial_8, 8,
               dynamics::TranslationalMotion<dynamics::WithInertialTerms, 8>)
 GEARPOD_MARCH(translational_inertial_1, 1,
               dynamics::TranslationalMotion<dynamics::WithInertialTerms, 1>)
-GEARPOD_MARCH(translational_8, 8,
-              dynamics::TranslationalMotion<dynamics::WithoutInertialTerms, 8>)
-GEARPOD_MARCH(translational_1, 1,
-              dynamics::TranslationalMotion<dynamics::WithoutInertialTerms, 1>)
+GEARPOD_MARCH(translational_8, 8, dynamics::TranslationalMotion<dynamics::WithoutInertialTerms, 8>)
+GEARPOD_MARCH(translational_1, 1, dynamics::TranslationalMotion<dynamics::WithoutInertialTerms, 1>)
 GEARPOD_MARCH(torsional_8, 8, dynamics::TorsionalMotion<8>)
 GEARPOD_MARCH(torsional_1, 1, dynamics::TorsionalMotion<1>)
 }  // namespace kernels
@@ -251,7 +251,7 @@ GEARPOD_MARCH(torsional_1, 1, dynamics::TorsionalMotion<1>)
 #undef GEARPOD_MARCH
 
 void march_mesh_1(const MarchPlan& plan, const PlanetaryLanes<1>& lanes,
-                  const AlignedVector& filter, const std::vector<PairOverride>& overrides,
+                  const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
                   TileState& state, MeshRecord& record) {
     if (plan.layout.motion == dynamics::Motion::torsional) {
         kernels::torsional_1(plan, lanes, filter, overrides, state, record);
@@ -263,7 +263,7 @@ void march_mesh_1(const MarchPlan& plan, const PlanetaryLanes<1>& lanes,
 }
 
 void march_mesh_8(const MarchPlan& plan, const PlanetaryLanes<8>& lanes,
-                  const AlignedVector& filter, const std::vector<PairOverride>& overrides,
+                  const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
                   TileState& state, MeshRecord& record) {
     if (plan.layout.motion == dynamics::Motion::torsional) {
         kernels::torsional_8(plan, lanes, filter, overrides, state, record);

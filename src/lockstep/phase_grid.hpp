@@ -20,8 +20,9 @@ struct PhaseGrid {
     std::vector<double> lengths;  // distinct step lengths, mesh periods
 };
 
-// At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at `transitions`
-// (phases in [0, 1)). Throws std::invalid_argument for samples < 1 or steps_per_mesh < 1.
+// At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at
+// `transitions` (phases in [0, 1)). Throws std::invalid_argument for samples < 1 or steps_per_mesh
+// < 1.
 PhaseGrid make_phase_grid(int samples, int steps_per_mesh, std::span<const double> transitions);
 
 }  // namespace gearpod::lockstep

@@ -1,22 +1,23 @@
-// Low-pass of the sensor, integrated beside the motion: 4th-order Butterworth, two sections in series,
+// Low-pass of the sensor, integrated beside the motion: 4th-order Butterworth, two sections in
+// series,
 //   x'' + b1 w x' + w^2 x = w^2 input,   y'' + b2 w y' + w^2 y = w^2 x,   w = 2 pi f_cutoff,
-// b = 2 cos(pi/8), 2 cos(3 pi/8). One classical Runge-Kutta step is linear in the state (x, x', y, y')
-// and in the input at the step's start, middle and end; its coefficients are computed once per step
-// length and gearbox.
+// b = 2 cos(pi/8), 2 cos(3 pi/8). One classical Runge-Kutta step is linear in the state (x, x', y,
+// y') and in the input at the step's start, middle and end; its coefficients are computed once per
+// step length and gearbox.
 #pragma once
 
-#include "lockstep/lanes.hpp"
+#include "machine/lanes.hpp"
 
 namespace gearpod::lockstep {
 
 inline constexpr int kFilterStates = 4;  // x, x', y, y'; y is the output
 inline constexpr int kFilterOutput = 2;
 
-// Positions in one step's coefficients: the transition matrix without its zero block, then the input
-// columns (start, middle, end).
-inline constexpr int kFilterXX = 0;   // 2 x 2: x, x' from x, x'
-inline constexpr int kFilterYX = 4;   // 2 x 2: y, y' from x, x'
-inline constexpr int kFilterYY = 8;   // 2 x 2: y, y' from y, y'
+// Positions in one step's coefficients: the transition matrix without its zero block, then the
+// input columns (start, middle, end).
+inline constexpr int kFilterXX = 0;      // 2 x 2: x, x' from x, x'
+inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
+inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'
 inline constexpr int kFilterInput = 12;  // 3 x 4
 inline constexpr int kFilterCoefficients = 24;
 

@@ -8,7 +8,9 @@
 namespace gearpod::lockstep {
 namespace {
 
-double fraction(double x) { return x - std::floor(x); }
+double fraction(double x) {
+    return x - std::floor(x);
+}
 
 // Adds the stiffness of the tooth pair that began to engage at phase `start` to column `pair`.
 void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid,

@@ -12,8 +12,8 @@ namespace gearpod::lockstep {
 // Nodes of a step that the integrator's stages use: start (right limit), middle, end (left limit).
 inline constexpr int kStageNodes = 3;
 
-// A planetary train's 2N pairs: sp1..spN, rp1..rpN. Pair i's tooth pairs start engaging at the phases
-// start[i] + integer, in mesh periods since sp1 was at its pitch point.
+// A planetary train's 2N pairs: sp1..spN, rp1..rpN. Pair i's tooth pairs start engaging at the
+// phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
 struct PairSet {
     const stiffness::PairStiffness* sun_planet = nullptr;
     const stiffness::PairStiffness* ring_planet = nullptr;
@@ -37,9 +37,9 @@ struct StiffnessNodes {
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);
 
-// Position of one tooth pair at the stage nodes of every step of mesh `mesh` (an integer count of mesh
-// periods), in mesh periods since it began to engage at phase `start` (not reduced), clamped to
-// [0, contact_ratio]; `engaged` is the range of steps during which it is in contact.
+// Position of one tooth pair at the stage nodes of every step of mesh `mesh` (an integer count of
+// mesh periods), in mesh periods since it began to engage at phase `start` (not reduced), clamped
+// to [0, contact_ratio]; `engaged` is the range of steps during which it is in contact.
 struct ToothPositions {
     std::vector<double> tau;  // [step][stage node]
     int first_step = 0;

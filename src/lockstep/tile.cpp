@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/fault_schedule.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -14,14 +14,14 @@ namespace {
 constexpr double kDivergedMotion_m = 1.0;
 
 template <int W>
-void copy_lane(const AlignedVector& from, AlignedVector& to, int lane) {
+void copy_lane(const machine::AlignedVector& from, machine::AlignedVector& to, int lane) {
     for (std::size_t i = static_cast<std::size_t>(lane); i < from.size(); i += W) {
         to[i] = from[i];
     }
 }
 
 template <int W>
-double largest(const AlignedVector& values, int lane) {
+double largest(const machine::AlignedVector& values, int lane) {
     double result = 0.0;
     for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
         result = std::isfinite(values[i]) ? std::max(result, std::abs(values[i])) : INFINITY;
@@ -30,7 +30,8 @@ double largest(const AlignedVector& values, int lane) {
 }
 
 template <int W>
-double largest_difference(const AlignedVector& a, const AlignedVector& b, int lane) {
+double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b,
+                          int lane) {
     double result = 0.0;
     for (std::size_t i = static_cast<std::size_t>(lane); i < a.size(); i += W) {
         result = std::max(result, std::abs(a[i] - b[i]));
@@ -45,6 +46,7 @@ class TileMarch {
               const FaultCurves& faults, const TileSettings& settings)
         : plan_(plan),
           faults_(faults),
+          schedule_(plan, faults),
           settings_(settings),
           lanes_(dynamics::make_lanes<W>(plan.layout, inputs)),
           filter_(filter_coefficients<W>(plan, lanes_)) {
@@ -74,13 +76,14 @@ class TileMarch {
         turn_ = dynamics::rigid_rotation(plan_.layout);
         const std::vector<double> none(static_cast<std::size_t>(plan_.layout.pairs()), 0.0);
         for (int l = 0; l < W; ++l) {
-            const auto m = dynamics::assemble(plan_.layout, inputs[static_cast<std::size_t>(l)], none);
+            const auto m =
+                dynamics::assemble(plan_.layout, inputs[static_cast<std::size_t>(l)], none);
             const Eigen::VectorXd weighted = m.mass * turn_;
             turn_weight_[static_cast<std::size_t>(l)] = weighted / weighted.dot(turn_);
         }
     }
 
-    void remove_rigid_rotation(AlignedVector& motion) const {
+    void remove_rigid_rotation(machine::AlignedVector& motion) const {
         for (std::size_t l = 0; l < W; ++l) {
             double turned = 0.0;
             for (Eigen::Index d = 0; d < turn_.size(); ++d) {
@@ -156,13 +159,14 @@ class TileMarch {
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
-            for (AlignedVector* values : {&record.acceleration, &record.te, &record.motion}) {
+            for (machine::AlignedVector* values :
+                 {&record.acceleration, &record.te, &record.motion}) {
                 for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
                     (*values)[i] = NAN;
                 }
             }
         }
-        for (AlignedVector* values : {&orbit_.q, &orbit_.v, &orbit_.filter}) {
+        for (machine::AlignedVector* values : {&orbit_.q, &orbit_.v, &orbit_.filter}) {
             for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
                 (*values)[i] = 0.0;
             }
@@ -206,83 +210,10 @@ class TileMarch {
         state_ = orbit_;
     }
 
-    // Does a passage touch mesh k of the pattern (its own start, or carried over from the pattern
-    // before)? If so, `start` is where it began.
-    bool touches(const FaultPassage& passage, int k, double& start) const {
-        const double ratio = faults_.pairs->curve(passage.pair).contact_ratio();
-        for (const double from : {passage.start, passage.start - faults_.pattern.length}) {
-            if (from < k + 1 && from + ratio > k) {
-                start = from;
-                return true;
-            }
-        }
-        return false;
-    }
-
-    std::vector<PairOverride> overrides(int k) const {
-        std::vector<PairOverride> all;
-        double start = 0.0;
-        for (const FaultPassage& passage : faults_.pattern.passages) {
-            if (touches(passage, k, start)) {
-                all.push_back(make_override(passage.pair, k, start));
-            }
-        }
-        return all;
-    }
-
-    // The cracked tooth in place of the healthy one, lane by lane.
-    PairOverride make_override(int pair, int k, double start) const {
-        const auto& curve = faults_.pairs->curve(pair);
-        const ToothPositions at = tooth_positions(plan_.grid, k, start, curve.contact_ratio());
-        const auto first = static_cast<std::size_t>(at.first_step) * kStageNodes;
-        const auto count = static_cast<std::size_t>(at.last_step) * kStageNodes - first;
-        const auto tau = std::span(at.tau).subspan(first, count);
-        std::vector<double> healthy(count), cracked(count);
-        curve.tooth_pair(tau, healthy);
-
-        PairOverride o{pair, at.first_step, at.last_step, AlignedVector(count * W),
-                       AlignedVector(count * W)};
-        const auto column = [&](std::size_t i) {
-            return (first + i) * static_cast<std::size_t>(plan_.nodes.pairs) +
-                   static_cast<std::size_t>(pair);
-        };
-        for (std::size_t l = 0; l < W; ++l) {
-            if (!faults_.cracked[l]) {
-                for (std::size_t i = 0; i < count; ++i) {
-                    o.stiffness[i * W + l] = plan_.nodes.stiffness[column(i)];
-                    o.damping_shape[i * W + l] = plan_.nodes.damping_shape[column(i)];
-                }
-                continue;
-            }
-            faults_.cracked[l]->tooth_pair(tau, cracked);
-            dynamics::with_mesh_damping(faults_.damping, [&](auto law) {
-                for (std::size_t i = 0; i < count; ++i) {
-                    // Where the tooth carries alone, the rest is rounding: exactly nothing then.
-                    const double others = plan_.nodes.stiffness[column(i)] - healthy[i];
-                    const double k_pair =
-                        (others > 1e-9 * healthy[i] ? others : 0.0) + cracked[i];
-                    o.stiffness[i * W + l] = k_pair;
-                    o.damping_shape[i * W + l] = law.shape(k_pair);
-                }
-            });
-        }
-        return o;
-    }
-
-    // A passage still in contact at the end of mesh k?
-    bool passage_continues(int k) const {
-        double start = 0.0;
-        return std::any_of(faults_.pattern.passages.begin(), faults_.pattern.passages.end(),
-                           [&](const FaultPassage& p) {
-                               return touches(p, k, start) &&
-                                      start + faults_.pairs->curve(p.pair).contact_ratio() > k + 1;
-                           });
-    }
-
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,
                             const std::array<bool, W>& finished) {
-        const std::vector<PairOverride> passages = overrides(k);
+        const std::vector<PairOverride> passages = schedule_.overrides(k);
         bool any = false;
         for (int l = 0; l < W; ++l) {
             auto& q = quiet[static_cast<std::size_t>(l)];
@@ -312,7 +243,7 @@ class TileMarch {
             if (diverged(l)) {
                 retire(l);
                 q = true;
-            } else if (!passage_continues(k) &&
+            } else if (!schedule_.continues_after(k) &&
                        distance(state_, orbit_, result_.records[0], l) <= settings_.tolerance) {
                 q = true;
             }
@@ -363,7 +294,7 @@ class TileMarch {
         for (int k = 0; k < settings_.march_meshes; ++k) {
             result_.content.push_back(static_cast<int>(result_.records.size()));
             result_.records.push_back(new_record());
-            march(overrides(k % length), result_.records.back());
+            march(schedule_.overrides(k % length), result_.records.back());
         }
         for (int l = 0; l < W; ++l) {
             if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
@@ -374,9 +305,10 @@ class TileMarch {
 
     const MarchPlan& plan_;
     const FaultCurves& faults_;
+    const FaultSchedule schedule_;
     const TileSettings& settings_;
     const dynamics::PlanetaryLanes<W> lanes_;
-    const AlignedVector filter_;
+    const machine::AlignedVector filter_;
     Eigen::VectorXd turn_;
     std::array<Eigen::VectorXd, W> turn_weight_;
     TileState state_;

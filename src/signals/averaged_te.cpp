@@ -22,7 +22,7 @@ std::vector<double> shares_of_tooth(int j, const Timeline& timeline, const SpanL
     return share;
 }
 
-void remove_lane_means(lockstep::AlignedVector& values, int lanes) {
+void remove_lane_means(machine::AlignedVector& values, int lanes) {
     std::vector<double> mean(lanes, 0.0);
     const std::size_t points = values.size() / lanes;
     for (std::size_t i = 0; i < points; ++i) {
@@ -40,7 +40,7 @@ void remove_lane_means(lockstep::AlignedVector& values, int lanes) {
 }  // namespace
 
 void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLayout& layout,
-                int te_phases, lockstep::AlignedVector& te_turn) {
+                int te_phases, machine::AlignedVector& te_turn) {
     check_tile(tile, timeline);
     if (te_phases < 1 || tile.phases % te_phases != 0 || layout.meshes() < 1) {
         throw std::invalid_argument(

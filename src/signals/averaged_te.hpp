@@ -10,6 +10,6 @@ namespace gearpod::signals {
 // take te_phases = P_te samples of the tile's P per mesh period. Throws std::invalid_argument if
 // the shapes disagree or P_te does not divide P.
 void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLayout& layout,
-                int te_phases, lockstep::AlignedVector& te_turn);
+                int te_phases, machine::AlignedVector& te_turn);
 
 }  // namespace gearpod::signals

@@ -28,15 +28,15 @@ void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
 }  // namespace
 
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
-                  std::span<const double> path_exponent, lockstep::AlignedVector& folded) {
+                  std::span<const double> path_exponent, machine::AlignedVector& folded) {
     check_shapes(tile, plan, path, path_exponent.size());
     const std::size_t lanes = tile.lanes;
     const std::size_t positions = path.positions();
-    const lockstep::AlignedVector exponent(path_exponent.begin(), path_exponent.end());
-    lockstep::AlignedVector whole_steps((positions / 2 + 1) * lanes);
-    lockstep::AlignedVector weight(positions * tile.planets * lanes);
-    lockstep::AlignedVector squares(plan.pairs().carrier.size() * lanes);
-    lockstep::AlignedVector totals(plan.sums().first.size() * lanes);
+    const machine::AlignedVector exponent(path_exponent.begin(), path_exponent.end());
+    machine::AlignedVector whole_steps((positions / 2 + 1) * lanes);
+    machine::AlignedVector weight(positions * tile.planets * lanes);
+    machine::AlignedVector squares(plan.pairs().carrier.size() * lanes);
+    machine::AlignedVector totals(plan.sums().first.size() * lanes);
     folded.resize(static_cast<std::size_t>(plan.layout().planet_teeth) * tile.phases * lanes);
 
     FoldArguments a;
@@ -49,7 +49,7 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     a.squares = squares.data();
     a.totals = totals.data();
     a.folded = folded.data();
-    if (tile.lanes == lockstep::kLanes) {
+    if (tile.lanes == machine::kLanes) {
         fold_squares_8(a);
     } else {
         fold_squares_1(a);

@@ -57,7 +57,7 @@ class FoldPlan {
 // A lane's values do not depend on its neighbours, and are the same bits for 8 lanes and for 1.
 // Throws std::invalid_argument if the shapes disagree.
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
-                  std::span<const double> path_exponent, lockstep::AlignedVector& folded);
+                  std::span<const double> path_exponent, machine::AlignedVector& folded);
 
 // Mean square of the signal over the span, (m/s^2)^2, from the folded squares of one gearbox.
 double mean_square(std::span<const double> folded, const SpanLayout& layout);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 
 namespace gearpod::signals {
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "signals/noisy_bins.hpp"
 
 namespace gearpod::signals {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "signals/lane_exp.hpp"
 #include "signals/transmission_path.hpp"
 

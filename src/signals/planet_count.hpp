@@ -2,7 +2,7 @@
 // sample stay in registers.
 #pragma once
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 
 namespace gearpod::signals {
 

@@ -27,8 +27,8 @@ void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::sp
 }
 
 void check_tile(const TileSignals& tile, const Timeline& timeline) {
-    if (tile.lanes != 1 && tile.lanes != lockstep::kLanes) {
-        fail(fmt::format("{} lanes; 1 or {} are built", tile.lanes, lockstep::kLanes));
+    if (tile.lanes != 1 && tile.lanes != machine::kLanes) {
+        fail(fmt::format("{} lanes; 1 or {} are built", tile.lanes, machine::kLanes));
     }
     if (tile.planets < 1 || tile.planets > kMaxPlanets || tile.phases < 1) {
         fail(fmt::format("{} planets, {} phases", tile.planets, tile.phases));

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "lockstep/lanes.hpp"
+#include "machine/lanes.hpp"
 
 namespace gearpod::signals {
 

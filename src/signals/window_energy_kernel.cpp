@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "signals/window_energy.hpp"
 
 namespace gearpod::signals {

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "lockstep/lanes.hpp"
+#include "machine/lanes.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::signals {
@@ -40,9 +40,9 @@ class Windowing {
     int flat_first_;  // the window is 1 at flat_first_ .. flat_first_ + flat_count_ - 1
     int flat_count_;
     std::vector<double> weight_squared_;  // P
-    lockstep::AlignedVector extended_;    // the folded squares and P - 1 of them again
-    lockstep::AlignedVector scratch_;
-    lockstep::AlignedVector energy_;  // per first bin of a window
+    machine::AlignedVector extended_;     // the folded squares and P - 1 of them again
+    machine::AlignedVector scratch_;
+    machine::AlignedVector energy_;  // per first bin of a window
 };
 
 }  // namespace gearpod::signals

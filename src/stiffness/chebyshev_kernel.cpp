@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "stiffness/chebyshev.hpp"
 
 namespace gearpod::stiffness {

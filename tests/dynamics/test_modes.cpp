@@ -38,7 +38,8 @@ std::vector<double> frequencies(const PlanetaryLayout& layout, const PlanetaryIn
 
 }  // namespace
 
-TEST_CASE("Lin and Parker's natural frequencies come out within 0.4 Hz, with their multiplicities") {
+TEST_CASE(
+    "Lin and Parker's natural frequencies come out within 0.4 Hz, with their multiplicities") {
     // Rotational modes are single, translational double, planet modes (N - 3)-fold.
     const std::map<int, std::vector<double>> rotational{
         {3, {0, 1475.7, 1930.3, 2658.3, 7462.8, 11775.3}},

@@ -74,9 +74,8 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
             ql(static_cast<Eigen::Index>(d)) = q[d * W + l];
             vl(static_cast<Eigen::Index>(d)) = v[d * W + l];
         }
-        const Eigen::VectorXd expected =
-            m.mass.ldlt().solve(m.force - (m.damping + m.gyroscopic) * vl -
-                                (m.stiffness + m.centrifugal) * ql);
+        const Eigen::VectorXd expected = m.mass.ldlt().solve(
+            m.force - (m.damping + m.gyroscopic) * vl - (m.stiffness + m.centrifugal) * ql);
         for (std::size_t d = 0; d < degrees; ++d) {
             const double e = expected(static_cast<Eigen::Index>(d));
             error = std::max(error, std::abs(a[d * W + l] - e));
@@ -109,16 +108,16 @@ TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 
             const auto full = Motion::translational_torsional;
             CHECK(kernel_error<Inertial>(layout_of(n, full, true, damping), seed) < 1e-13);
             CHECK(kernel_error<Still>(layout_of(n, full, false, damping), seed) < 1e-13);
-            CHECK(kernel_error<TorsionalMotion<8>>(
-                      layout_of(n, Motion::torsional, false, damping), seed) < 1e-13);
+            CHECK(kernel_error<TorsionalMotion<8>>(layout_of(n, Motion::torsional, false, damping),
+                                                   seed) < 1e-13);
         }
     }
 }
 
 TEST_CASE("At rest every planet carries the same share and the held ring takes its reaction") {
     // Z_s/Z_p/Z_r = 19/31/81: base radii and centre distance of module 3.175 mm.
-    PlanetaryLayout layout = layout_of(4, Motion::translational_torsional, false,
-                                       MeshDamping::ratio);
+    PlanetaryLayout layout =
+        layout_of(4, Motion::translational_torsional, false, MeshDamping::ratio);
     std::mt19937 engine(1);
     PlanetaryInputs in = random_inputs(engine);
     const double cos_a = std::cos(layout.pressure_angle_rad);

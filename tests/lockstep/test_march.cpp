@@ -58,16 +58,14 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
         const auto m = dynamics::assemble(plan.layout, in, k);
         const Eigen::Map<const Eigen::VectorXd> q(s.data(), static_cast<Eigen::Index>(n));
         const Eigen::Map<const Eigen::VectorXd> v(s.data() + n, static_cast<Eigen::Index>(n));
-        const Eigen::VectorXd a =
-            inverse_mass * (m.force - (m.damping + m.gyroscopic) * v -
-                            (m.stiffness + m.centrifugal) * q);
+        const Eigen::VectorXd a = inverse_mass * (m.force - (m.damping + m.gyroscopic) * v -
+                                                  (m.stiffness + m.centrifugal) * q);
         ds.resize(2 * n);
         std::copy(v.begin(), v.end(), ds.begin());
         std::copy(a.begin(), a.end(), ds.begin() + static_cast<std::ptrdiff_t>(n));
     };
     using namespace boost::numeric::odeint;
-    auto stepper =
-        make_controlled(1e-14, 1e-10, runge_kutta_dopri5<std::vector<double>>());
+    auto stepper = make_controlled(1e-14, 1e-10, runge_kutta_dopri5<std::vector<double>>());
     std::vector<double> cuts = contact_transitions(train.pairs);
     cuts.push_back(1.0);
     double start = 0.0;
@@ -88,8 +86,7 @@ TEST_CASE("A marched mesh period agrees with an adaptive solver over the assembl
     const auto& train = LiangTrain::instance();
     // Fast enough that inertia, damping and the turning frame all matter.
     const auto in = train.inputs(20.0);
-    const MarchPlan plan =
-        train.plan(24, 9600, dynamics::Motion::translational_torsional);
+    const MarchPlan plan = train.plan(24, 9600, dynamics::Motion::translational_torsional);
     const TileState start = rest(plan, in);
     MeshRecord record;
     const TileState ours = march(plan, in, start, record);
@@ -137,8 +134,7 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness swings as its c
     std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
     in.mesh_period_s = 1e-3;
 
-    MarchPlan plan =
-        train.plan(10, 4000, dynamics::Motion::translational_torsional, false);
+    MarchPlan plan = train.plan(10, 4000, dynamics::Motion::translational_torsional, false);
     std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 1.5e9);
     const auto matrices = dynamics::assemble(plan.layout, in, std::vector<double>(8, 1.5e9));
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.stiffness,

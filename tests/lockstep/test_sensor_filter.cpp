@@ -10,7 +10,8 @@ using namespace gearpod::lockstep;
 
 namespace {
 
-// Gain of the stepped filter for a sine at `frequency` (times the cutoff), from its steady response.
+// Gain of the stepped filter for a sine at `frequency` (times the cutoff), from its steady
+// response.
 double gain(double frequency, double steps_per_cutoff_period) {
     const double w = 2 * std::numbers::pi;  // cutoff 1 Hz
     const double h = 1.0 / steps_per_cutoff_period;
@@ -41,7 +42,9 @@ double gain(double frequency, double steps_per_cutoff_period) {
     return 2.0 * std::hypot(sine, cosine) / measure;
 }
 
-double butterworth(double frequency) { return 1.0 / std::sqrt(1.0 + std::pow(frequency, 8)); }
+double butterworth(double frequency) {
+    return 1.0 / std::sqrt(1.0 + std::pow(frequency, 8));
+}
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "liang_train.hpp"
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -23,7 +23,8 @@ std::vector<dynamics::PlanetaryInputs> spread_inputs(double speedup = kSpeedup) 
     return inputs;
 }
 
-std::vector<double> lane_of(const AlignedVector& values, std::size_t lane, std::size_t width) {
+std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t lane,
+                            std::size_t width) {
     std::vector<double> result;
     for (std::size_t i = lane; i < values.size(); i += width) {
         result.push_back(values[i]);
@@ -60,15 +61,15 @@ TEST_CASE("Eight lanes and one lane give the same bits, on every instruction set
         CHECK(unrolled(narrow, 0, 1) == unrolled(wide, l, 8));
         CHECK(wide.status[l] == LaneStatus::ok);
     }
-    const InstructionSet best = best_instruction_set();
-    for (const auto set : {InstructionSet::baseline, InstructionSet::x86_64_v3}) {
+    const machine::InstructionSet best = machine::best_instruction_set();
+    for (const auto set : {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
         if (set >= best) {
             continue;
         }
-        use_instruction_set(set);
+        machine::use_instruction_set(set);
         const TileResult other =
             run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), settings);
-        use_instruction_set(best);
+        machine::use_instruction_set(best);
         for (std::size_t l = 0; l < 8; ++l) {
             CHECK(unrolled(other, l, 8) == unrolled(wide, l, 8));
         }
@@ -114,7 +115,8 @@ TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
             const auto& ra = a.records[static_cast<std::size_t>(a.content[k % 31])];
             const auto& rb = b.records[static_cast<std::size_t>(b.content[k])];
             for (std::size_t i = 0; i < ra.acceleration.size(); ++i) {
-                difference = std::max(difference, std::abs(ra.acceleration[i] - rb.acceleration[i]));
+                difference =
+                    std::max(difference, std::abs(ra.acceleration[i] - rb.acceleration[i]));
                 scale = std::max(scale, std::abs(rb.acceleration[i]));
             }
         }

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "study_file.hpp"
 
 using namespace gearpod;
@@ -44,20 +44,19 @@ TEST_CASE("One lane or eight, one thread or two, any instruction set: the same b
         CHECK(bits(test::run(shipped_study("planet-crack.toml", with(kSmall, change)))) ==
               reference);
     }
-    using lockstep::InstructionSet;
-    const InstructionSet best = lockstep::best_instruction_set();
+    using machine::InstructionSet;
+    const InstructionSet best = machine::best_instruction_set();
     if (best > InstructionSet::x86_64_v3) {
-        lockstep::use_instruction_set(InstructionSet::x86_64_v3);
+        machine::use_instruction_set(InstructionSet::x86_64_v3);
         CHECK(bits(test::run(shipped_study("planet-crack.toml", kSmall))) == reference);
-        lockstep::use_instruction_set(best);
+        machine::use_instruction_set(best);
     }
 }
 
 TEST_CASE("A larger ensemble begins with the gearboxes of the smaller one") {
     const auto small = test::run(shipped_study("planet-crack.toml", kSmall));
-    const auto large =
-        test::run(shipped_study("planet-crack.toml", {"ensemble.instances=16",
-                                                      "ensemble.threshold_instances=6"}));
+    const auto large = test::run(shipped_study(
+        "planet-crack.toml", {"ensemble.instances=16", "ensemble.threshold_instances=6"}));
     const std::size_t levels = small.noise_levels.size();
     for (std::size_t f = 0; f < small.features.size(); ++f) {
         for (std::size_t i = 0; i < small.status.size() * levels; ++i) {

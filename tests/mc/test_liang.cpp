@@ -34,9 +34,9 @@ mc::Study with_crack(mc::Member member, double depth_m,
 // Amplitudes of the sensor signal over `meshes` mesh periods; line i lies at i f_m / meshes.
 std::vector<double> spectrum(const mc::Scene& scene, int meshes) {
     const auto tile = run_one(scene);
-    const auto signal = signals::synthesize(tile.views, 0, tile.march.content,
-                                            mc::span_layout(scene), mc::path_grid(scene),
-                                            tile.inputs[0].path_exponent, 0, meshes);
+    const auto signal =
+        signals::synthesize(tile.views, 0, tile.march.content, mc::span_layout(scene),
+                            mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
     std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
     kissfft<double> fft(signal.size(), false);
     fft.transform(in.data(), out.data());
@@ -70,8 +70,8 @@ TEST_CASE("Fig. 5.8: the cracked tooth's RMS over the others' rises with depth a
     for (std::size_t i = 2; i < ratio.size(); ++i) {
         CHECK(ratio[i] > ratio[i - 1]);
     }
-    // An independent computation with an 800 Hz sensor: 0, 1, 2, 3, 4.3 mm (rows 1, 3, 5, 6, 7). The
-    // thesis' 1, 1.10, 1.2, 1.44, 1.95 has the same order; studies/README.md compares.
+    // An independent computation with an 800 Hz sensor: 0, 1, 2, 3, 4.3 mm (rows 1, 3, 5, 6, 7).
+    // The thesis' 1, 1.10, 1.2, 1.44, 1.95 has the same order; studies/README.md compares.
     const double reference[] = {1.02, 1.04, 1.10, 1.22, 1.61};
     const std::size_t rows[] = {1, 3, 5, 6, 7};
     for (std::size_t i = 0; i < 5; ++i) {
@@ -101,8 +101,8 @@ TEST_CASE("The healthy resultant signal has only carrier orders that the planets
 }
 
 TEST_CASE("A cracked sun tooth adds lines between the healthy ones, and only where it may") {
-    // The tooth meets the next planet every Z_s / N meshes, so the signal's lines j f_m / Z_s + m f_c
-    // keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r). f_scrack = N f_m / Z_s is one.
+    // The tooth meets the next planet every Z_s / N meshes, so the signal's lines j f_m / Z_s + m
+    // f_c keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r). f_scrack = N f_m / Z_s is one.
     const int meshes = 19 * 81;
     const mc::Scene healthy(with_crack(mc::Member::sun, 0.0));
     const mc::Scene cracked(with_crack(mc::Member::sun, 3.9e-3));
@@ -121,8 +121,8 @@ TEST_CASE("A cracked sun tooth adds lines between the healthy ones, and only whe
     CHECK(sidebands_before < kNothing * largest);
     CHECK(sidebands_after > 1e-2 * largest);
     // The lines of the healthy gearbox are "rarely affected": Liang, section 4.4.
-    const auto top = static_cast<std::size_t>(
-        std::max_element(before.begin(), before.end()) - before.begin());
+    const auto top =
+        static_cast<std::size_t>(std::max_element(before.begin(), before.end()) - before.begin());
     CHECK(after[top] == Approx(before[top]).epsilon(0.1));
 }
 
@@ -132,8 +132,8 @@ TEST_CASE("A cracked planet tooth repeats every Z_p meshes and the healthy lines
     const mc::Scene cracked(with_crack(mc::Member::planet, 4.28e-3));
     const auto before = spectrum(healthy, meshes);
     const auto after = spectrum(cracked, meshes);
-    const auto top = static_cast<std::size_t>(
-        std::max_element(before.begin(), before.end()) - before.begin());
+    const auto top =
+        static_cast<std::size_t>(std::max_element(before.begin(), before.end()) - before.begin());
     CHECK(after[top] == Approx(before[top]).epsilon(0.1));
     double off = 0.0;
     for (std::size_t i = 0; i < after.size(); ++i) {
@@ -181,8 +181,8 @@ TEST_CASE("Inertial terms do not show at 8.87 rpm and do at 950 rpm") {
 }
 
 TEST_CASE("The raw acceleration is large; the 800 Hz sensor shows the thesis' few m/s^2") {
-    // Sections 4.4 and 5.2: about 5 m/s^2 healthy and 10 m/s^2 with a 4.3 mm crack; hundreds of m/s^2
-    // before the low-pass (PHYSICS of the bandwidth).
+    // Sections 4.4 and 5.2: about 5 m/s^2 healthy and 10 m/s^2 with a 4.3 mm crack; hundreds of
+    // m/s^2 before the low-pass (PHYSICS of the bandwidth).
     const auto peak = [](double depth_m) {
         const mc::Scene scene(with_crack(mc::Member::planet, depth_m));
         const auto tile = run_one(scene);

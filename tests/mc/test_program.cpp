@@ -1,4 +1,6 @@
 // The program as a user runs it: exit codes, what it prints and what it leaves behind.
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -8,7 +10,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 
 namespace {
 
@@ -61,8 +62,9 @@ bool mentions(const Outcome& outcome, const std::string& text) {
 TEST_CASE("A run ends with the table and a file that report reads to the same numbers") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    const Outcome run = gearpod("run " + study("planet-crack.toml") +
-                                " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
+    const Outcome run =
+        gearpod("run " + study("planet-crack.toml") +
+                " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
     CHECK(run.code == 0);
     CHECK(mentions(run, "window_ratio"));
     CHECK(mentions(run, "where the time went"));
@@ -87,7 +89,8 @@ TEST_CASE("Natural frequencies come as JSON, with the published value") {
 }
 
 TEST_CASE("Stiffness curves have the contract's columns and the mean that the summary prints") {
-    const Outcome csv = gearpod("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
+    const Outcome csv =
+        gearpod("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
     CHECK(csv.code == 0);
     CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
     CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
@@ -151,13 +154,13 @@ TEST_CASE("A simulated gearbox has the features that the ensemble found for its 
     const std::string small = " --set ensemble.instances=14 --set ensemble.threshold_instances=5";
     const std::string good = study("planet-crack.toml");
     CHECK(gearpod("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
-    CHECK(gearpod("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5"))
-              .code == 0);
+    CHECK(
+        gearpod("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5")).code ==
+        0);
     // The row's five noise levels as h5dump prints them, from either file.
     const auto values = [&](const std::string& file, const std::string& subset) {
         const std::string command = "h5dump -y -w 0 -m %.17g -d /features/te_rms " + subset +
-                                    folder.file(file) +
-                                    " | sed -n '/DATA {/,/}/p' | tr -d ' \\n'";
+                                    folder.file(file) + " | sed -n '/DATA {/,/}/p' | tr -d ' \\n'";
         FILE* pipe = popen(command.c_str(), "r");
         REQUIRE(pipe != nullptr);
         std::array<char, 4096> line{};
@@ -178,13 +181,13 @@ TEST_CASE("The C library's choice of elementary functions leaves no trace in the
                             " --quiet --instances 10 --set ensemble.threshold_instances=6 --out ";
     CHECK(gearpod(run + folder.file("a.h5")).code == 0);
     REQUIRE(setenv("GLIBC_TUNABLES",
-                   "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable", 1) ==
-            0);
+                   "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable",
+                   1) == 0);
     CHECK(gearpod(run + folder.file("b.h5")).code == 0);
     unsetenv("GLIBC_TUNABLES");
     for (const char* group : {"/features", "/instances"}) {
-        const std::string command = "h5diff " + folder.file("a.h5") + " " + folder.file("b.h5") +
-                                    " " + group + " " + group;
+        const std::string command =
+            "h5diff " + folder.file("a.h5") + " " + folder.file("b.h5") + " " + group + " " + group;
         CHECK(std::system(command.c_str()) == 0);
     }
 }

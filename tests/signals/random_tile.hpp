@@ -9,7 +9,7 @@
 namespace gearpod::signals {
 
 struct RandomTile {
-    std::vector<lockstep::AlignedVector> accel, te;
+    std::vector<machine::AlignedVector> accel, te;
     TileSignals signals;
 
     RandomTile(int lanes, int planets, int phases, int meshes, unsigned seed = 1) {

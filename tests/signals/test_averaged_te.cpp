@@ -36,7 +36,7 @@ TEST_CASE("The averaged transmission error is the mean over all turns of the spa
     const SpanLayout layout{31, 81, 81};
     for (const int length : {1, 31, 19, 81}) {
         const Timeline timeline = event_timeline(length, 3, length == 1 ? 0 : 4);
-        lockstep::AlignedVector turn;
+        machine::AlignedVector turn;
         average_te(tile.signals, timeline, layout, 4, turn);
         double worst = 0.0;
         for (const int lane : {0, 7}) {
@@ -52,7 +52,7 @@ TEST_CASE("The averaged transmission error is the mean over all turns of the spa
 
 TEST_CASE("Encoders must divide the samples of a mesh") {
     const RandomTile tile(8, 4, 12, 1);
-    lockstep::AlignedVector turn;
+    machine::AlignedVector turn;
     CHECK_THROWS_AS(average_te(tile.signals, {0}, {31, 81, 81}, 5, turn), std::invalid_argument);
 }
 

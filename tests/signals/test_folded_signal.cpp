@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "direct_signal.hpp"
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "random_tile.hpp"
 #include "signals/folded_signal.hpp"
 #include "signals/sensor.hpp"
@@ -26,7 +26,7 @@ double fold_error(const RandomTile& tile, const Timeline& timeline, const SpanLa
                   const char* window) {
     const int phases = tile.signals.phases;
     const PathGrid path(path_window(window), tile.signals.planets, phases, layout);
-    lockstep::AlignedVector folded;
+    machine::AlignedVector folded;
     fold_squares(tile.signals, FoldPlan(timeline, layout), path, kExponents, folded);
     const std::size_t bins = static_cast<std::size_t>(layout.planet_teeth) * phases;
     double worst = 0.0;
@@ -76,24 +76,24 @@ TEST_CASE("A gearbox folds to the same bits alone, in company and on every instr
     const Timeline timeline = event_timeline(31, 2, 4);
     const FoldPlan plan(timeline, layout);
     const PathGrid path(path_window("hamming"), 4, 12, layout);
-    const auto best = lockstep::best_instruction_set();
-    lockstep::AlignedVector reference;
+    const auto best = machine::best_instruction_set();
+    machine::AlignedVector reference;
     fold_squares(tile.signals, plan, path, kExponents, reference);
 
     for (int set = 0; set <= static_cast<int>(best); ++set) {
-        lockstep::use_instruction_set(static_cast<lockstep::InstructionSet>(set));
-        lockstep::AlignedVector folded;
+        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+        machine::AlignedVector folded;
         fold_squares(tile.signals, plan, path, kExponents, folded);
         CHECK(folded == reference);
     }
-    lockstep::use_instruction_set(best);
+    machine::use_instruction_set(best);
 
     for (const int lane : {0, 5}) {
         RandomTile alone(1, 4, 12, 5);
         for (int mesh = 0; mesh < 5; ++mesh) {
             copy_lane(tile.accel[mesh], 8, lane, alone.accel[mesh]);
         }
-        lockstep::AlignedVector folded;
+        machine::AlignedVector folded;
         fold_squares(alone.signals, plan, path, std::vector{kExponents[lane]}, folded);
         bool same = true;
         for (std::size_t b = 0; b < folded.size(); ++b) {
@@ -123,7 +123,7 @@ TEST_CASE("The synthesized time signal is the path equation's and folds to the f
         synthesize(tile.signals, lane, timeline, layout, path, kExponents[lane], 100, 7);
     CHECK(std::equal(part.begin(), part.end(), signal.begin() + 600));
 
-    lockstep::AlignedVector folded;
+    machine::AlignedVector folded;
     fold_squares(tile.signals, FoldPlan(timeline, layout), path, kExponents, folded);
     std::vector<double> bins(folded.size() / 8);
     copy_lane(folded, 8, lane, bins);
@@ -148,7 +148,7 @@ TEST_CASE("Tile, plan and path of different shapes are refused") {
     const SpanLayout layout{31, 81, 81};
     const PathGrid path(path_window("hamming"), 4, 6, layout);
     const PathGrid other(path_window("hamming"), 3, 6, layout);
-    lockstep::AlignedVector folded;
+    machine::AlignedVector folded;
     const FoldPlan plan(event_timeline(31, 0, 1), layout);
     CHECK_THROWS_AS(fold_squares(tile.signals, plan, other, kExponents, folded),
                     std::invalid_argument);

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 #include "signals/windowing.hpp"
 
 namespace gearpod::signals {
@@ -140,16 +140,16 @@ TEST_CASE("The window search gives the same bits on every instruction set") {
         value = uniform(engine);
     }
     Windowing windowing(layout, 432, 0.1);
-    const auto best = lockstep::best_instruction_set();
+    const auto best = machine::best_instruction_set();
     std::vector<double> reference(31);
     const int offset = windowing.search(folded, reference);
     for (int set = 0; set <= static_cast<int>(best); ++set) {
-        lockstep::use_instruction_set(static_cast<lockstep::InstructionSet>(set));
+        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
         std::vector<double> rms(31);
         CHECK(windowing.search(folded, rms) == offset);
         CHECK(rms == reference);
     }
-    lockstep::use_instruction_set(best);
+    machine::use_instruction_set(best);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 
 namespace gearpod::dynamics {
 

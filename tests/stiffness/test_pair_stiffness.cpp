@@ -1,9 +1,8 @@
-#include "stiffness/pair_stiffness.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "gear_pairs.hpp"
+#include "stiffness/pair_stiffness.hpp"
 #include "stiffness/tooth_compliance.hpp"
 
 using namespace gearpod;

@@ -1,10 +1,9 @@
-#include "stiffness/tooth_compliance.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "gear_pairs.hpp"
 #include "printed_forms.hpp"
+#include "stiffness/tooth_compliance.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

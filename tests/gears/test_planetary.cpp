@@ -1,8 +1,8 @@
-#include "gears/planetary.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <stdexcept>
+
+#include "gears/planetary.hpp"
 
 using namespace gearpod::gears;
 

@@ -1,9 +1,9 @@
-#include "gears/mesh_geometry.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "gears/mesh_geometry.hpp"
 
 using namespace gearpod::gears;
 

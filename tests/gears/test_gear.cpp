@@ -1,7 +1,7 @@
-#include "gears/gear.hpp"
-
 #include <catch2/catch.hpp>
 #include <numbers>
+
+#include "gears/gear.hpp"
 
 using namespace gearpod::gears;
 

@@ -1,8 +1,8 @@
-#include "stiffness/chebyshev.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+
+#include "stiffness/chebyshev.hpp"
 
 using namespace gearpod::stiffness;
 

@@ -5,7 +5,7 @@
 #include <new>
 #include <vector>
 
-namespace gearpod::lockstep {
+namespace gearpod::machine {
 
 // Lanes of a tile on the widest vector unit: 8 doubles fill one 512-bit register.
 inline constexpr int kLanes = 8;
@@ -29,4 +29,4 @@ struct CacheLineAllocator {
 
 using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 
-}  // namespace gearpod::lockstep
+}  // namespace gearpod::machine

@@ -1,9 +1,9 @@
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
 
 #include <atomic>
 #include <stdexcept>
 
-namespace gearpod::lockstep {
+namespace gearpod::machine {
 namespace {
 
 std::atomic<InstructionSet>& active() {
@@ -31,7 +31,9 @@ InstructionSet best_instruction_set() {
     return InstructionSet::baseline;
 }
 
-InstructionSet active_instruction_set() { return active().load(std::memory_order_relaxed); }
+InstructionSet active_instruction_set() {
+    return active().load(std::memory_order_relaxed);
+}
 
 void use_instruction_set(InstructionSet set) {
     if (set > best_instruction_set()) {
@@ -52,4 +54,4 @@ std::string_view name(InstructionSet set) {
     return "baseline";
 }
 
-}  // namespace gearpod::lockstep
+}  // namespace gearpod::machine

@@ -1,12 +1,11 @@
-#include "stiffness/cracked_pair.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
 #include "gear_pairs.hpp"
-#include "lockstep/dispatch.hpp"
+#include "machine/dispatch.hpp"
+#include "stiffness/cracked_pair.hpp"
 #include "stiffness/pair_stiffness.hpp"
 #include "stiffness/tooth_compliance.hpp"
 
@@ -144,15 +143,15 @@ TEST_CASE("one position, many positions and every instruction set give the same 
         curve.tooth_pair(tau, best);
         for (std::size_t i = 0; i < tau.size(); ++i)
             REQUIRE(curve.tooth_pair(tau[i]) == best[i]);
-        const auto active = lockstep::active_instruction_set();
+        const auto active = machine::active_instruction_set();
         for (const auto set :
-             {lockstep::InstructionSet::baseline, lockstep::InstructionSet::x86_64_v3,
-              lockstep::InstructionSet::x86_64_v4}) {
-            if (set > lockstep::best_instruction_set())
+             {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3,
+              machine::InstructionSet::x86_64_v4}) {
+            if (set > machine::best_instruction_set())
                 continue;
-            lockstep::use_instruction_set(set);
+            machine::use_instruction_set(set);
             curve.tooth_pair(tau, other);
-            lockstep::use_instruction_set(active);
+            machine::use_instruction_set(active);
             REQUIRE(other == best);
         }
     }
