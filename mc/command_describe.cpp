@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "machine/dispatch.hpp"
@@ -26,8 +27,8 @@ void print_gearbox(const Scene& scene) {
                       train.planets));
     std::string sun, ring;
     for (int n = 0; n < train.planets; ++n) {
-        sun += fmt::format(" {:.4g}", gears::sun_mesh_phase(train, n));
-        ring += fmt::format(" {:.4g}", gears::ring_mesh_phase(train, n));
+        sun += fmt::format(" {:.4g}", gears::sun_mesh_phase(train, n, scene.planet_sense()));
+        ring += fmt::format(" {:.4g}", gears::ring_mesh_phase(train, n, scene.planet_sense()));
     }
     entry("mesh phases, sun", sun.substr(1));
     entry("mesh phases, ring",
@@ -41,7 +42,8 @@ void print_gearbox(const Scene& scene) {
     entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
 }
 
-void print_effects(const Study& study) {
+void print_effects(const Scene& scene) {
+    const Study& study = scene.study();
     const Effects& e = study.effects;
     const bool torsional = e.motion == Motion::torsional;
     heading("simulated");
@@ -66,8 +68,10 @@ void print_effects(const Study& study) {
         }
         entry("fault", "tooth crack on the " + where);
     }
-    const bool sensor_noise = study.sensor.noise_m_s2 > 0.0;
-    const bool encoder_noise = study.sensor.encoder_noise_rad > 0.0;
+    const bool sensor_noise =
+        study.sensor.noise_m_s2 > 0.0 || study.find_random("sensor.noise_m_s2") != nullptr;
+    const bool encoder_noise = study.sensor.encoder_noise_rad > 0.0 ||
+                               study.find_random("sensor.encoder_noise_arcsec") != nullptr;
     if (sensor_noise) {
         entry("sensor noise",
               fmt::format("{:g} m/s^2 rms times the noise level", study.sensor.noise_m_s2));
@@ -92,6 +96,9 @@ void print_effects(const Study& study) {
     if (!encoder_noise) {
         entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
     }
+    if (!std::isfinite(scene.decay_meshes())) {
+        fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
+    }
     entry("tooth separation", "the meshes are linear springs under steady load");
 }
 
@@ -101,7 +108,9 @@ double marched_meshes(const Scene& scene) {
     if (study.numerics.horizon == Horizon::march) {
         return scene.span_meshes();
     }
-    const double settle = 1.0 + scene.decay_meshes() * -std::log(study.numerics.settle_tolerance);
+    const double settle =
+        std::min(1.0 + scene.decay_meshes() * -std::log(study.numerics.settle_tolerance),
+                 static_cast<double>(scene.max_meshes()));
     if (scene.faulty_pair() < 0) {
         return settle;
     }
@@ -121,8 +130,8 @@ void print_cost(const Scene& scene) {
                       scene.te_samples_per_mesh()));
     entry("sampling rate",
           fmt::format("{:.1f} Hz", scene.samples_per_mesh() * scene.nominal_mesh_frequency_Hz()));
-    entry("steps a mesh period", fmt::format("{} ({} are the least that are stable)",
-                                             plan.grid.steps.size(), scene.stable_steps()));
+    entry("steps a mesh period",
+          fmt::format("{} (at least {})", plan.grid.steps.size(), scene.least_steps()));
     entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
                                               marched_meshes(scene), scene.span_meshes()));
     const long rows = study.ensemble.instances + study.ensemble.threshold_instances;
@@ -168,7 +177,7 @@ int describe_command(const StudyOptions& options) {
         return kBadInput;
     }
     print_gearbox(*scene);
-    print_effects(*study);
+    print_effects(*scene);
     print_cost(*scene);
     return kDone;
 }

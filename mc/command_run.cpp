@@ -47,11 +47,17 @@ void print_times(const Results& results, const Study& study) {
                timing(results, "output_s"));
 }
 
-void print_failures(const Results& results) {
+void print_failures(const Results& results, int max_meshes) {
     const long diverged = count_status(results, Status::diverged);
     const long unsettled = count_status(results, Status::not_settled);
     fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n",
                diverged + unsettled, results.status.size(), diverged, unsettled);
+    if (unsettled > 0) {
+        fmt::print(
+            "  (their orbit or the fault's disturbance was not back within {} mesh periods: "
+            "raise numerics.max_meshes, or numerics.settle_tolerance)\n",
+            max_meshes);
+    }
 }
 
 }  // namespace
@@ -89,7 +95,7 @@ int run_command(const RunOptions& options) {
     results.timing.push_back({"output_s", seconds_since(after)});
     if (!options.quiet) {
         fmt::print("{}\n", analysis::detection_text(results.detection, results.request));
-        print_failures(results);
+        print_failures(results, scene->max_meshes());
         print_times(results, study);
         fmt::print("results: {}\n", out);
     }

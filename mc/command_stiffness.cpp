@@ -55,14 +55,14 @@ std::string csv_text(const Scene& scene, int points) {
         const double phase = static_cast<double>(i) / points;
         text += fmt::format("{:.9g}", phase);
         for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-            const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
-            text += fmt::format(",{:.9g}", scene.pairs().curve(pair).mesh(phase - start));
+            text += fmt::format(",{:.9g}", scene.pairs().mesh(pair, phase));
         }
         for (const FaultColumn& column : columns) {
             const auto& healthy = scene.pairs().curve(faulty);
             const double start = scene.pairs().start[static_cast<std::size_t>(faulty)];
-            const double tau = phase + column.period - start;
-            const double k = healthy.mesh(phase - start) - healthy.tooth_pair(tau) +
+            const double since = phase + column.period - start;
+            const double tau = scene.pairs().reversed ? healthy.contact_ratio() - since : since;
+            const double k = scene.pairs().mesh(faulty, phase) - healthy.tooth_pair(tau) +
                              column.curve.tooth_pair(tau);
             text += fmt::format(",{:.9g}", std::max(k, 0.0));
         }

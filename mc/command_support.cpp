@@ -56,13 +56,12 @@ std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
         print_problems({{options.path, 0, "numerics.instruction_set", error.what(), "use auto"}});
         return nullptr;
     }
-    auto scene = std::make_unique<Scene>(*study);
-    const Problems problems = scene_problems(*scene, options.path);
-    if (!problems.empty()) {
-        print_problems(problems);
+    try {
+        return std::make_unique<Scene>(*study);
+    } catch (const SceneError& error) {
+        print_problems({{options.path, 0, error.key(), error.what(), error.remedy()}});
         return nullptr;
     }
-    return scene;
 }
 
 bool can_write(const std::string& path) {

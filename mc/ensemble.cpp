@@ -3,10 +3,12 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 
 #include "analysis/feature_alarm.hpp"
 #include "mc/gearbox_tile.hpp"
@@ -53,19 +55,31 @@ class EnsembleRun {
         const int lanes = scene_.study().numerics.lanes;
         const auto tiles = static_cast<long>((rows() + static_cast<std::size_t>(lanes) - 1) /
                                              static_cast<std::size_t>(lanes));
+        const int threads = static_cast<int>(std::min<long>(thread_count(scene_.study()), tiles));
         std::exception_ptr failure;
-#pragma omp parallel num_threads(thread_count(scene_.study()))
+        std::atomic<bool> failed = false;
+        // Nothing may leave the parallel region by an exception; the first one ends the others'
+        // work.
+        const auto guarded = [&](auto&& work) {
+            if (failed) {
+                return;
+            }
+            try {
+                work();
+            } catch (...) {
+                if (!failed.exchange(true)) {
+                    failure = std::current_exception();
+                }
+            }
+        };
+#pragma omp parallel num_threads(threads)
         {
-            InstanceFeatures features(scene_);
+            std::optional<InstanceFeatures> features;
+            guarded([&] { features.emplace(scene_); });
             Seconds seconds;
 #pragma omp for schedule(dynamic, 1)
             for (long t = 0; t < tiles; ++t) {
-                try {
-                    run_rows(static_cast<std::size_t>(t * lanes), features, seconds);
-                } catch (...) {
-#pragma omp critical(gearpod_failure)
-                    failure = std::current_exception();
-                }
+                guarded([&] { run_rows(static_cast<std::size_t>(t * lanes), *features, seconds); });
             }
 #pragma omp critical(gearpod_seconds)
             total_ += seconds;

@@ -1,8 +1,6 @@
 #include "mc/gearbox_tile.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 #include "mc/instance_features.hpp"
 #include "signals/averaged_te.hpp"
@@ -38,7 +36,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
     settings.tolerance = n.settle_tolerance;
-    settings.max_meshes = n.max_meshes;
+    settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.span_meshes() : 0;
     settings.with_motion = with_motion;
     return settings;

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 
 #include "mc/commands.hpp"
@@ -113,7 +114,12 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run_program(argc, argv);
+        const int code = run_program(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            fmt::print(stderr, "gearpod: standard output cannot be written\n");
+            return kBadInput;
+        }
+        return code;
     } catch (const std::exception& error) {
         fmt::print(stderr, "gearpod: {}\n", error.what());
         return kBadInput;

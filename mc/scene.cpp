@@ -39,6 +39,9 @@ gears::Member turning_member(Member member) {
     }
 }
 
+constexpr int kMostSteps = 1'000'000;  // and samples, in a mesh period
+constexpr int kFewestSamples = 4;
+
 double fraction(double x) {
     return x - std::floor(x);
 }
@@ -60,19 +63,6 @@ int round_up_to_smooth(int least) {
 }
 
 }  // namespace
-
-Problems scene_problems(const Scene& scene, const std::string& path) {
-    const int steps = scene.study().numerics.steps_per_mesh;
-    if (steps == 0 || steps >= scene.stable_steps()) {
-        return {};
-    }
-    return {
-        {path, 0, "numerics.steps_per_mesh",
-         fmt::format("{} steps are too few (the explicit Runge-Kutta method is unstable below {} "
-                     "for this study's stiffest gearbox)",
-                     steps, scene.stable_steps()),
-         "leave the key out to have the steps chosen"}};
-}
 
 dynamics::PlanetaryLayout layout(const Study& study) {
     dynamics::PlanetaryLayout result;
@@ -136,12 +126,21 @@ Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).s
     carrier_radius_ = plan_.layout.carrier_radius_m;
 
     const InstanceInputs nominal = Sampler(study_).nominal();
-    const auto speeds = gears::train_speeds(train_, plan_.layout.fixed,
-                                            turning_member(speed_member_), nominal.speed_rad_s);
-    nominal_mesh_frequency_Hz_ = std::abs(gears::mesh_frequency(train_, speeds)) / (2.0 * pi);
+    const gears::Speeds turning = speeds(nominal.speed_rad_s);
+    nominal_mesh_frequency_Hz_ = gears::mesh_frequency(train_, turning) / (2.0 * pi);
+    sense_ = turning.sun > turning.carrier ? gears::PlanetSense::clockwise
+                                           : gears::PlanetSense::counter_clockwise;
     build_pairs();
     build_pattern();
     build_plan();
+}
+
+// The given member's speed is a magnitude; the input turns in the positive sense.
+gears::Speeds Scene::speeds(double given) const {
+    gears::Speeds s =
+        gears::train_speeds(train_, plan_.layout.fixed, turning_member(speed_member_), given);
+    const double input = study_.operation.input == Member::ring ? s.ring : s.sun;
+    return input >= 0.0 ? s : gears::Speeds{-s.sun, -s.planet, -s.ring, -s.carrier};
 }
 
 void Scene::build_pairs() {
@@ -172,14 +171,20 @@ void Scene::build_pairs() {
     }
     pairs_.sun_planet = &*sun_planet_;
     pairs_.ring_planet = &*ring_planet_;
+    // A tooth pair that is touched in the reverse order begins where it used to end.
+    pairs_.reversed = sense_ == gears::PlanetSense::counter_clockwise;
+    const auto start = [&](double pitch_phase, const stiffness::PairStiffness& pair) {
+        const double since =
+            pairs_.reversed ? pair.contact_ratio() - pair.pitch_position() : pair.pitch_position();
+        return fraction(pitch_phase - since);
+    };
     for (int n = 0; n < train_.planets; ++n) {
-        pairs_.start.push_back(
-            fraction(gears::sun_mesh_phase(train_, n) - sun_planet_->pitch_position()));
+        pairs_.start.push_back(start(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_));
     }
     for (int n = 0; n < train_.planets; ++n) {
-        pairs_.start.push_back(fraction(gears::ring_mesh_phase(train_, n) +
-                                        gears::ring_to_sun_phase(train_) -
-                                        ring_planet_->pitch_position()));
+        const double phase =
+            gears::ring_mesh_phase(train_, n, sense_) + gears::ring_to_sun_phase(train_);
+        pairs_.start.push_back(start(phase, *ring_planet_));
     }
 }
 
@@ -201,8 +206,9 @@ void Scene::build_pattern() {
     const int first = on_sun ? 0 : n_planets;
     pattern_.length = on_sun ? train_.sun_teeth : train_.ring_teeth;
     for (int i = 0; i < n_planets; ++i) {
-        // The sun overtakes the planets in their order, the planets overtake the ring in reverse.
-        const int n = on_sun ? i : (n_planets - i) % n_planets;
+        // The sun overtakes the planets in their order, the planets overtake the ring in reverse;
+        // the other way round if the sun falls behind the carrier.
+        const int n = on_sun != pairs_.reversed ? i : (n_planets - i) % n_planets;
         const double phase = pairs_.start[static_cast<std::size_t>(first + n)];
         const double due = pairs_.start[static_cast<std::size_t>(first)] +
                            static_cast<double>(pattern_.length) * i / n_planets;
@@ -212,8 +218,16 @@ void Scene::build_pattern() {
               [](const auto& a, const auto& b) { return a.start < b.start; });
 }
 
-int Scene::sampling(double frequency_Hz) const {
-    return static_cast<int>(std::ceil(frequency_Hz / nominal_mesh_frequency_Hz_ - 1e-9));
+// Samples a mesh period at least, for a rate of `key`.
+int Scene::sampling(double frequency_Hz, const char* key) const {
+    const double samples = std::ceil(frequency_Hz / nominal_mesh_frequency_Hz_ - 1e-9);
+    if (samples > kMostSteps) {
+        throw SceneError(key,
+                         fmt::format("{:.3g} samples a mesh period are too many (at most {})",
+                                     samples, kMostSteps),
+                         "lower the rate or raise the speed");
+    }
+    return std::max(1, static_cast<int>(samples));
 }
 
 std::vector<double> Scene::mean_pairs() const {
@@ -228,7 +242,7 @@ std::vector<double> Scene::stiffest_pairs() const {
     for (int i = 0; i < pairs_.pairs(); ++i) {
         double stiffest = 0.0;
         for (int p = 0; p < kPhases; ++p) {
-            stiffest = std::max(stiffest, pairs_.curve(i).mesh(static_cast<double>(p) / kPhases));
+            stiffest = std::max(stiffest, pairs_.mesh(i, static_cast<double>(p) / kPhases));
         }
         k.push_back(stiffest);
     }
@@ -241,7 +255,8 @@ std::vector<double> Scene::stiffest_pairs() const {
 int Scene::choose_steps() {
     constexpr int kPilot = 32;
     constexpr double kMargin = 1.2;
-    constexpr double kStepsPerBandPeriod = 20.0;  // of the sensor's band edge, for accuracy
+    constexpr double kStepsPerBandPeriod = 20.0;  // of the sensor's band edge
+    constexpr double kFewestStepsPerBandPeriod = 10.0;
     const Sampler sampler(study_);
     const std::vector<double> stiffest = stiffest_pairs();
     const auto limit_of = [&](const dynamics::PlanetaryInputs& in) {
@@ -250,23 +265,62 @@ int Scene::choose_steps() {
     const dynamics::PlanetaryInputs nominal = inputs(sampler.nominal());
     const lockstep::StepLimit limit = limit_of(nominal);
     decay_meshes_ = 1.0 / (limit.slowest_decay_1_s * nominal.mesh_period_s);
-    double steps = nominal.mesh_period_s / limit.step_s;
+    double stable = nominal.mesh_period_s / limit.step_s;
     const int pilot = study_.random.empty() ? 0 : kPilot;
     for (int i = 0; i < pilot; ++i) {
         const auto in = inputs(sampler.sample(Group::graded, static_cast<std::uint64_t>(i)));
-        steps = std::max(steps, in.mesh_period_s / limit_of(in).step_s);
+        stable = std::max(stable, in.mesh_period_s / limit_of(in).step_s);
     }
-    stable_steps_ = static_cast<int>(std::ceil(steps));
-    if (study_.numerics.steps_per_mesh > 0) {
-        return study_.numerics.steps_per_mesh;
+    const double band_periods = study_.sensor.low_pass_Hz * nominal.mesh_period_s;
+    const double least = std::ceil(std::max(stable, kFewestStepsPerBandPeriod * band_periods));
+    const double chosen = std::ceil(std::max(kMargin * stable, kStepsPerBandPeriod * band_periods));
+    if (!(chosen <= kMostSteps)) {
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format("the explicit Runge-Kutta method would need {:.3g} steps a mesh "
+                        "period (at most {})",
+                        chosen, kMostSteps),
+            "check for a very stiff support or bearing, a very light body, or a very "
+            "low speed");
     }
-    const double band = kStepsPerBandPeriod * study_.sensor.low_pass_Hz * nominal.mesh_period_s;
-    return static_cast<int>(std::ceil(std::max(kMargin * steps, band)));
+    least_steps_ = static_cast<int>(least);
+    const int given = study_.numerics.steps_per_mesh;
+    if (given > 0 && given < least_steps_) {
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format("{} steps are too few (below {} the explicit Runge-Kutta method "
+                        "is unstable for this study's stiffest gearbox, or its sensor's "
+                        "low-pass inaccurate)",
+                        given, least_steps_),
+            "leave the key out to have the steps chosen");
+    }
+    return given > 0 ? given : static_cast<int>(chosen);
+}
+
+// Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the
+// tolerance.
+int Scene::choose_max_meshes() const {
+    constexpr double kFewest = 200.0, kMost = 1e6;
+    const double decay = -2.0 * decay_meshes_ * std::log(study_.numerics.settle_tolerance);
+    const int given = study_.numerics.max_meshes;
+    return given > 0 ? given
+                     : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
+                                                             : kFewest);
 }
 
 void Scene::build_plan() {
-    const int samples = round_up_to_smooth(sampling(study_.sensor.sampling_Hz));
-    te_samples_ = std::clamp(sampling(study_.sensor.encoder_sampling_Hz), 1, samples);
+    const int samples =
+        round_up_to_smooth(sampling(study_.sensor.sampling_Hz, "sensor.sampling_Hz"));
+    if (samples < kFewestSamples) {
+        throw SceneError(
+            "sensor.sampling_Hz",
+            fmt::format("{} sample(s) a mesh period leave nothing to window (mesh "
+                        "frequency {:.4g} Hz)",
+                        samples, nominal_mesh_frequency_Hz_),
+            fmt::format("at least {:.4g} Hz", kFewestSamples * nominal_mesh_frequency_Hz_));
+    }
+    te_samples_ = std::min(
+        sampling(study_.sensor.encoder_sampling_Hz, "sensor.encoder_sampling_Hz"), samples);
     while (samples % te_samples_ != 0) {
         ++te_samples_;
     }
@@ -274,31 +328,29 @@ void Scene::build_plan() {
         lockstep::make_phase_grid(samples, choose_steps(), lockstep::contact_transitions(pairs_));
     plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, plan_.layout.mesh_damping);
     plan_.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
+    max_meshes_ = choose_max_meshes();
     set_te_weights();
 }
 
-// Park et al. (2016), Eq. 8: input rotation less output rotation times their ratio; each operating
-// condition and its reverse. Weights of the rotations of carrier, ring and sun, then per u = r
-// theta.
+// Park et al. (2016), Eq. 8: input rotation less output rotation times their ratio. Weights of the
+// rotations of carrier, ring and sun, then per u = r theta.
 void Scene::set_te_weights() {
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
-    double carrier = 0.0, ring = 0.0, sun = 0.0;
-    const Member input = study_.operation.input;
+    double carrier = 0.0, ring = 0.0, sun = 1.0;
     switch (plan_.layout.fixed) {
         case FixedMember::ring:
-            sun = 1.0;
             carrier = -(zr + zs) / zs;
             break;
         case FixedMember::sun:
+            sun = 0.0;
             ring = 1.0;
             carrier = -(zr + zs) / zr;
             break;
         case FixedMember::carrier:
-            sun = 1.0;
             ring = zr / zs;
             break;
     }
-    const double own = input == Member::sun ? sun : input == Member::ring ? ring : carrier;
+    const double own = study_.operation.input == Member::ring ? ring : sun;
     plan_.te_weight[0] = carrier / own / carrier_radius_;
     plan_.te_weight[1] = ring / own / ring_radius_;
     plan_.te_weight[2] = sun / own / sun_radius_;
@@ -310,10 +362,9 @@ int Scene::path_meshes() const {
 
 dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     dynamics::PlanetaryInputs out = body_inputs(instance);
-    const auto speeds = gears::train_speeds(train_, plan_.layout.fixed,
-                                            turning_member(speed_member_), instance.speed_rad_s);
-    out.carrier_speed_rad_s = speeds.carrier;
-    out.mesh_period_s = 2.0 * pi / std::abs(gears::mesh_frequency(train_, speeds));
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    out.carrier_speed_rad_s = turning.carrier;
+    out.mesh_period_s = 2.0 * pi / gears::mesh_frequency(train_, turning);
 
     // Torques of sun, ring and carrier in balance: T_s : T_r : T_c = Z_s : Z_r : -(Z_s + Z_r).
     // The held member's share is its support's reaction.

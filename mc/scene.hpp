@@ -3,6 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "gears/planetary.hpp"
 #include "lockstep/tile.hpp"
@@ -13,9 +17,21 @@
 
 namespace gearpod::mc {
 
+// What is wrong with a study that only building its scene shows: numbers of steps or samples.
+class SceneError : public std::runtime_error {
+  public:
+    SceneError(std::string key, const std::string& what, std::string remedy)
+        : std::runtime_error(what), key_(std::move(key)), remedy_(std::move(remedy)) {}
+    const std::string& key() const { return key_; }
+    const std::string& remedy() const { return remedy_; }
+
+  private:
+    std::string key_, remedy_;
+};
+
 class Scene {
   public:
-    // The study must have tooth numbers (Study::gearbox.has_teeth()).
+    // The study must have tooth numbers (Study::gearbox.has_teeth()). Throws SceneError.
     explicit Scene(const Study& study);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -38,10 +54,15 @@ class Scene {
     int samples_per_mesh() const { return plan_.grid.samples; }
     int te_samples_per_mesh() const { return te_samples_; }
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
-    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot
-    // sample, and mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e.
-    int stable_steps() const { return stable_steps_; }
+    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot sample
+    // or the sensor's low-pass is inaccurate; mesh periods that a disturbance of the nominal
+    // gearbox takes to decay by 1/e (infinite without damping); mesh periods in which a gearbox
+    // must settle.
+    int least_steps() const { return least_steps_; }
     double decay_meshes() const { return decay_meshes_; }
+    int max_meshes() const { return max_meshes_; }
+    // Sense of the planets' turn past the carrier; it orders the mesh phases.
+    gears::PlanetSense planet_sense() const { return sense_; }
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
@@ -52,12 +73,14 @@ class Scene {
     double max_depth_m() const;
 
   private:
+    gears::Speeds speeds(double given) const;
     void build_pairs();
     void build_pattern();
     void build_plan();
     void set_te_weights();
-    int sampling(double frequency_Hz) const;
+    int sampling(double frequency_Hz, const char* key) const;
     int choose_steps();
+    int choose_max_meshes() const;
 
     Study study_;
     Member speed_member_;
@@ -69,13 +92,12 @@ class Scene {
     lockstep::FaultPattern pattern_;
     lockstep::MarchPlan plan_;
     int te_samples_ = 0;
-    int stable_steps_ = 0;
+    int least_steps_ = 0;
+    int max_meshes_ = 0;
+    gears::PlanetSense sense_ = gears::PlanetSense::clockwise;
     double decay_meshes_ = 0.0;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };
-
-// Problems that only the built scene can see: a step too long for the integrator.
-Problems scene_problems(const Scene& scene, const std::string& path);
 
 // The dynamic model's choices, also for gearboxes without teeth (modes).
 dynamics::PlanetaryLayout layout(const Study& study);

@@ -198,8 +198,7 @@ Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
 
 Eigen::VectorXd static_equilibrium(const PlanetaryMatrices& matrices) {
     // The complete orthogonal decomposition gives the least-norm solution, which leaves the rigid
-    // rotation, the null vector of a free gearbox, at zero. Rows are balanced first: the scale of
-    // the diagonal keeps soft and stiff motions above the rank threshold.
+    // rotation, the null vector of a free gearbox, at zero.
     const Eigen::MatrixXd k = matrices.stiffness + matrices.centrifugal;
     return k.completeOrthogonalDecomposition().solve(matrices.force);
 }

@@ -45,7 +45,8 @@ PairOverride FaultSchedule::make_override(int pair, int k, double start) const {
     const auto tau = std::span(at.tau).subspan(first, count);
     const std::size_t lanes = faults_.cracked.size();
     std::vector<double> healthy(count), cracked(count);
-    curve.tooth_pair(tau, healthy);
+    const PairSet& pairs = *faults_.pairs;
+    pairs.tooth_pair(curve, curve.contact_ratio(), tau, healthy);
 
     PairOverride o{pair, at.first_step, at.last_step, machine::AlignedVector(count * lanes),
                    machine::AlignedVector(count * lanes)};
@@ -61,7 +62,7 @@ PairOverride FaultSchedule::make_override(int pair, int k, double start) const {
             }
             continue;
         }
-        faults_.cracked[l]->tooth_pair(tau, cracked);
+        pairs.tooth_pair(*faults_.cracked[l], curve.contact_ratio(), tau, cracked);
         dynamics::with_mesh_damping(plan_.layout.mesh_damping, [&](auto law) {
             for (std::size_t i = 0; i < count; ++i) {
                 // Where the tooth carries alone, the rest is rounding: exactly nothing then.

@@ -52,7 +52,7 @@ machine::AlignedVector filter_coefficients(const MarchPlan& plan,
                                            const dynamics::PlanetaryLanes<W>& lanes);
 
 // Marches `state` through one mesh period that begins at an integer phase and records it.
-// `record` vectors must have their sizes (see size_record).
+// `record` vectors must have their sizes (see make_record).
 void march_mesh_1(const MarchPlan& plan, const dynamics::PlanetaryLanes<1>& lanes,
                   const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
                   TileState& state, MeshRecord& record);

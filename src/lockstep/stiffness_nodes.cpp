@@ -13,11 +13,12 @@ double fraction(double x) {
 }
 
 // Adds the stiffness of the tooth pair that began to engage at phase `start` to column `pair`.
-void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid,
-                    const stiffness::PairStiffness& curve, int pair, double start) {
+void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid, const PairSet& pairs, int pair,
+                    double start) {
+    const auto& curve = pairs.curve(pair);
     const ToothPositions positions = tooth_positions(grid, 0.0, start, curve.contact_ratio());
     std::vector<double> k(positions.tau.size());
-    curve.tooth_pair(positions.tau, k);
+    pairs.tooth_pair(curve, curve.contact_ratio(), positions.tau, k);
     for (int i = positions.first_step * kStageNodes; i < positions.last_step * kStageNodes; ++i) {
         nodes.stiffness[static_cast<std::size_t>(i * nodes.pairs + pair)] +=
             k[static_cast<std::size_t>(i)];
@@ -25,6 +26,11 @@ void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid,
 }
 
 }  // namespace
+
+double PairSet::mesh(int pair, double phase) const {
+    const double since = phase - start[static_cast<std::size_t>(pair)];
+    return curve(pair).mesh(reversed ? curve(pair).contact_ratio() - since : since);
+}
 
 std::vector<double> contact_transitions(const PairSet& pairs) {
     std::vector<double> phases;
@@ -70,7 +76,7 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
         // Tooth pairs that began in this or in an earlier mesh period and are still in contact.
         const int earlier = static_cast<int>(std::ceil(curve.contact_ratio()));
         for (int age = 0; age <= earlier; ++age) {
-            add_tooth_pair(nodes, grid, curve, pair,
+            add_tooth_pair(nodes, grid, pairs, pair,
                            pairs.start[static_cast<std::size_t>(pair)] - age);
         }
     }

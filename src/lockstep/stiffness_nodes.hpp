@@ -1,6 +1,8 @@
 // Stiffness of all pairs at the stage nodes of a phase grid: one contiguous load per pair and node.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "dynamics/planetary.hpp"
@@ -18,12 +20,37 @@ struct PairSet {
     const stiffness::PairStiffness* sun_planet = nullptr;
     const stiffness::PairStiffness* ring_planet = nullptr;
     std::vector<double> start;  // in [0, 1)
+    // The planets turn the other way past the carrier (the sun is held, or the ring drives a
+    // standing carrier): contact runs the same line of action from its end to its start.
+    bool reversed = false;
 
     int pairs() const { return static_cast<int>(start.size()); }
     const stiffness::PairStiffness& curve(int pair) const {
         return 2 * pair < pairs() ? *sun_planet : *ring_planet;
     }
+
+    // Stiffness of a tooth pair, healthy or faulty, at positions tau (ascending) since it engaged.
+    template <class Curve>
+    void tooth_pair(const Curve& tooth, double contact_ratio, std::span<const double> tau,
+                    std::span<double> stiffness) const;
+    // All tooth pairs of a healthy pair at a phase (mesh periods since sp1 was at its pitch point).
+    double mesh(int pair, double phase) const;
 };
+
+template <class Curve>
+void PairSet::tooth_pair(const Curve& tooth, double contact_ratio, std::span<const double> tau,
+                         std::span<double> stiffness) const {
+    if (!reversed) {
+        tooth.tooth_pair(tau, stiffness);
+        return;
+    }
+    std::vector<double> mirrored(tau.rbegin(), tau.rend());
+    for (double& position : mirrored) {
+        position = contact_ratio - position;
+    }
+    tooth.tooth_pair(mirrored, stiffness);
+    std::reverse(stiffness.begin(), stiffness.end());
+}
 
 // Phases in [0, 1) at which the number of tooth pairs in contact jumps, of all pairs.
 std::vector<double> contact_transitions(const PairSet& pairs);
@@ -39,7 +66,7 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::M
 
 // Position of one tooth pair at the stage nodes of every step of mesh `mesh` (an integer count of
 // mesh periods), in mesh periods since it began to engage at phase `start` (not reduced), clamped
-// to [0, contact_ratio]; `engaged` is the range of steps during which it is in contact.
+// to [0, contact_ratio], and the range of steps during which it is in contact.
 struct ToothPositions {
     std::vector<double> tau;  // [step][stage node]
     int first_step = 0;

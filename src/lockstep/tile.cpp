@@ -138,7 +138,10 @@ class TileMarch {
     double distance(const TileState& a, const TileState& b, const MeshRecord& record,
                     int lane) const {
         const double scale = largest<W>(b.q, lane);
-        const double acceleration = largest<W>(record.acceleration, lane);
+        // Where the sensor sees next to nothing, rounding must not count as motion.
+        const double acceleration =
+            std::max(largest<W>(record.acceleration, lane),
+                     0.01 * scale * plan_.low_pass_rad_s * plan_.low_pass_rad_s);
         const double dq = largest_difference<W>(a.q, b.q, lane);
         const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
         double df = 0.0;
@@ -152,7 +155,8 @@ class TileMarch {
 
     bool diverged(int lane) const {
         return !(largest<W>(state_.q, lane) < kDivergedMotion_m) ||
-               !std::isfinite(largest<W>(state_.v, lane));
+               !std::isfinite(largest<W>(state_.v, lane)) ||
+               !std::isfinite(largest<W>(state_.filter, lane));
     }
 
     // Takes a lane that diverged out of the march: its records say NaN, its state rests at zero.

@@ -31,7 +31,7 @@ struct TileResult {
     int marched_meshes = 0;
 };
 
-// `inputs` and `faults.cracked` hold W lanes; unused lanes of the last tile repeat the first one.
+// `inputs` and `faults.cracked` hold W lanes; unused lanes of the last tile repeat its last one.
 // A lane's result never depends on its neighbours.
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,

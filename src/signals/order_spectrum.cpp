@@ -1,6 +1,7 @@
 #include "signals/order_spectrum.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace gearpod::signals {
@@ -11,6 +12,15 @@ std::size_t checked(int points) {
         throw std::invalid_argument("order spectrum: needs two or more points");
     }
     return points;
+}
+
+// The power of two that brings b's rms next to a's; 1 if either vanishes.
+double balancing_power_of_two(std::span<const double> a, std::span<const double> b) {
+    const auto square = [](std::span<const double> x) {
+        return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+    };
+    const double ratio = square(a) / square(b);
+    return ratio > 0.0 && std::isfinite(ratio) ? std::ldexp(1.0, std::ilogb(ratio) / 2) : 1.0;
 }
 
 }  // namespace
@@ -26,8 +36,9 @@ void OrderSpectrum::load(std::span<const double> signal, std::span<const double>
     if (signal.size() != n || (!noise.empty() && noise.size() != n)) {
         throw std::invalid_argument("order spectrum: signal and plan disagree in size");
     }
+    const double balance = noise.empty() ? 1.0 : balancing_power_of_two(signal, noise);
     for (std::size_t i = 0; i < n; ++i) {
-        buffer_[i] = {signal[i], noise.empty() ? 0.0 : noise[i]};
+        buffer_[i] = {signal[i], noise.empty() ? 0.0 : balance * noise[i]};
     }
     fft_.transform(buffer_.data(), transform_.data());
     for (std::size_t k = 0; k < signal_.size(); ++k) {
@@ -39,7 +50,8 @@ void OrderSpectrum::load(std::span<const double> signal, std::span<const double>
         const std::complex<double> sum = z + mirrored;
         const std::complex<double> difference = z - mirrored;
         signal_[k] = scale * sum;
-        noise_[k] = {scale * difference.imag(), -scale * difference.real()};
+        const double unscale = scale / balance;
+        noise_[k] = {unscale * difference.imag(), -unscale * difference.real()};
     }
 }
 

@@ -20,7 +20,9 @@ class OrderSpectrum {
     int points() const { return static_cast<int>(buffer_.size()); }
     int orders() const { return points() / 2 + 1; }  // order 0 to the Nyquist order
 
-    // Both of points() samples; `noise` may be empty. Throws std::invalid_argument otherwise.
+    // Both of points() samples; `noise` may be empty. The noise is scaled to the signal's size by a
+    // power of two meanwhile, so that its rounding does not leak into the signal's spectrum. Throws
+    // std::invalid_argument otherwise.
     void load(std::span<const double> signal, std::span<const double> noise = {});
 
     // amplitudes[k] of signal + noise_factor * noise: a sine of amplitude A at order k gives A.

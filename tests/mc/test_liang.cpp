@@ -196,3 +196,44 @@ TEST_CASE("The raw acceleration is large; the 800 Hz sensor shows the thesis' fe
     CHECK(peak(0.0) == Approx(5.0).margin(1.5));
     CHECK(peak(4.28e-3) == Approx(10.0).margin(3.0));
 }
+
+TEST_CASE("With the sun held the carrier's turn repeats after each planet as well") {
+    // The planets then turn the other way past the carrier: phases change sign and contact runs its
+    // line of action backwards. Z_s meshes make a carrier turn; only orders that N divides remain.
+    mc::Study study = with_crack(mc::Member::planet, 0.0);
+    study.operation.fixed = mc::Member::sun;
+    study.operation.input = mc::Member::ring;
+    const mc::Scene scene(study);
+    CHECK(scene.path_meshes() == 19);
+    CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 8.87 / 60));
+    const auto lines = spectrum(scene, 19);
+    const double largest = *std::max_element(lines.begin(), lines.end());
+    CHECK(largest_off_multiples_of_4(lines) < kNothing * largest);
+
+    study.fault.member = mc::Member::sun;
+    study.fault.side.reset();
+    study.fault.depth_m = 3.9e-3;
+    const auto cracked = spectrum(mc::Scene(study), 19 * 19);
+    CHECK(largest_off_multiples_of_4(cracked) <
+          kNothing * *std::max_element(cracked.begin(), cracked.end()));
+}
+
+TEST_CASE("With the carrier held the planets still mesh, driven from either side") {
+    for (const auto input : {mc::Member::sun, mc::Member::ring}) {
+        mc::Study study = with_crack(mc::Member::planet, 4.28e-3);
+        study.operation.fixed = mc::Member::carrier;
+        study.operation.input = input;
+        study.operation.carrier_speed_rad_s.reset();
+        study.operation.sun_speed_rad_s = 46.68 * 2 * 3.14159265358979 / 60;
+        const mc::Scene scene(study);
+        CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 46.68 / 60).epsilon(1e-6));
+        const auto tile = run_one(scene);
+        CHECK(tile.march.status[0] == lockstep::LaneStatus::ok);
+        // Without a turning path the signal repeats with the cracked tooth, every Z_p meshes.
+        const auto lines = spectrum(scene, 2 * 31);
+        const double largest = *std::max_element(lines.begin(), lines.end());
+        for (std::size_t i = 1; i < lines.size(); i += 2) {
+            CHECK(lines[i] < kNothing * largest);
+        }
+    }
+}
