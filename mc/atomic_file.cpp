@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace gearpod::mc {
@@ -71,29 +72,67 @@ void sync_folder(const std::string& path) {
     }
 }
 
+// The file that a chain of symbolic links ends at, whether it exists or not; the links themselves
+// where the chain has no end.
+std::string behind_links(std::string path) {
+    constexpr int kMostLinks = 40;  // as the kernel follows
+    for (int i = 0; i < kMostLinks; ++i) {
+        std::error_code error;
+        const std::string next = std::filesystem::read_symlink(path, error).string();
+        if (error) {
+            break;
+        }
+        path = next.front() == '/' ? next : folder_of(path) + "/" + next;
+    }
+    return path;
+}
+
+// Why nothing may be renamed to this name, or "". A name that is free, or a dangling link, is good.
+std::string why_not_replaceable(const std::string& path) {
+    struct stat status {};
+    if (path.empty()) {
+        return "the file name is empty";
+    }
+    if (path.back() == '/') {
+        return "it is a folder";
+    }
+    if (::stat(path.c_str(), &status) != 0) {
+        return errno == ELOOP ? std::strerror(ELOOP) : "";
+    }
+    if (S_ISDIR(status.st_mode)) {
+        return "it is a folder";
+    }
+    return S_ISREG(status.st_mode) ? ""
+                                   : "it is a device, a pipe or a socket; a regular file is needed";
+}
+
 }  // namespace
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
-    const std::string temporary = temporary_name(path);
+    const std::string kind = why_not_replaceable(path);
+    if (!kind.empty()) {
+        throw std::runtime_error(path + ": cannot be written (" + kind + ")");
+    }
+    const std::string target = behind_links(path);
+    const std::string temporary = temporary_name(target);
     int error = write_temporary(temporary, bytes);
-    if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
+    if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
         error = errno;
     }
     if (error != 0) {
         ::unlink(temporary.c_str());
         throw std::runtime_error(path + ": cannot be written (" + std::strerror(error) + ")");
     }
-    sync_folder(path);
+    sync_folder(target);
 }
 
-std::string why_not_writable(const std::string& path) {
+std::string why_not_writable(const std::string& name) {
+    const std::string kind = why_not_replaceable(name);
+    if (!kind.empty()) {
+        return kind;
+    }
     struct stat status {};
-    if (path.empty()) {
-        return "the file name is empty";
-    }
-    if (path.back() == '/' || (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode))) {
-        return "it is a folder";
-    }
+    const std::string path = behind_links(name);
     const std::string folder = folder_of(path);
     if (::stat(folder.c_str(), &status) != 0) {
         return "its folder " + folder + " cannot be used (" + std::strerror(errno) + ")";

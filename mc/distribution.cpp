@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -55,7 +56,8 @@ class FieldReader {
         std::apply(
             [&](const auto&... field) { ((good = read_field(law, field, spelled) && good), ...); },
             Law::fields());
-        if (good && !law.problem().empty()) {
+        // What the parameters contradict one another in; a bad one is NaN and contradicts none.
+        if (!law.problem().empty()) {
             good = add(table_.position, "", law.problem(), "");
         }
         return good;
@@ -81,53 +83,74 @@ class FieldReader {
 
     template <class Law, class Type>
     bool read_field(Law& law, const Field<Law, Type>& field, bool report_missing) {
+        Type& target = law.*(field.member);
         const Entry* entry = table_.find(field.name);
         if (entry != nullptr) {
-            return convert(*entry, law.*(field.member));
+            return convert(*entry, field.range, target);
         }
+        make_bad(target);
         return report_missing ? add(table_.position, std::string(field.name), "missing",
                                     fmt::format("{} needs it", Law::kName))
                               : false;
     }
 
-    bool convert(const Entry& entry, double& target) {
+    static void make_bad(double& target) { target = std::numeric_limits<double>::quiet_NaN(); }
+    template <class Type>
+    static void make_bad(Type&) {}
+
+    bool convert(const Entry& entry, const Range& range, double& target) {
         target = entry.value.number;
-        return check_number(entry, entry.value);
-    }
-
-    bool convert(const Entry& entry, int& target) {
-        const Value& value = entry.value;
-        const bool good = value.kind == Value::Kind::integer && std::abs(value.number) < 1e9;
-        if (good) {
-            target = static_cast<int>(value.integer);
-            return true;
+        const bool good = check_number(entry, entry.value, range);
+        if (!good) {
+            make_bad(target);
         }
-        return add(entry.position, entry.name,
-                   fmt::format("must be an integer, but is {}", value.kind_name()), "");
+        return good;
     }
 
-    bool convert(const Entry& entry, std::vector<double>& target) {
+    // The range must fit into an int.
+    bool convert(const Entry& entry, const Range& range, int& target) {
+        const Value& value = entry.value;
+        if (value.kind != Value::Kind::integer) {
+            return add(entry.position, entry.name,
+                       fmt::format("must be an integer, but is {}", value.kind_name()),
+                       range.hint());
+        }
+        if (!range.contains(value.number)) {
+            return add(entry.position, entry.name,
+                       fmt::format("must be an integer {}, but is {}", range.text(), value.integer),
+                       "");
+        }
+        target = static_cast<int>(value.integer);
+        return true;
+    }
+
+    bool convert(const Entry& entry, const Range& range, std::vector<double>& target) {
         if (entry.value.kind != Value::Kind::array) {
             return add(entry.position, entry.name,
                        fmt::format("must be a list of numbers, but is {}", entry.value.kind_name()),
                        "write values = [0, 1, 2]");
         }
+        if (entry.value.elements.empty()) {
+            return add(entry.position, entry.name, "has no values", "give at least one");
+        }
         bool good = true;
         for (const Value& element : entry.value.elements) {
-            good = check_number(entry, element) && good;
+            good = check_number(entry, element, range) && good;
             target.push_back(element.number);
         }
         return good;
     }
 
-    bool check_number(const Entry& entry, const Value& value) {
+    bool check_number(const Entry& entry, const Value& value, const Range& range) {
+        std::string what;
         if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            return add(entry.position, entry.name,
-                       fmt::format("must be a number, but is {}", value.kind_name()), "");
+            what = fmt::format("must be a number, but is {}", value.kind_name());
+        } else if (!std::isfinite(value.number)) {
+            what = fmt::format("must be a finite number, but is {}", value.number);
+        } else if (!range.contains(value.number)) {
+            what = fmt::format("must be {}, but is {}", range.text(), value.number);
         }
-        return std::isfinite(value.number) ||
-               add(entry.position, entry.name,
-                   fmt::format("must be a finite number, but is {}", value.number), "");
+        return what.empty() || add(entry.position, entry.name, std::move(what), "");
     }
 
     bool add(const Position& at, const std::string& name, std::string what, std::string remedy) {
@@ -171,8 +194,8 @@ std::vector<double> Distribution::levels() const {
     return std::visit([](const auto& law) { return law.levels(); }, kind_->law);
 }
 
-double Distribution::draw(Philox& engine, std::uint64_t instance) const {
-    return std::visit([&](const auto& law) { return law.draw(engine, instance); }, kind_->law);
+double Distribution::draw(Philox& engine, std::uint64_t turn) const {
+    return std::visit([&](const auto& law) { return law.draw(engine, turn); }, kind_->law);
 }
 
 std::string Distribution::toml() const {

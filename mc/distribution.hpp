@@ -33,8 +33,9 @@ class Distribution {
     Support support() const;
     // The values in turn of `levels` and `grid`, the value of `constant`; empty if continuous.
     std::vector<double> levels() const;
-    // One value. `levels` and `grid` give value instance mod count and use no randomness.
-    double draw(Philox& engine, std::uint64_t instance) const;
+    // One value. `levels` and `grid` give value `turn` mod count and use no randomness; for all
+    // others `turn` means nothing.
+    double draw(Philox& engine, std::uint64_t turn) const;
     // As an inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;

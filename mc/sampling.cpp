@@ -1,6 +1,7 @@
 #include "mc/sampling.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
@@ -63,6 +64,23 @@ double speed(const Operation& o) {
                              : o.ring_speed_rad_s.value_or(o.carrier_speed_rad_s.value_or(0.0));
 }
 
+// The value of each random input's digit: the product of the numbers of values before it.
+std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    std::vector<std::uint64_t> lengths(inputs.size(), 1);
+    std::uint64_t length = 1;
+    for (const bool depth : {true, false}) {
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const std::uint64_t count = inputs[i].distribution.levels().size();
+            if ((inputs[i].key == kDepth) == depth && count > 0) {
+                lengths[i] = length;
+                length = length > kMost / count ? kMost : length * count;
+            }
+        }
+    }
+    return lengths;
+}
+
 }  // namespace
 
 InstanceInputs resolve_inputs(const Study& study) {
@@ -94,14 +112,15 @@ InstanceInputs resolve_inputs(const Study& study) {
     return inputs;
 }
 
-Sampler::Sampler(const Study& study) : study_(study) {}
+Sampler::Sampler(const Study& study) : study_(study), turn_lengths_(turn_lengths(study.random)) {}
 
 Study Sampler::draw(Group group, std::uint64_t index) const {
     Study drawn = study_;
-    for (const RandomInput& input : study_.random) {
+    for (std::size_t i = 0; i < study_.random.size(); ++i) {
+        const RandomInput& input = study_.random[i];
         Philox engine(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
                       parameter_id(input.key));
-        const double value = input.distribution.draw(engine, index);
+        const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
     if (group == Group::threshold || drawn.fault.kind == FaultKind::none) {

@@ -37,6 +37,11 @@ struct ParameterColumn {
 };
 
 // Instances of both groups of one study. Immutable; safe to share between threads.
+//
+// `levels` and `grid` inputs take their values in turn, all combinations of them: instance i has
+// the digits of i in a mixed radix whose bases are the numbers of values. The lowest digit is
+// fault.depth_mm, so that each depth gets equally many gearboxes, then come the others in the order
+// of the schema. n gearboxes hold all combinations alike if n is a multiple of their number.
 class Sampler {
   public:
     explicit Sampler(const Study& study);
@@ -57,6 +62,8 @@ class Sampler {
   private:
     Study draw(Group group, std::uint64_t index) const;
     Study study_;
+    // By random input: how many instances have the same turn in succession.
+    std::vector<std::uint64_t> turn_lengths_;
 };
 
 // J / r^2 and the rest of one gearbox, from the nominal values of a study.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "mc/range.hpp"
 #include "mc/study.hpp"
 
 namespace gearpod::mc {
@@ -25,18 +25,6 @@ struct Unit {
     std::string_view si_suffix;  // "m"
     std::string_view si_name;    // "m"
     double to_si = 1.0;
-};
-
-// In the unit of the file.
-struct Range {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
-    bool low_open = false;
-    bool high_open = false;
-
-    bool contains(double value) const;
-    bool contains(const Support& support) const;
-    std::string text() const;  // "> 0", "between 0 and 1", ...
 };
 
 struct ChoiceName {

@@ -1,5 +1,6 @@
 // The table of keys. A new key is one member in study.hpp and one line here.
 #include <array>
+#include <limits>
 
 #include "mc/schema.hpp"
 #include "mc/schema_access.hpp"
@@ -29,6 +30,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kAny{};
 constexpr Range kPositive{0.0, kInfinity, true, false};
 constexpr Range kNotNegative{0.0, kInfinity, false, false};
+// Above what converters sample; it also bounds the number of samples.
+constexpr Range kFrequency{0.0, 1e7, true, false};
 constexpr Range from_to(double low, double high) {
     return {low, high, false, false};
 }
@@ -116,8 +119,8 @@ const Key kKeys[] = {
     {"gearbox", "mesh_damping_N_s_m", number<&G::mesh_damping_N_s_m>, kNSPerM, kNotNegative, damping_constant, kRandom, "constant mesh damping"},
 
     {"operation", "fixed", choice<&Operation::fixed>(kCentral), kNone, kAny, may, kShared, "member that stands still"},
-    {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, may, kShared, "member that is driven"},
-    {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kAny, always, kRandom, "torque on the sun, or on the ring if the sun is fixed"},
+    {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, may, kShared, "member that is driven: the sun, or the ring if the sun is fixed; either if the carrier is"},
+    {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kNotNegative, always, kRandom, "torque on the sun, or on the ring if the sun is fixed"},
     {"operation", "sun_speed_rpm", number<&Operation::sun_speed_rad_s>, kRpm, kPositive, may, kRandom, "speed of the sun"},
     {"operation", "ring_speed_rpm", number<&Operation::ring_speed_rad_s>, kRpm, kPositive, may, kRandom, "speed of the ring"},
     {"operation", "carrier_speed_rpm", number<&Operation::carrier_speed_rad_s>, kRpm, kPositive, may, kRandom, "speed of the carrier"},
@@ -134,11 +137,11 @@ const Key kKeys[] = {
     {"fault", "depth_mm", number<&Fault::depth_m>, kMm, kNotNegative, crack, kRandom, "crack depth along the crack"},
     {"fault", "angle_deg", number<&Fault::angle_rad>, kDeg, inside(0, 90), may, "the tables of cracked teeth hold for one angle", "angle between crack and tooth centre line"},
 
-    {"sensor", "sampling_Hz", number<&Sensor::sampling_Hz>, kHz, kPositive, always, kSampling, "sampling rate of the accelerometer"},
-    {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kPositive, always, kSampling, "anti-alias low-pass"},
+    {"sensor", "sampling_Hz", number<&Sensor::sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the accelerometer"},
+    {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, always, kSampling, "anti-alias low-pass"},
     {"sensor", "path_exponent", number<&Sensor::path_exponent>, kNone, from_to(-1, 1), may, kRandom, "exponent of the transmission path"},
     {"sensor", "noise_m_s2", number<&Sensor::noise_m_s2>, kMPerS2, kNotNegative, may, kRandom, "rms noise of the accelerometer"},
-    {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kPositive, always, kSampling, "sampling rate of the encoders"},
+    {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
     {"sensor", "noise_levels", list<&Sensor::noise_levels, Numbers>, kNone, kNotNegative, may, kSampling, "factors on both noises, ascending"},
 
@@ -150,9 +153,9 @@ const Key kKeys[] = {
     {"detection", "confidence", number<&Detection::confidence>, kNone, inside(0, 1), may, kShared, "confidence of the intervals"},
     {"detection", "size_edges_mm", list<&Detection::size_edges_m, Numbers>, kMm, kNotNegative, may, kShared, "edges of the size groups of a continuous fault.depth_mm"},
 
-    {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 10000000), may, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
+    {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), may, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), may, kShared, "relative change at which an orbit has settled"},
-    {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(1, 1000000000), may, kShared, "mesh periods in which it must settle"},
+    {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), may, kShared, "mesh periods in which it must settle; 0: from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 8), may, kShared, "gearboxes in lockstep: 8 or 1"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for all"},

@@ -56,8 +56,8 @@ struct Gearbox {
 
 struct Operation {
     Member fixed = Member::ring;
-    Member input = Member::sun;
-    double torque_N_m = 0.0;  // on the sun; on the ring if the sun is fixed
+    Member input = Member::sun;  // in a file by default the ring if the sun is fixed
+    double torque_N_m = 0.0;     // >= 0; on the sun; on the ring if the sun is fixed
     std::optional<double> sun_speed_rad_s, ring_speed_rad_s, carrier_speed_rad_s;  // exactly one
 
     bool operator==(const Operation&) const = default;
@@ -114,7 +114,7 @@ struct Detection {
 struct Numerics {
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
     double settle_tolerance = 1e-10;
-    int max_meshes = 200;
+    int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;
     int lanes = 8;    // 8 or 1
     int threads = 0;  // 0: all
@@ -164,8 +164,10 @@ struct StudyReading {
 };
 
 // Reads a study file. Each override is "section.key=value" with a TOML value (a bare word is a
-// string) and replaces what the file says. Bad input of any kind ends in `problems`, never in an
-// exception.
+// string) and replaces what the file says. An override of section.key also drops what [random] says
+// of that key: all gearboxes then have the value given. An override of random.section.key leaves
+// the value in its section, which is nominal; given together with one of section.key, in whatever
+// order, it wins. Bad input of any kind ends in `problems`, never in an exception.
 StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides = {});
 
 // The same from text; `name` stands for the file in messages.

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "features/feature.hpp"
+#include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
 #include "mc/study_draft.hpp"
 #include "mc/study_gears.hpp"
@@ -48,6 +50,27 @@ void check_teeth(StudyDraft& draft) {
     }
 }
 
+// Two gears, each of them possible, that do not mesh. Below the standard pressure angle it is
+// named, else the smaller gear's teeth.
+void check_mesh(StudyDraft& draft, Member driver, Member driven) {
+    const gears::Gear gear_1 = gear_of(draft.study.gearbox, driver);
+    const gears::Gear gear_2 = gear_of(draft.study.gearbox, driven);
+    if (!gears::gear_problems(gear_1).empty() || !gears::gear_problems(gear_2).empty()) {
+        return;
+    }
+    constexpr double kStandardAngle = 20.0 * std::numbers::pi / 180.0;
+    const Member smaller = gear_2.teeth < gear_1.teeth ? driven : driver;
+    const std::string key = gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12)
+                                ? "gearbox.pressure_angle_deg"
+                                : fmt::format("gearbox.{}_teeth", member_name(smaller));
+    for (const std::string& what : gears::mesh_problems(gear_1, gear_2)) {
+        reject(draft, key,
+               fmt::format("{} and {} do not mesh ({})", member_name(driver), member_name(driven),
+                           what),
+               "");
+    }
+}
+
 void check_gear_shapes(StudyDraft& draft) {
     const Gearbox& g = draft.study.gearbox;
     const std::string module = "gearbox.module_mm";
@@ -64,6 +87,8 @@ void check_gear_shapes(StudyDraft& draft) {
                    "the gear is not possible (" + what + ")", "");
         }
     }
+    check_mesh(draft, Member::sun, Member::planet);
+    check_mesh(draft, Member::planet, Member::ring);
 }
 
 void check_operation(StudyDraft& draft) {
@@ -72,10 +97,19 @@ void check_operation(StudyDraft& draft) {
         return;
     }
     const std::string_view fixed = member_name(o.fixed);
+    const std::string_view remedy = o.fixed == Member::ring  ? "use \"sun\""
+                                    : o.fixed == Member::sun ? "use \"ring\""
+                                                             : "use \"sun\" or \"ring\"";
     if (o.input == o.fixed) {
         reject(draft, "operation.input",
                fmt::format("is \"{}\", which stands still (operation.fixed)", fixed),
-               "drive another member");
+               std::string(remedy));
+    } else if (o.input == Member::carrier) {
+        reject(
+            draft, "operation.input",
+            "is \"carrier\" (driving the carrier loads the other flanks of the teeth, which this "
+            "model does not have)",
+            std::string(remedy));
     }
     const std::string speed = fmt::format("operation.{}_speed_rpm", fixed);
     if (draft.is_given(speed)) {

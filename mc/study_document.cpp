@@ -148,6 +148,12 @@ std::vector<std::string> split_path(const std::string& path) {
     return parts;
 }
 
+Entry* find_entry(Value& table, std::string_view name) {
+    const auto found = std::find_if(table.entries.begin(), table.entries.end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == table.entries.end() ? nullptr : &*found;
+}
+
 // The entry of that name in a table, made if absent. What is no table becomes one.
 Entry& child(Entry& parent, const std::string& name) {
     const Position at{std::string(kOverrideFile), 0};
@@ -155,16 +161,20 @@ Entry& child(Entry& parent, const std::string& name) {
         parent.value = Value{};
         parent.position = parent.value.position = at;
     }
-    std::vector<Entry>& entries = parent.value.entries;
-    for (Entry& entry : entries) {
-        if (entry.name == name) {
-            return entry;
-        }
+    if (Entry* entry = find_entry(parent.value, name)) {
+        return *entry;
     }
+    std::vector<Entry>& entries = parent.value.entries;
     entries.push_back({name, {}, at});
     // A section that only an override names is missing from the file.
     entries.back().value.position = {parent.value.position.file, 0};
     return entries.back();
+}
+
+// Whether an override set this entry or a part of it.
+bool overridden(const Entry& entry) {
+    return entry.position.file == kOverrideFile ||
+           std::any_of(entry.value.entries.begin(), entry.value.entries.end(), overridden);
 }
 
 }  // namespace
@@ -224,6 +234,23 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
     target->value = std::move(value);
     target->position = {file, 0};
     document = std::move(root.value);
+}
+
+void drop_overridden_random(Value& document) {
+    Entry* random = find_entry(document, "random");
+    if (random == nullptr) {
+        return;
+    }
+    for (Entry& section : random->value.entries) {
+        const Entry* plain = document.find(section.name);
+        if (plain == nullptr) {
+            continue;
+        }
+        std::erase_if(section.value.entries, [&](const Entry& key) {
+            const Entry* value = plain->value.find(key.name);
+            return value != nullptr && value->position.file == kOverrideFile && !overridden(key);
+        });
+    }
 }
 
 std::string read_file(const std::string& path, Problems& problems) {

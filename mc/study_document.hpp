@@ -40,6 +40,10 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
 // Applies "section.key=value": sets the value at that path, creating tables on the way.
 void apply_override(Value& document, const std::string& assignment, Problems& problems);
 
+// Drops random.section.key wherever an override set section.key and none set anything of
+// random.section.key: the value given is meant for all gearboxes.
+void drop_overridden_random(Value& document);
+
 // The whole file; a problem if it cannot be read.
 std::string read_file(const std::string& path, Problems& problems);
 

@@ -159,6 +159,14 @@ void fill_features(Study& study) {
     }
 }
 
+// Of a held sun's gearbox the ring is driven, else the sun.
+void fill_input(StudyDraft& draft) {
+    Operation& o = draft.study.operation;
+    if (!draft.is_given("operation.input")) {
+        o.input = o.fixed == Member::sun ? Member::ring : Member::sun;
+    }
+}
+
 StudyReading read_document(const Value& document, Problems problems) {
     StudyDraft draft;
     draft.problems = std::move(problems);
@@ -166,6 +174,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     read_sections(draft, document);
     check_presence(draft);
     fill_features(draft.study);
+    fill_input(draft);
     check_consistency(draft);
     check_fault(draft);
     sort_problems(draft.problems);
@@ -195,6 +204,7 @@ StudyReading read_study_text(const std::string& text, const std::string& name,
     for (const std::string& assignment : overrides) {
         apply_override(document, assignment, problems);
     }
+    drop_overridden_random(document);
     return read_document(document, std::move(problems));
 }
 

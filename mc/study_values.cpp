@@ -21,7 +21,8 @@ class ValueReader {
 
     void operator()(const IntegerAccess& access) {
         if (value_.kind != Value::Kind::integer) {
-            reject(fmt::format("must be an integer, but is {}", value_.kind_name()), range_hint());
+            reject(fmt::format("must be an integer, but is {}", value_.kind_name()),
+                   key_.range.hint());
         } else if (in_range(value_.number)) {
             access.set(draft_.study, value_.integer);
         }
@@ -60,17 +61,21 @@ class ValueReader {
         }
         for (const Value& element : value_.elements) {
             if (!finite(element) || !in_range(element.number)) {
-                return;
+                continue;
             }
-            numbers.push_back(element.number * key_.unit.to_si);
-            if (numbers.size() > 1 && !(numbers[numbers.size() - 2] < numbers.back())) {
-                reject(fmt::format("must ascend, but {} is not above the value before it",
-                                   element.number),
+            if (!numbers.empty() && !(numbers.back() < element.number)) {
+                reject(fmt::format("must ascend, but {} is not above {}, the value before it",
+                                   element.number, numbers.back()),
                        "sort the list and remove repeated values");
-                return;
             }
+            numbers.push_back(element.number);
         }
-        access.set(draft_.study, numbers);
+        for (double& number : numbers) {
+            number *= key_.unit.to_si;
+        }
+        if (draft_.usable(key_.path())) {
+            access.set(draft_.study, numbers);
+        }
     }
 
     void operator()(const TextsAccess& access) {
@@ -82,9 +87,9 @@ class ValueReader {
             if (element.kind != Value::Kind::text) {
                 reject(fmt::format("must be a list of strings, but holds {}", element.kind_name()),
                        "");
-                return;
+            } else {
+                texts.push_back(element.text);
             }
-            texts.push_back(element.text);
         }
         access.set(draft_.study, texts);
     }
@@ -92,11 +97,13 @@ class ValueReader {
   private:
     bool finite(const Value& value) {
         if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
-            reject(fmt::format("must be a number, but is {}", value.kind_name()), range_hint());
+            reject(fmt::format("must be a number, but is {}", value.kind_name()),
+                   key_.range.hint());
             return false;
         }
         if (!std::isfinite(value.number)) {
-            reject(fmt::format("must be a finite number, but is {}", value.number), range_hint());
+            reject(fmt::format("must be a finite number, but is {}", value.number),
+                   key_.range.hint());
             return false;
         }
         return true;
@@ -121,11 +128,6 @@ class ValueReader {
             return false;
         }
         return true;
-    }
-
-    std::string range_hint() const {
-        const std::string range = key_.range.text();
-        return range.empty() ? "" : "give a value " + range;
     }
 
     void reject(std::string what, std::string remedy) {

@@ -1,4 +1,4 @@
-// Equally spaced values in turn, both ends included: gearbox i has the (i mod count)-th.
+// Equally spaced values in turn, both ends included: turn t has the (t mod count)-th.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,9 @@ struct Grid {
 
     static constexpr auto fields() {
         return std::tuple{Field{"low", &Grid::low}, Field{"high", &Grid::high},
-                          Field{"count", &Grid::count}};
+                          Field{"count", &Grid::count, {2.0, 1e5, false, false}}};
     }
-    std::string problem() const {
-        if (!(low < high)) {
-            return "low must be below high";
-        }
-        return count >= 2 && count <= 100000 ? "" : "count must be between 2 and 100000";
-    }
+    std::string problem() const { return low >= high ? "low must be below high" : ""; }
     double median() const { return value((count - 1) / 2); }
     Support support() const { return {low, high, false, false}; }
     std::vector<double> levels() const {
@@ -37,8 +32,8 @@ struct Grid {
         }
         return values;
     }
-    double draw(Philox&, std::uint64_t instance) const {
-        return value(static_cast<int>(instance % static_cast<std::uint64_t>(count)));
+    double draw(Philox&, std::uint64_t turn) const {
+        return value(static_cast<int>(turn % static_cast<std::uint64_t>(count)));
     }
     bool operator==(const Grid&) const = default;
 

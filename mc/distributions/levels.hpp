@@ -1,4 +1,4 @@
-// Given values in turn: gearbox i has values[i mod count]. A repeated value is a heavier one.
+// Given values in turn: turn t has values[t mod count]. A repeated value is a heavier one.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Levels {
     std::vector<double> values;
 
     static constexpr auto fields() { return std::tuple{Field{"values", &Levels::values}}; }
-    std::string problem() const { return values.empty() ? "has no values" : ""; }
+    std::string problem() const { return ""; }
     // The lower of the two middle values, so that it is one of the levels.
     double median() const {
         std::vector<double> sorted = values;
@@ -30,7 +30,7 @@ struct Levels {
         return {*low, *high, false, false};
     }
     std::vector<double> levels() const { return values; }
-    double draw(Philox&, std::uint64_t instance) const { return values[instance % values.size()]; }
+    double draw(Philox&, std::uint64_t turn) const { return values[turn % values.size()]; }
     bool operator==(const Levels&) const = default;
 };
 

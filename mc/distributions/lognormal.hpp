@@ -23,11 +23,10 @@ struct Lognormal {
     double cv = 0.0;
 
     static constexpr auto fields() {
-        return std::tuple{Field{"median", &Lognormal::middle}, Field{"cv", &Lognormal::cv}};
+        return std::tuple{Field{"median", &Lognormal::middle, kPositiveField},
+                          Field{"cv", &Lognormal::cv, kPositiveField}};
     }
-    std::string problem() const {
-        return middle > 0.0 && cv > 0.0 ? "" : "median and cv must be > 0";
-    }
+    std::string problem() const { return ""; }
     double median() const { return middle; }
     Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
     std::vector<double> levels() const { return {}; }

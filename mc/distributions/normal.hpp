@@ -1,9 +1,10 @@
-// Gaussian; unbounded, so only for inputs that may have any value.
+// Gaussian. Values beyond 8.3 standard deviations (probability 1e-16) are drawn again, so that an
+// input with a bound may be normal if the bound is that far away.
 #pragma once
 
 #include <boost/random/normal_distribution.hpp>
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -20,17 +21,20 @@ struct Normal {
     double sd = 0.0;
 
     static constexpr auto fields() {
-        return std::tuple{Field{"mean", &Normal::mean}, Field{"sd", &Normal::sd}};
+        return std::tuple{Field{"mean", &Normal::mean}, Field{"sd", &Normal::sd, kPositiveField}};
     }
-    std::string problem() const { return sd > 0.0 ? "" : "sd must be > 0"; }
+    std::string problem() const { return ""; }
     double median() const { return mean; }
-    Support support() const {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        return {-infinity, infinity, true, true};
-    }
+    static constexpr double kReach = 8.3;  // standard deviations
+    Support support() const { return {mean - kReach * sd, mean + kReach * sd}; }
     std::vector<double> levels() const { return {}; }
     double draw(Philox& engine, std::uint64_t) const {
-        return boost::random::normal_distribution<double>(mean, sd)(engine);
+        boost::random::normal_distribution<double> normal;
+        double z = normal(engine);
+        while (std::abs(z) > kReach) {
+            z = normal(engine);
+        }
+        return mean + sd * z;
     }
     bool operator==(const Normal&) const = default;
 };

@@ -25,9 +25,9 @@ struct Triangular {
                           Field{"high", &Triangular::high}};
     }
     std::string problem() const {
-        return low < high && low <= mode && mode <= high
-                   ? ""
-                   : "must have low <= mode <= high and low < high";
+        return low >= high || low > mode || mode > high
+                   ? "must have low <= mode <= high and low < high"
+                   : "";
     }
     double median() const {
         const double width = high - low;

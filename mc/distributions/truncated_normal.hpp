@@ -26,19 +26,17 @@ struct TruncatedNormal {
     double high = 0.0;
 
     static constexpr auto fields() {
-        return std::tuple{Field{"mean", &TruncatedNormal::mean}, Field{"sd", &TruncatedNormal::sd},
+        return std::tuple{Field{"mean", &TruncatedNormal::mean},
+                          Field{"sd", &TruncatedNormal::sd, kPositiveField},
                           Field{"low", &TruncatedNormal::low},
                           Field{"high", &TruncatedNormal::high}};
     }
     std::string problem() const {
-        if (!(sd > 0.0)) {
-            return "sd must be > 0";
-        }
-        if (!(low < high)) {
+        if (low >= high) {
             return "low must be below high";
         }
         const double deviations = std::max((low - mean) / sd, (mean - high) / sd);
-        return deviations <= kFarthest ? "" : "low..high lies more than 30 sd away from the mean";
+        return deviations > kFarthest ? "low..high lies more than 30 sd away from the mean" : "";
     }
     double median() const { return quantile(0.5); }
     Support support() const { return {low, high, false, false}; }

@@ -21,7 +21,7 @@ struct Uniform {
     static constexpr auto fields() {
         return std::tuple{Field{"low", &Uniform::low}, Field{"high", &Uniform::high}};
     }
-    std::string problem() const { return low < high ? "" : "low must be below high"; }
+    std::string problem() const { return low >= high ? "low must be below high" : ""; }
     double median() const { return 0.5 * low + 0.5 * high; }
     Support support() const { return {low, high, false, false}; }
     std::vector<double> levels() const { return {}; }

@@ -85,6 +85,18 @@ const BadFile kBadFiles[] = {
      "must be a finite number"},
     {"torque_N_m = 429", "torque_N_m = inf", "torque", "operation.torque_N_m",
      "must be a finite number"},
+    {"torque_N_m = 429", "torque_N_m = -1", "torque", "operation.torque_N_m",
+     "must be >= 0, but is -1"},
+    {"sampling_Hz = 5000", "sampling_Hz = 1.01e7", "sampling_Hz", "sensor.sampling_Hz",
+     "must be > 0 and <= 10000000"},
+    {"low_pass_Hz = 800", "low_pass_Hz = 1.01e7", "low_pass_Hz", "sensor.low_pass_Hz",
+     "must be > 0 and <= 10000000"},
+    {"encoder_sampling_Hz = 5000", "encoder_sampling_Hz = 1.01e7", "encoder_sampling_Hz",
+     "sensor.encoder_sampling_Hz", "must be > 0 and <= 10000000"},
+    {"[operation]", "[numerics]\nmax_meshes = -1\n[operation]", "max_meshes", "numerics.max_meshes",
+     "must be between 0 and 1000000"},
+    {"[operation]", "[numerics]\nsteps_per_mesh = 1000001\n[operation]", "steps_per_mesh",
+     "numerics.steps_per_mesh", "must be between 0 and 1000000"},
     {"seed = 7", "seed = -7", "seed =", "ensemble.seed", "must be >= 0, but is -7"},
     {"instances = 100", "instances = 0", "instances = 0", "ensemble.instances", "must be between"},
     {"noise_levels = [0, 0.5, 1]", "noise_levels = [1, 0.5]", "noise_levels", "sensor.noise_levels",
@@ -113,7 +125,16 @@ const BadFile kBadFiles[] = {
     {"[operation]", "sun_planet_stiffness_N_m = 1e8\n[operation]", "sun_planet_stiffness",
      "gearbox.sun_planet_stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
     {"[operation]", "[operation]\ninput = \"ring\"", "input", "operation.input",
-     "is \"ring\", which stands still"},
+     "is \"ring\", which stands still (operation.fixed); use \"sun\""},
+    {"[operation]", "[operation]\ninput = \"carrier\"", "input", "operation.input",
+     "driving the carrier loads the other flanks of the teeth, which this model does not have); "
+     "use \"sun\""},
+    {"carrier_speed_rpm", "fixed = \"sun\"\ninput = \"sun\"\ncarrier_speed_rpm", "input",
+     "operation.input", "which stands still (operation.fixed); use \"ring\""},
+    {"carrier_speed_rpm", "fixed = \"sun\"\ninput = \"carrier\"\ncarrier_speed_rpm", "input",
+     "operation.input", "; use \"ring\""},
+    {"carrier_speed_rpm", "fixed = \"carrier\"\ninput = \"carrier\"\nsun_speed_rpm", "input",
+     "operation.input", "which stands still (operation.fixed); use \"sun\" or \"ring\""},
     {"carrier_speed_rpm", "ring_speed_rpm", "ring_speed", "operation.ring_speed_rpm",
      "the ring stands still"},
     {"member = \"planet\"", "member = \"sun\"", "side = ", "fault.side",
@@ -131,7 +152,7 @@ const BadFile kBadFiles[] = {
     {"values = [0, 1, 2, 3, 4.3]", "values = [0, -1]", "values = [0, -1]", "random.fault.depth_mm",
      "depth_mm must be >= 0"},
     // Distributions.
-    {"values = [0, 1, 2, 3, 4.3]", "values = []", "values = []", "random.fault.depth_mm",
+    {"values = [0, 1, 2, 3, 4.3]", "values = []", "values = []", "random.fault.depth_mm.values",
      "has no values"},
     {"values = [0, 1, 2, 3, 4.3]", "value = [1]", "value = [1]", "random.fault.depth_mm.value",
      "unknown parameter of levels; did you mean values?"},
@@ -140,12 +161,18 @@ const BadFile kBadFiles[] = {
     {"median = 1.1e8, cv = 0.2", "median = 1.1e8", "median",
      "random.gearbox.planet_bearing_stiffness_N_m.cv", "missing; lognormal needs it"},
     {"median = 1.1e8, cv = 0.2", "median = 1.1e8, cv = -1", "median",
-     "random.gearbox.planet_bearing_stiffness_N_m", "cv must be > 0"},
+     "random.gearbox.planet_bearing_stiffness_N_m.cv", "must be > 0, but is -1"},
+    {"\"levels\", values = [0, 1, 2, 3, 4.3]", "\"grid\", low = 0, high = 4, count = 2000000000",
+     "count", "random.fault.depth_mm.count",
+     "must be an integer between 2 and 100000, but is 2000000000"},
+    {"\"levels\", values = [0, 1, 2, 3, 4.3]", "\"grid\", low = 0, high = 4, count = 4.0", "count",
+     "random.fault.depth_mm.count",
+     "must be an integer, but is a number; give a value between 2 and 100000"},
     {"low = -0.1, high = 0.3", "low = 0.3, high = -0.1", "path_exponent",
      "random.sensor.path_exponent", "low must be below high"},
     {"low = -0.1, high = 0.3", "low = -0.1, high = inf", "path_exponent",
      "random.sensor.path_exponent.high", "must be a finite number"},
-    {"\"lognormal\", median = 1.1e8, cv = 0.2", "\"normal\", mean = 1e8, sd = 1e7", "\"normal\"",
+    {"\"lognormal\", median = 1.1e8, cv = 0.2", "\"normal\", mean = 1e8, sd = 2e7", "\"normal\"",
      "random.gearbox.planet_bearing_stiffness_N_m", "use lognormal or truncated-normal"},
     {"[random]", "[random]\ngearbox.module_mm = { distribution = \"constant\", value = 3 }",
      "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it shapes the teeth"},
@@ -226,6 +253,46 @@ TEST_CASE("A crack depth is refused from the length on at which the crack leaves
     char limit[32];
     std::snprintf(limit, sizeof limit, "%.3f", limit_mm);
     CHECK(mentions(reading.problems[0], std::string(limit).substr(0, 4)));
+}
+
+TEST_CASE("Every bad entry of a distribution or a list is reported") {
+    const auto whats_of = [](const std::string& text) {
+        const auto reading = read_study_text(text, "bad.toml");
+        std::vector<std::string> whats;
+        for (const Problem& problem : reading.problems) {
+            whats.push_back(problem.key + ": " + problem.what);
+        }
+        return whats;
+    };
+    using Whats = std::vector<std::string>;
+    const std::string bearing = "random.gearbox.planet_bearing_stiffness_N_m",
+                      depth = "random.fault.depth_mm", path = "random.sensor.path_exponent";
+    CHECK(whats_of(example_with("median = 1.1e8, cv = 0.2", "median = -1, cv = nan")) ==
+          Whats{bearing + ".median: must be > 0, but is -1",
+                bearing + ".cv: must be a finite number, but is nan"});
+    CHECK(whats_of(example_with("[0, 1, 2, 3, 4.3]", "[0, \"a\", nan]")) ==
+          Whats{depth + ".values: must be a number, but is a string",
+                depth + ".values: must be a finite number, but is nan"});
+    CHECK(whats_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",
+                                "\"grid\", low = 3, high = 1, count = 1")) ==
+          Whats{depth + ".count: must be an integer between 2 and 100000, but is 1",
+                depth + ": low must be below high"});
+    CHECK(
+        whats_of(example_with("sd = 0.05, low = -0.1, high = 0.3", "sd = 0, low = 1, high = 1")) ==
+        Whats{path + ".sd: must be > 0, but is 0", path + ": low must be below high"});
+    CHECK(whats_of(example_with("sd = 0.05, low = -0.1, high = 0.3", "sd = 0, low = 1")) ==
+          Whats{path + ".sd: must be > 0, but is 0", path + ".high: missing"});
+    CHECK(whats_of(
+              example_with("noise_levels = [0, 0.5, 1]", "noise_levels = [-1, true, 2, inf, 1]")) ==
+          Whats{"sensor.noise_levels: must be >= 0, but is -1",
+                "sensor.noise_levels: must be a number, but is true or false",
+                "sensor.noise_levels: must be a finite number, but is inf",
+                "sensor.noise_levels: must ascend, but 1 is not above 2, the value before it"});
+    CHECK(whats_of(example_with("[operation]",
+                                "[features]\nuse = [1, \"te_rmss\", 2.5]\n[operation]")) ==
+          Whats{"features.use: must be a list of strings, but holds an integer",
+                "features.use: must be a list of strings, but holds a number",
+                "features.use: unknown feature \"te_rmss\""});
 }
 
 TEST_CASE("All problems of a file come at once, sorted by line, overrides last") {

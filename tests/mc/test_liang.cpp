@@ -203,6 +203,7 @@ TEST_CASE("With the sun held the carrier's turn repeats after each planet as wel
     mc::Study study = with_crack(mc::Member::planet, 0.0);
     study.operation.fixed = mc::Member::sun;
     study.operation.input = mc::Member::ring;
+    study.numerics.settle_tolerance = 1e-12;  // the slower mesh vibrates less
     const mc::Scene scene(study);
     CHECK(scene.path_meshes() == 19);
     CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 8.87 / 60));

@@ -1,6 +1,9 @@
 // The results file: complete or absent, readable by other programs, refused when it is not ours.
 #include <hdf5.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -259,6 +262,67 @@ TEST_CASE("An output that cannot be written is known before the run") {
     CHECK(contains(why_not_writable(folder.file("r.h5/x.h5")), "folder"));
     CHECK_FALSE(why_not_writable("").empty());
     CHECK_THROWS_AS(write_results(folder.file("no/r.h5"), example()), std::runtime_error);
+}
+
+TEST_CASE("What is no regular file is refused and stays") {
+    const Folder folder;
+    const std::string fifo = folder.file("fifo"), socket_path = folder.file("socket");
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    REQUIRE(socket_path.size() < sizeof address.sun_path);
+    socket_path.copy(address.sun_path, socket_path.size());
+    REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    ::close(socket);
+    fs::create_symlink("fifo", folder.file("link"));
+    const long files = folder.files();
+    for (const std::string& path : {fifo, socket_path, folder.file("link")}) {
+        const fs::file_type before = fs::symlink_status(path).type();
+        CHECK(contains(why_not_writable(path), "a regular file is needed"));
+        std::string reason;
+        try {
+            write_results(path, example());
+        } catch (const std::runtime_error& error) {
+            reason = error.what();
+        }
+        CHECK(contains(reason, path + ": cannot be written ("));
+        CHECK(contains(reason, "a regular file is needed"));
+        CHECK(fs::symlink_status(path).type() == before);
+    }
+    CHECK(folder.files() == files);
+    CHECK(contains(why_not_writable("/dev/null"), "a regular file is needed"));
+}
+
+TEST_CASE("A symbolic link stays, and the file it names is written") {
+    const Folder folder;
+    fs::create_directory(folder.file("far"));
+    write_bytes(folder.file("far/old.h5"), "old");
+    fs::create_symlink("far/old.h5", folder.file("old"));
+    fs::create_symlink("old", folder.file("chain"));
+    fs::create_symlink(folder.file("far/new.h5"), folder.file("dangling"));
+    for (const char* link : {"chain", "dangling"}) {
+        CHECK(why_not_writable(folder.file(link)).empty());
+    }
+    CHECK(bytes_of(folder.file("far/old.h5")) == "old");
+    CHECK_FALSE(fs::exists(folder.file("far/new.h5")));
+    for (const char* link : {"chain", "dangling"}) {
+        write_results(folder.file(link), example());
+        CHECK(fs::is_symlink(folder.file(link)));
+        CHECK(read_results(folder.file(link)).status == example().status);
+    }
+    CHECK(fs::is_symlink(folder.file("old")));
+    CHECK(fs::is_regular_file(folder.file("far/new.h5")));
+    CHECK(bytes_of(folder.file("far/new.h5")) == bytes_of(folder.file("far/old.h5")));
+    CHECK(std::distance(fs::directory_iterator(folder.file("far")), fs::directory_iterator{}) == 2);
+
+    fs::create_symlink("far", folder.file("to-folder"));
+    CHECK(contains(why_not_writable(folder.file("to-folder")), "folder"));
+    fs::create_symlink("no/r.h5", folder.file("astray"));
+    CHECK(contains(why_not_writable(folder.file("astray")), "No such file"));
+    fs::create_symlink("ring", folder.file("ring"));
+    CHECK(contains(why_not_writable(folder.file("ring")), "symbolic links"));
+    CHECK_THROWS_AS(write_results(folder.file("ring"), example()), std::runtime_error);
 }
 
 TEST_CASE("Results whose shapes disagree are not written") {

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <set>
+#include <tuple>
 
 #include "mc/sampling.hpp"
+#include "mc/study_document.hpp"
 #include "study_example.hpp"
 
 using namespace gearpod::mc;
@@ -22,12 +25,23 @@ Study study_with(const std::vector<std::string>& overrides) {
     return *reading.study;
 }
 
-// Draws of operation.torque_N_m, which may have any value, from a distribution given as TOML.
-std::vector<double> draws_of(const std::string& distribution, int count) {
-    const Sampler sampler(study_with({"random.operation.torque_N_m=" + distribution}));
+Distribution distribution_of(const std::string& toml) {
+    Problems problems;
+    const Value document = parse_document("x = " + toml, "test.toml", problems);
+    const auto distribution = Distribution::read(document.find("x")->value, "x", problems);
+    INFO(format(problems));
+    REQUIRE(distribution);
+    return *distribution;
+}
+
+// Draws of as many instances, as a Sampler takes them, from a distribution given as TOML.
+std::vector<double> draws_of(const std::string& toml, int count) {
+    const Distribution distribution = distribution_of(toml);
     std::vector<double> draws;
     for (int i = 0; i < count; ++i) {
-        draws.push_back(sampler.sample(Group::graded, static_cast<std::uint64_t>(i)).torque_N_m);
+        const auto index = static_cast<std::uint64_t>(i);
+        Philox engine(7, Group::graded, index, parameter_id("operation.torque_N_m"));
+        draws.push_back(distribution.draw(engine, index));
     }
     return draws;
 }
@@ -146,11 +160,7 @@ TEST_CASE("Moments of the draws are those of the closed forms") {
 }
 
 TEST_CASE("Medians are those of the distribution function") {
-    const auto median_of = [](const std::string& text) {
-        return study_with({"random.operation.torque_N_m=" + text})
-            .find_random("operation.torque_N_m")
-            ->distribution.median();
-    };
+    const auto median_of = [](const std::string& text) { return distribution_of(text).median(); };
     CHECK(median_of("{distribution='uniform', low=1, high=4}") == 2.5);
     // F(x) = 1 - (4 - x)^2 / 12 = 1/2.
     CHECK(median_of("{distribution='triangular', low=0, mode=1, high=4}") ==
@@ -187,6 +197,49 @@ TEST_CASE(
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
 }
 
+TEST_CASE("Levels and grids of several inputs take all combinations, each equally often") {
+    std::vector<std::string> overrides{
+        "random.fault.depth_mm.values=[0, 1, 2, 3]",
+        "random.gearbox.sun_mass_kg={distribution='grid', low=1, high=4, count=4}",
+        "random.sensor.noise_m_s2={distribution='grid', low=0, high=3, count=4}"};
+    const Sampler sampler(study_with(overrides));
+    // Another random input, and one of constant value, change no draw.
+    overrides.push_back("random.operation.torque_N_m={distribution='uniform', low=1, high=2}");
+    overrides.push_back("random.gearbox.ring_mass_kg={distribution='constant', value=3}");
+    const Sampler more(study_with(overrides));
+    for (const Group group : {Group::graded, Group::threshold}) {
+        std::set<std::tuple<double, double, double>> combinations;
+        for (std::uint64_t i = 0; i < 64; ++i) {
+            const InstanceInputs x = sampler.sample(group, i);
+            combinations.insert({x.fault_depth_m, x.sun_mass_kg, x.noise_m_s2});
+            if (group == Group::graded) {
+                CHECK(x.fault_depth_m == Approx(1e-3 * static_cast<double>(i % 4)));
+            }
+            const InstanceInputs y = more.sample(group, i);
+            CHECK(y.ring_mass_kg == 3.0);
+            CHECK(same(x, y));
+            CHECK(x.sun_mass_kg == y.sun_mass_kg);
+            CHECK(x.noise_m_s2 == y.noise_m_s2);
+        }
+        CHECK(combinations.size() == (group == Group::graded ? 64 : 16));
+    }
+    // In the order of the schema: the mass turns before the noise.
+    CHECK(sampler.sample(Group::graded, 4).sun_mass_kg == 2.0);
+    CHECK(sampler.sample(Group::graded, 4).noise_m_s2 == 0.0);
+    CHECK(sampler.sample(Group::graded, 16).noise_m_s2 == 1.0);
+
+    // More combinations than there are numbers for instances.
+    overrides.clear();
+    for (const char* key : {"sun_mass_kg", "planet_mass_kg", "ring_mass_kg", "carrier_mass_kg"}) {
+        overrides.push_back("random.gearbox." + std::string(key) +
+                            "={distribution='grid', low=1, high=2, count=100000}");
+    }
+    const InstanceInputs last = Sampler(study_with(overrides)).sample(Group::graded, 999999999);
+    CHECK(last.sun_mass_kg == Approx(1 + 99999 / 99999.0));
+    CHECK(last.ring_mass_kg == 1.0);
+    CHECK(last.carrier_mass_kg == 1.0);
+}
+
 TEST_CASE("An instance is the same whatever was sampled before and however often") {
     const Sampler forward(study_with({})), backward(study_with({}));
     std::vector<InstanceInputs> first;
@@ -202,9 +255,9 @@ TEST_CASE("An instance is the same whatever was sampled before and however often
 
 TEST_CASE("A new random input leaves the draws of the others as they were") {
     const Sampler before(study_with({}));
-    const Sampler after(
-        study_with({"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
-                    "random.operation.torque_N_m={distribution='normal', mean=429, sd=20}"}));
+    const Sampler after(study_with(
+        {"random.gearbox.sun_mass_kg={distribution='uniform', low=0.6, high=0.8}",
+         "random.operation.torque_N_m={distribution='lognormal', median=429, cv=0.05}"}));
     for (std::uint64_t i = 0; i < 50; ++i) {
         CHECK(same(before.sample(Group::graded, i), after.sample(Group::graded, i)));
         CHECK(same(before.sample(Group::threshold, i), after.sample(Group::threshold, i)));

@@ -103,6 +103,56 @@ TEST_CASE("Overrides replace what the file says and may leave strings unquoted")
     CHECK(study.detection.confidence == 0.9);
 }
 
+TEST_CASE("An override of a key takes it out of [random], in whatever order both are overridden") {
+    const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
+    const Study fixed = study_of(kExampleStudy, {stiffness + "=3e8"});
+    CHECK(fixed.find_random(stiffness) == nullptr);
+    CHECK(fixed.random.size() == 2);
+    CHECK(*fixed.gearbox.planet_bearing_stiffness_N_m == 3e8);
+    CHECK(study_of(resolved_text(fixed)) == fixed);
+    CHECK(study_of(kExampleStudy, {"sensor={sampling_Hz=5000, low_pass_Hz=800, "
+                                   "encoder_sampling_Hz=5000, path_exponent=0.2}"})
+              .find_random("sensor.path_exponent") == nullptr);
+
+    // An override of [random] leaves the section's value, which is nominal, and the other way
+    // round.
+    CHECK(study_of(kExampleStudy, {"random." + stiffness + ".cv=0.5"})
+              .gearbox.planet_bearing_stiffness_N_m == 1e8);
+    const std::string plain = stiffness + "=3e8",
+                      whole = "random." + stiffness + "={distribution='uniform', low=1, high=2}",
+                      part = "random." + stiffness + ".cv=0.5";
+    for (const std::string& random : {whole, part}) {
+        const Study both = study_of(kExampleStudy, {plain, random});
+        CHECK(both == study_of(kExampleStudy, {random, plain}));
+        CHECK(*both.gearbox.planet_bearing_stiffness_N_m == 3e8);
+        REQUIRE(both.find_random(stiffness) != nullptr);
+        CHECK(both.find_random(stiffness)->distribution ==
+              study_of(kExampleStudy, {random}).find_random(stiffness)->distribution);
+    }
+}
+
+TEST_CASE("By default the sun is driven, and the ring where the sun is fixed") {
+    const auto input_of = [](const std::string& fixed, const std::string& speed) {
+        return study_of(example_with("carrier_speed_rpm", speed), {"operation.fixed=" + fixed});
+    };
+    const Study ring = input_of("ring", "sun_speed_rpm"), sun = input_of("sun", "ring_speed_rpm"),
+                carrier = input_of("carrier", "sun_speed_rpm");
+    CHECK(ring.operation.input == Member::sun);
+    CHECK(sun.operation.input == Member::ring);
+    CHECK(carrier.operation.input == Member::sun);
+    CHECK(resolved_text(sun).find("\ninput = \"ring\"\n") != std::string::npos);
+    CHECK(study_of(resolved_text(sun)) == sun);
+    CHECK(study_of(example_with("carrier_speed_rpm", "ring_speed_rpm"),
+                   {"operation.fixed=carrier", "operation.input=ring"})
+              .operation.input == Member::ring);
+}
+
+TEST_CASE("Zero settling periods stand for a choice by the program and are the default") {
+    CHECK(study_of(kExampleStudy).numerics.max_meshes == 0);
+    CHECK(study_of(kExampleStudy, {"numerics.max_meshes=1000000"}).numerics.max_meshes == 1000000);
+    CHECK(study_of(kExampleStudy, {"operation.torque_N_m=0"}).operation.torque_N_m == 0.0);
+}
+
 TEST_CASE("The resolved text reads back to the same study, bit for bit") {
     std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
     studies.push_back(study_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",

@@ -1,0 +1,24 @@
+// The values that a number in a study file may have, in the unit of the file.
+#pragma once
+
+#include <limits>
+#include <string>
+
+namespace gearpod::mc {
+
+struct Support;  // distribution.hpp
+
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_open = false;
+    bool high_open = false;
+
+    bool contains(double value) const;
+    bool contains(const Support& support) const;
+    std::string text() const;  // "> 0", "between 0 and 1", ...
+    // "give a value > 0", or "" if any value will do.
+    std::string hint() const;
+};
+
+}  // namespace gearpod::mc
