@@ -203,7 +203,9 @@ TEST_CASE("With the sun held the carrier's turn repeats after each planet as wel
     mc::Study study = with_crack(mc::Member::planet, 0.0);
     study.operation.fixed = mc::Member::sun;
     study.operation.input = mc::Member::ring;
-    study.numerics.settle_tolerance = 1e-12;  // the slower mesh vibrates less
+    // The rigid rotation that the turning frame feeds is removed at whole mesh periods, which the
+    // planets meet at different phases: with inertial terms other orders reach 3e-7 of the largest.
+    study.effects.inertial_terms = false;
     const mc::Scene scene(study);
     CHECK(scene.path_meshes() == 19);
     CHECK(scene.nominal_mesh_frequency_Hz() == Approx(19 * 8.87 / 60));
