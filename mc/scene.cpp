@@ -42,10 +42,6 @@ gears::Member turning_member(Member member) {
 constexpr int kMostSteps = 1'000'000;  // and samples, in a mesh period
 constexpr int kFewestSamples = 4;
 
-double fraction(double x) {
-    return x - std::floor(x);
-}
-
 // The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
 // whole planet turn stay fast.
 int round_up_to_smooth(int least) {
@@ -176,7 +172,7 @@ void Scene::build_pairs() {
     const auto start = [&](double pitch_phase, const stiffness::PairStiffness& pair) {
         const double since =
             pairs_.reversed ? pair.contact_ratio() - pair.pitch_position() : pair.pitch_position();
-        return fraction(pitch_phase - since);
+        return lockstep::phase_in_period(pitch_phase - since);
     };
     for (int n = 0; n < train_.planets; ++n) {
         pairs_.start.push_back(start(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_));

@@ -8,10 +8,6 @@
 namespace gearpod::lockstep {
 namespace {
 
-double fraction(double x) {
-    return x - std::floor(x);
-}
-
 // Adds the stiffness of the tooth pair that began to engage at phase `start` to column `pair`.
 void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid, const PairSet& pairs, int pair,
                     double start) {
@@ -32,12 +28,16 @@ double PairSet::mesh(int pair, double phase) const {
     return curve(pair).mesh(reversed ? curve(pair).contact_ratio() - since : since);
 }
 
+double phase_in_period(double phase) {
+    return phase - std::floor(phase);
+}
+
 std::vector<double> contact_transitions(const PairSet& pairs) {
     std::vector<double> phases;
     for (int i = 0; i < pairs.pairs(); ++i) {
         const double start = pairs.start[static_cast<std::size_t>(i)];
-        phases.push_back(fraction(start));
-        phases.push_back(fraction(start + pairs.curve(i).contact_ratio()));
+        phases.push_back(phase_in_period(start));
+        phases.push_back(phase_in_period(start + pairs.curve(i).contact_ratio()));
     }
     std::sort(phases.begin(), phases.end());
     return phases;

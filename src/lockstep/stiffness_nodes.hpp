@@ -52,6 +52,9 @@ void PairSet::tooth_pair(const Curve& tooth, double contact_ratio, std::span<con
     std::reverse(stiffness.begin(), stiffness.end());
 }
 
+// The part of a phase within its mesh period, in [0, 1).
+double phase_in_period(double phase);
+
 // Phases in [0, 1) at which the number of tooth pairs in contact jumps, of all pairs.
 std::vector<double> contact_transitions(const PairSet& pairs);
 

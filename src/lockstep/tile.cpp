@@ -116,7 +116,6 @@ class TileMarch {
         march_mesh<W>(plan_, lanes_, filter_, overrides, state_, record);
         remove_rigid_rotation(state_.q);
         remove_rigid_rotation(state_.v);
-        ++result_.marched_meshes;
     }
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }

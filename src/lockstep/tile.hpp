@@ -28,7 +28,6 @@ struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()
     std::vector<LaneStatus> status;  // per lane
-    int marched_meshes = 0;
 };
 
 // `inputs` and `faults.cracked` hold W lanes; unused lanes of the last tile repeat its last one.
