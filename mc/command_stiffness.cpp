@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mc/command_support.hpp"
+#include "mc/study_gears.hpp"
 #include "mc/study_sizes.hpp"
 
 namespace gearpod::mc {
@@ -82,7 +83,7 @@ void print_summary(const Scene& scene) {
     show("ring-planet", scene.ring_planet());
     if (scene.faulty_pair() >= 0) {
         fmt::print("faulty tooth on pair {}; it breaks off at a crack of {:.3f} mm\n",
-                   pair_name(scene, scene.faulty_pair()), 1e3 * scene.max_depth_m());
+                   pair_name(scene, scene.faulty_pair()), 1e3 * max_fault_depth_m(scene.study()));
     }
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }

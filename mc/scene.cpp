@@ -119,7 +119,6 @@ Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).s
     sun_radius_ = gear_of(g, Member::sun).base_radius();
     ring_radius_ = gear_of(g, Member::ring).base_radius();
     plan_.layout = layout(study_);
-    carrier_radius_ = plan_.layout.carrier_radius_m;
 
     const InstanceInputs nominal = Sampler(study_).nominal();
     const gears::Speeds turning = speeds(nominal.speed_rad_s);
@@ -347,7 +346,7 @@ void Scene::set_te_weights() {
             break;
     }
     const double own = study_.operation.input == Member::ring ? ring : sun;
-    plan_.te_weight[0] = carrier / own / carrier_radius_;
+    plan_.te_weight[0] = carrier / own / plan_.layout.carrier_radius_m;
     plan_.te_weight[1] = ring / own / ring_radius_;
     plan_.te_weight[2] = sun / own / sun_radius_;
 }
@@ -369,7 +368,7 @@ dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     const double per_tooth = instance.torque_N_m / given;
     out.force_N[dynamics::sun] = per_tooth * zs / sun_radius_;
     out.force_N[dynamics::ring] = per_tooth * zr / ring_radius_;
-    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / carrier_radius_;
+    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / plan_.layout.carrier_radius_m;
     out.force_N[dynamics::held_body(plan_.layout.fixed)] = 0.0;
     return out;
 }
@@ -379,10 +378,6 @@ std::optional<stiffness::CrackedToothCurve> Scene::cracked_tooth(double depth_m)
         return std::nullopt;
     }
     return cracked_->at(depth_m);
-}
-
-double Scene::max_depth_m() const {
-    return cracked_ ? cracked_->max_depth() : 0.0;
 }
 
 }  // namespace gearpod::mc

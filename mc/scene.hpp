@@ -70,7 +70,6 @@ class Scene {
     dynamics::PlanetaryInputs inputs(const InstanceInputs& instance) const;
     // The faulty tooth of one gearbox; none if its depth is 0.
     std::optional<stiffness::CrackedToothCurve> cracked_tooth(double depth_m) const;
-    double max_depth_m() const;
 
   private:
     gears::Speeds speeds(double given) const;
@@ -85,7 +84,7 @@ class Scene {
     Study study_;
     Member speed_member_;
     gears::PlanetaryTrain train_;
-    double sun_radius_ = 0.0, ring_radius_ = 0.0, carrier_radius_ = 0.0;  // base, base, centres; m
+    double sun_radius_ = 0.0, ring_radius_ = 0.0;  // of the base circles, m
     std::optional<stiffness::PairStiffness> sun_planet_, ring_planet_;
     std::optional<stiffness::CrackedPairFamily> cracked_;
     lockstep::PairSet pairs_;

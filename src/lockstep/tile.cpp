@@ -21,6 +21,13 @@ void copy_lane(const machine::AlignedVector& from, machine::AlignedVector& to, i
 }
 
 template <int W>
+void fill_lane(machine::AlignedVector& values, int lane, double value) {
+    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
+        values[i] = value;
+    }
+}
+
+template <int W>
 double largest(const machine::AlignedVector& values, int lane) {
     double result = 0.0;
     for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
@@ -162,16 +169,20 @@ class TileMarch {
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
-            for (machine::AlignedVector* values :
-                 {&record.acceleration, &record.te, &record.motion}) {
-                for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
-                    (*values)[i] = NAN;
-                }
-            }
+            fill_lane<W>(record.acceleration, lane, NAN);
+            fill_lane<W>(record.te, lane, NAN);
+            fill_lane<W>(record.motion, lane, NAN);
         }
-        for (machine::AlignedVector* values : {&orbit_.q, &orbit_.v, &orbit_.filter}) {
-            for (std::size_t i = static_cast<std::size_t>(lane); i < values->size(); i += W) {
-                (*values)[i] = 0.0;
+        fill_lane<W>(orbit_.q, lane, 0.0);
+        fill_lane<W>(orbit_.v, lane, 0.0);
+        fill_lane<W>(orbit_.filter, lane, 0.0);
+    }
+
+    // Lanes that did not get back to their orbit in the mesh periods they had.
+    void mark_unsettled(const std::array<bool, W>& settled) {
+        for (std::size_t l = 0; l < W; ++l) {
+            if (!settled[l]) {
+                result_.status[l] = LaneStatus::unsettled;
             }
         }
     }
@@ -205,11 +216,7 @@ class TileMarch {
                 break;
             }
         }
-        for (int l = 0; l < W; ++l) {
-            if (!settled[static_cast<std::size_t>(l)]) {
-                result_.status[static_cast<std::size_t>(l)] = LaneStatus::unsettled;
-            }
-        }
+        mark_unsettled(settled);
         state_ = orbit_;
     }
 
@@ -284,11 +291,7 @@ class TileMarch {
                 return;
             }
         }
-        for (int l = 0; l < W; ++l) {
-            if (!finished[static_cast<std::size_t>(l)]) {
-                result_.status[static_cast<std::size_t>(l)] = LaneStatus::unsettled;
-            }
-        }
+        mark_unsettled(finished);
     }
 
     // Every mesh of the span for itself.
