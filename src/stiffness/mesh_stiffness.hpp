@@ -1,0 +1,50 @@
+// What the march sees of one gear pair: the stiffness of all its tooth pairs together, healthy or
+// while a faulty tooth passes.
+//
+// Positions tau count mesh periods since one tooth pair began to engage; the pairs that engaged
+// before and after it stand at tau + 1, tau - 1 and so on. A stretch is an interval of tau in which
+// no tooth pair enters or leaves. `inside` is a position strictly within a stretch and says which
+// pairs touch, so that values at the ends of the stretch are the limits from within it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "stiffness/tooth_fault.hpp"
+
+namespace gearpod::stiffness {
+
+// A gear pair while a fault passes. Immutable.
+class FaultyMesh {
+  public:
+    virtual ~FaultyMesh() = default;
+    // Mesh periods from the first faulty tooth's engagement until the last one leaves.
+    virtual double duration() const = 0;
+    // Total stiffness, N/m, at ascending positions within one stretch. tau counts from the
+    // engagement of the first faulty tooth, 0 <= tau <= duration().
+    virtual void total(std::span<const double> tau, double inside,
+                       std::span<double> stiffness) const = 0;
+};
+
+// A healthy gear pair. Immutable; shared by threads.
+class MeshStiffness {
+  public:
+    virtual ~MeshStiffness() = default;
+    // Mesh periods that one tooth pair stays engaged.
+    virtual double contact_ratio() const = 0;
+    // Mesh periods from the start of an engagement to the contact at the pitch point.
+    virtual double pitch_position() const = 0;
+    // Total stiffness, N/m, at ascending positions within one stretch.
+    virtual void total(std::span<const double> tau, double inside,
+                       std::span<double> stiffness) const = 0;
+    // The part of the load, 0 to 1, that the tooth pair at tau carries; 0 outside its engagement.
+    virtual void share(std::span<const double> tau, double inside,
+                       std::span<double> share) const = 0;
+    // Phases in [0, 1), ascending, where the total jumps or kinks: 0 is the start of an engagement.
+    virtual std::vector<double> transitions() const = 0;
+    // The pair with that fault on one of its gears. The fault must outlive the result.
+    virtual std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const = 0;
+};
+
+}  // namespace gearpod::stiffness
