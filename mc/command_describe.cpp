@@ -7,6 +7,8 @@
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/schema.hpp"
+#include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -64,7 +66,7 @@ void print_effects(const Scene& scene) {
         std::string where = member[static_cast<int>(*study.fault.member)];
         if (study.fault.side) {
             where += fmt::format(" {}, {} side", study.fault.planet,
-                                 member[static_cast<int>(*study.fault.side)]);
+                                 *study.fault.side == FaultSide::sun ? "sun" : "ring");
         }
         entry("fault", "tooth crack on the " + where);
     }
@@ -162,17 +164,21 @@ void print_cost(const Scene& scene) {
 
 }  // namespace
 
-int describe_command(const StudyOptions& options) {
-    const auto study = load_study(options);
+int describe_command(const DescribeOptions& options) {
+    if (options.keys) {
+        fmt::print("{}", schema_help());
+        return kDone;
+    }
+    const auto study = load_study(options.study);
     if (!study) {
         return kBadInput;
     }
     fmt::print("# the resolved study\n{}", resolved_text(*study));
-    if (!study->gearbox.has_teeth() || !study->gearbox.module_m) {
+    if (!has_gears(*study)) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
-    const auto scene = load_scene(options);
+    const auto scene = load_scene(options.study);
     if (!scene) {
         return kBadInput;
     }

@@ -31,7 +31,7 @@ std::vector<FaultColumn> fault_columns(const Scene& scene) {
     const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
     const int periods =
         static_cast<int>(std::ceil(start + scene.pairs().curve(pair).contact_ratio()));
-    for (const double depth : fault_depths_m(scene.study())) {
+    for (const double depth : fault_sizes(scene.study())) {
         for (int period = 0; period < periods; ++period) {
             columns.push_back({fmt::format("{}_crack_{:g}mm_period{}", pair_name(scene, pair),
                                            1e3 * depth, period + 1),
@@ -83,7 +83,7 @@ void print_summary(const Scene& scene) {
     show("ring-planet", scene.ring_planet());
     if (scene.faulty_pair() >= 0) {
         fmt::print("faulty tooth on pair {}; it breaks off at a crack of {:.3f} mm\n",
-                   pair_name(scene, scene.faulty_pair()), 1e3 * max_fault_depth_m(scene.study()));
+                   pair_name(scene, scene.faulty_pair()), 1e3 * max_crack_depth_m(scene.study()));
     }
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }

@@ -27,6 +27,7 @@ std::string_view window_name(PathWindow window) {
         case PathWindow::rectangular:
             return "rectangular";
         case PathWindow::hamming:
+        case PathWindow::none:
             break;
     }
     return "hamming";
@@ -49,7 +50,7 @@ void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));
-        faults.cracked.push_back(scene.cracked_tooth(instance.fault_depth_m));
+        faults.cracked.push_back(scene.cracked_tooth(instance.fault_size));
     }
     tile.stiffness_s = lap(start);
     tile.march =

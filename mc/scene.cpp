@@ -110,14 +110,46 @@ dynamics::PlanetaryInputs body_inputs(const InstanceInputs& in) {
     return out;
 }
 
+// What study files may name and this scene does not simulate.
+void refuse_others(const Study& study) {
+    const auto refuse = [](bool other, const char* key) {
+        if (other) {
+            throw SceneError(key, "is read, but not simulated by this version",
+                             "use another value");
+        }
+    };
+    const Gearbox& g = study.gearbox;
+    const Effects& e = study.effects;
+    refuse(g.kind != GearboxKind::planetary, "gearbox.kind");
+    refuse(g.tooth_profile == ToothProfile::fillet || g.tooth_profile == ToothProfile::square_wave,
+           "gearbox.tooth_profile");
+    refuse(!g.planet_positions_rad.empty(), "gearbox.planet_positions_deg");
+    refuse(g.helix_angle_rad != 0.0, "gearbox.helix_angle_deg");
+    refuse(g.ring_to_sun_phase.has_value(), "gearbox.ring_to_sun_phase");
+    refuse(study.errors != MeshErrors{}, "gearbox.sun_planet_error_um");
+    refuse(study.operation.input == Member::carrier, "operation.input");
+    refuse(e.quasi_static(), "effects.motion");
+    refuse(e.foundation != Foundation::none, "effects.foundation");
+    refuse(e.contact != Contact::linear, "effects.contact");
+    refuse(!e.shear, "effects.shear");
+    refuse(e.separation != Separation::none, "effects.separation");
+    refuse(study.fault.kind != FaultKind::none && study.fault.kind != FaultKind::crack,
+           "fault.kind");
+    refuse(!study.sensor.tones.empty(), "sensor.tones");
+    refuse(study.numerics.integrator != Integrator::automatic &&
+               study.numerics.integrator != Integrator::rk4,
+           "numerics.integrator");
+}
+
 Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).speed_member()) {
+    refuse_others(study_);
     const Gearbox& g = study_.gearbox;
-    if (!g.has_teeth() || !g.module_m) {
+    if (!has_gears(study_)) {
         throw std::invalid_argument("a scene needs tooth numbers and a module");
     }
     train_ = {*g.sun_teeth, *g.planet_teeth, *g.ring_teeth, g.planets};
-    sun_radius_ = gear_of(g, Member::sun).base_radius();
-    ring_radius_ = gear_of(g, Member::ring).base_radius();
+    sun_radius_ = gear_of(study_, Member::sun).base_radius();
+    ring_radius_ = gear_of(study_, Member::ring).base_radius();
     plan_.layout = layout(study_);
 
     const InstanceInputs nominal = Sampler(study_).nominal();
@@ -148,16 +180,16 @@ void Scene::build_pairs() {
         const auto profile = g.tooth_profile == ToothProfile::root_circle
                                  ? stiffness::Profile::root_circle
                                  : stiffness::Profile::base_circle;
-        const gears::Gear sun = gear_of(g, Member::sun);
-        const gears::Gear planet = gear_of(g, Member::planet);
-        const gears::Gear ring = gear_of(g, Member::ring);
+        const gears::Gear sun = gear_of(study_, Member::sun);
+        const gears::Gear planet = gear_of(study_, Member::planet);
+        const gears::Gear ring = gear_of(study_, Member::ring);
         const gears::MeshGeometry sun_planet(sun, planet), ring_planet(planet, ring);
         sun_planet_.emplace(sun_planet, material, profile);
         ring_planet_.emplace(ring_planet, material, profile);
         const Fault& f = study_.fault;
         if (f.kind == FaultKind::crack) {
             const bool on_sun_mesh =
-                f.member == Member::sun || (f.member == Member::planet && f.side == Member::sun);
+                f.member == Member::sun || (f.member == Member::planet && f.side == FaultSide::sun);
             const int gear =
                 f.member == Member::sun || (f.member == Member::planet && !on_sun_mesh) ? 1 : 2;
             cracked_.emplace(on_sun_mesh ? sun_planet : ring_planet, material, profile, gear,
@@ -192,7 +224,7 @@ void Scene::build_pattern() {
     }
     const int n_planets = train_.planets;
     if (*f.member == Member::planet) {
-        const int pair = (f.side == Member::sun ? 0 : n_planets) + f.planet - 1;
+        const int pair = (f.side == FaultSide::sun ? 0 : n_planets) + f.planet - 1;
         pattern_.length = train_.planet_teeth;
         pattern_.passages = {{pair, pairs_.start[static_cast<std::size_t>(pair)]}};
         return;
@@ -364,8 +396,10 @@ dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     // Torques of sun, ring and carrier in balance: T_s : T_r : T_c = Z_s : Z_r : -(Z_s + Z_r).
     // The held member's share is its support's reaction.
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
-    const double given = plan_.layout.fixed == FixedMember::sun ? zr : zs;
-    const double per_tooth = instance.torque_N_m / given;
+    const Member given = study_.operation.torque_on;
+    const double per_tooth = instance.torque_N_m / (given == Member::sun    ? zs
+                                                    : given == Member::ring ? zr
+                                                                            : zs + zr);
     out.force_N[dynamics::sun] = per_tooth * zs / sun_radius_;
     out.force_N[dynamics::ring] = per_tooth * zr / ring_radius_;
     out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / plan_.layout.carrier_radius_m;

@@ -85,6 +85,15 @@ class ValueText {
         return in_brackets(texts);
     }
 
+    std::string operator()(const TonesAccess& access) const {
+        std::vector<std::string> texts;
+        for (const Tone& tone : access.get(study_)) {
+            texts.push_back(fmt::format("{{ frequency_Hz = {}, amplitude_m_s2 = {} }}",
+                                        tone.frequency_Hz, tone.amplitude_m_s2));
+        }
+        return in_brackets(texts);
+    }
+
   private:
     static std::string in_brackets(const std::vector<std::string>& texts) {
         return texts.empty() ? "" : fmt::format("[{}]", fmt::join(texts, ", "));
