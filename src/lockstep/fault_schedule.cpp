@@ -73,7 +73,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
         }
         const std::vector<double> total = faulty_total(faults_.pairs->curve(passage.pair),
                                                        *curves[l], faults_.pairs->reversed, steps);
-        dynamics::with_mesh_damping(plan_.layout.mesh_damping, [&](auto law) {
+        dynamics::with_mesh_damping(dynamics::mesh_damping(plan_.layout), [&](auto law) {
             for (std::size_t i = 0; i < count; ++i) {
                 o.stiffness[i * lanes + l] = total[i];
                 o.damping_shape[i * lanes + l] = law.shape(total[i]);

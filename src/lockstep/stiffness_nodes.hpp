@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/planetary.hpp"
+#include "dynamics/effects/mesh_damping.hpp"
 #include "lockstep/phase_grid.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
