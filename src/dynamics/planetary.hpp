@@ -29,8 +29,10 @@ inline int motion_index(Body body, int n = 0) {
 // What all gearboxes of an ensemble share.
 struct PlanetaryLayout {
     int planets = 0;
-    double pressure_angle_rad = 0.0;
-    double carrier_radius_m = 0.0;  // centre distance; only inertial terms need it
+    double pressure_angle_rad = 0.0;    // of the normal plane, if the teeth are helical
+    double helix_angle_rad = 0.0;       // see helical_pair.hpp for what it does to a stiffness
+    std::vector<double> positions_rad;  // psi_n; empty: equally spaced
+    double carrier_radius_m = 0.0;      // centre distance; only inertial terms need it
     gears::FixedMember fixed = gears::FixedMember::ring;
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
@@ -40,6 +42,7 @@ struct PlanetaryLayout {
     int motions() const { return 9 + 3 * planets; }
     int degrees_of_freedom() const { return motion == Motion::torsional ? 3 + planets : motions(); }
     double planet_angle(int n) const;  // psi_n, rad
+    double transverse_pressure_angle() const;
 };
 
 // What differs between gearboxes; SI units. Arrays are indexed by Body.

@@ -11,7 +11,7 @@ namespace {
 
 template <int W>
 void set_directions(PlanetaryLanes<W>& lanes, const PlanetaryLayout& layout) {
-    const double a = layout.pressure_angle_rad;
+    const double a = layout.transverse_pressure_angle();
     lanes.planets = layout.planets;
     lanes.cos_pressure_angle = std::cos(a);
     for (int n = 0; n < layout.planets; ++n) {
