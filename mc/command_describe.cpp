@@ -124,7 +124,7 @@ void print_cost(const Scene& scene) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
     heading("cost");
-    entry("degrees of freedom", std::to_string(plan.layout.degrees_of_freedom()));
+    entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
     entry("samples a mesh period",
           fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
                       scene.te_samples_per_mesh()));
@@ -140,7 +140,8 @@ void print_cost(const Scene& scene) {
                                    study.sensor.noise_levels.size()));
     // Per step and gearbox in a full tile, measured with an AVX-512 core near 3 GHz for N = 4;
     // proportional to the degrees of freedom. One lane costs as much as eight.
-    const double step_s = 0.65e-6 * plan.layout.degrees_of_freedom() / 21.0 / study.numerics.lanes;
+    const double step_s =
+        0.65e-6 * dynamics::degrees_of_freedom(plan.layout) / 21.0 / study.numerics.lanes;
     const double seconds = static_cast<double>(rows) * marched_meshes(scene) *
                            static_cast<double>(plan.grid.steps.size()) * step_s * 1.3 /
                            thread_count(study);

@@ -45,7 +45,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
 template <int W>
 void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
     auto start = Clock::now();
-    std::vector<dynamics::PlanetaryInputs> inputs;
+    std::vector<dynamics::GearboxInputs> inputs;
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));

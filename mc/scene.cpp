@@ -118,7 +118,8 @@ Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).s
     train_ = {*g.sun_teeth, *g.planet_teeth, *g.ring_teeth, g.planets};
     sun_radius_ = gear_of(g, Member::sun).base_radius();
     ring_radius_ = gear_of(g, Member::ring).base_radius();
-    plan_.layout = layout(study_);
+    layout_ = layout(study_);
+    plan_.layout = layout_;
 
     const InstanceInputs nominal = Sampler(study_).nominal();
     const gears::Speeds turning = speeds(nominal.speed_rad_s);
@@ -133,7 +134,7 @@ Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).s
 // The given member's speed is a magnitude; the input turns in the positive sense.
 gears::Speeds Scene::speeds(double given) const {
     gears::Speeds s =
-        gears::train_speeds(train_, plan_.layout.fixed, turning_member(speed_member_), given);
+        gears::train_speeds(train_, layout_.fixed, turning_member(speed_member_), given);
     const double input = study_.operation.input == Member::ring ? s.ring : s.sun;
     return input >= 0.0 ? s : gears::Speeds{-s.sun, -s.planet, -s.ring, -s.carrier};
 }
@@ -255,7 +256,7 @@ int Scene::choose_steps() {
     const Sampler sampler(study_);
     const std::vector<double> stiffest = stiffest_pairs();
     const auto limit_of = [&](const dynamics::PlanetaryInputs& in) {
-        return lockstep::runge_kutta_limit(dynamics::assemble(plan_.layout, in, stiffest));
+        return lockstep::runge_kutta_limit(dynamics::assemble(layout_, in, stiffest));
     };
     const dynamics::PlanetaryInputs nominal = inputs(sampler.nominal());
     const lockstep::StepLimit limit = limit_of(nominal);
@@ -321,7 +322,7 @@ void Scene::build_plan() {
     }
     plan_.grid =
         lockstep::make_phase_grid(samples, choose_steps(), lockstep::contact_transitions(pairs_));
-    plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, plan_.layout.mesh_damping);
+    plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, layout_.mesh_damping);
     plan_.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
     max_meshes_ = choose_max_meshes();
     set_te_weights();
@@ -332,7 +333,7 @@ void Scene::build_plan() {
 void Scene::set_te_weights() {
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
     double carrier = 0.0, ring = 0.0, sun = 1.0;
-    switch (plan_.layout.fixed) {
+    switch (layout_.fixed) {
         case FixedMember::ring:
             carrier = -(zr + zs) / zs;
             break;
@@ -346,13 +347,17 @@ void Scene::set_te_weights() {
             break;
     }
     const double own = study_.operation.input == Member::ring ? ring : sun;
-    plan_.te_weight[0] = carrier / own / plan_.layout.carrier_radius_m;
-    plan_.te_weight[1] = ring / own / ring_radius_;
-    plan_.te_weight[2] = sun / own / sun_radius_;
+    plan_.te_weight.assign(static_cast<std::size_t>(layout_.degrees_of_freedom()), 0.0);
+    const auto weight = [&](dynamics::Body body) -> double& {
+        return plan_.te_weight[static_cast<std::size_t>(layout_.rotation_index(body))];
+    };
+    weight(dynamics::carrier) = carrier / own / layout_.carrier_radius_m;
+    weight(dynamics::ring) = ring / own / ring_radius_;
+    weight(dynamics::sun) = sun / own / sun_radius_;
 }
 
 int Scene::path_meshes() const {
-    return gears::meshes_per_carrier_turn(train_, plan_.layout.fixed).value_or(1);
+    return gears::meshes_per_carrier_turn(train_, layout_.fixed).value_or(1);
 }
 
 dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
@@ -364,12 +369,12 @@ dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     // Torques of sun, ring and carrier in balance: T_s : T_r : T_c = Z_s : Z_r : -(Z_s + Z_r).
     // The held member's share is its support's reaction.
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
-    const double given = plan_.layout.fixed == FixedMember::sun ? zr : zs;
+    const double given = layout_.fixed == FixedMember::sun ? zr : zs;
     const double per_tooth = instance.torque_N_m / given;
     out.force_N[dynamics::sun] = per_tooth * zs / sun_radius_;
     out.force_N[dynamics::ring] = per_tooth * zr / ring_radius_;
-    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / plan_.layout.carrier_radius_m;
-    out.force_N[dynamics::held_body(plan_.layout.fixed)] = 0.0;
+    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / layout_.carrier_radius_m;
+    out.force_N[dynamics::held_body(layout_.fixed)] = 0.0;
     return out;
 }
 

@@ -89,6 +89,7 @@ class Scene {
     std::optional<stiffness::CrackedPairFamily> cracked_;
     lockstep::PairSet pairs_;
     lockstep::FaultPattern pattern_;
+    dynamics::PlanetaryLayout layout_;
     lockstep::MarchPlan plan_;
     int te_samples_ = 0;
     int least_steps_ = 0;

@@ -6,14 +6,25 @@
 
 #include <cmath>
 
-#include "dynamics/translational_motion.hpp"
+#include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/effects/spring_damper.hpp"
+#include "dynamics/planetary_lanes.hpp"
 
 namespace gearpod::dynamics {
 
 template <int W>
 struct TorsionalMotion {
     static constexpr int kWidth = W;
-    static constexpr int degrees_of_freedom(int planets) { return 3 + planets; }
+    static constexpr int kMaxDegrees = 3 + kMaxPlanets;
+    static constexpr int kMaxPairs = dynamics::kMaxPairs;
+    static constexpr int kMaxSources = kMaxPlanets;
+    using Lanes = PlanetaryLanes<W>;
+
+    static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 3 + p.planets; }
+    static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
+    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+        return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
+    }
 
     // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane]; k, c: [pair][lane].
     static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
@@ -38,12 +49,19 @@ struct TorsionalMotion {
         }
     }
 
-    using PlanetMotion = typename TranslationalMotion<WithoutInertialTerms, W>::PlanetMotion;
-    static GEARPOD_INLINE PlanetMotion planet_motion(const PlanetaryLanes<W>& p, int n, int l,
-                                                     const double* q, const double* v,
-                                                     const double* a) {
-        const double x = -p.sin_psi[n], y = p.cos_psi[n];
-        return {q[l] * x, q[l] * y, v[l] * x, v[l] * y, a[l] * x, a[l] * y};
+    // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* q,
+                                                    const double* v, const double* a,
+                                                    double* __restrict out) {
+        for (int n = 0; n < p.planets; ++n) {
+            const double x = -p.sin_psi[n], y = p.cos_psi[n];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double w = p.speed[l];
+                out[2 * n * W + l] = absolute_x(a[l] * x, q[l] * x, v[l] * y, w);
+                out[(2 * n + 1) * W + l] = absolute_y(a[l] * y, q[l] * y, v[l] * x, w);
+            }
+        }
     }
 
   private:

@@ -5,19 +5,24 @@
 #include <cmath>
 
 #include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/effects/spring_damper.hpp"
 #include "dynamics/planetary_lanes.hpp"
 
 namespace gearpod::dynamics {
 
-// Force of a spring-damper with deflection d and rate r.
-GEARPOD_INLINE double spring_damper(double k, double d, double c, double r) {
-    return std::fma(k, d, c * r);
-}
-
 template <class InertialTerms, int W>
 struct TranslationalMotion {
     static constexpr int kWidth = W;
-    static constexpr int degrees_of_freedom(int planets) { return 9 + 3 * planets; }
+    static constexpr int kMaxDegrees = 9 + 3 * kMaxPlanets;
+    static constexpr int kMaxPairs = dynamics::kMaxPairs;
+    static constexpr int kMaxSources = kMaxPlanets;
+    using Lanes = PlanetaryLanes<W>;
+
+    static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
+    static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
+    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+        return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
+    }
 
     // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane]; k, c: [pair][lane].
     static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
@@ -35,15 +40,19 @@ struct TranslationalMotion {
         }
     }
 
-    // Planet n's x, y: displacement, velocity and acceleration in the carrier frame.
-    struct PlanetMotion {
-        double x, y, vx, vy, ax, ay;
-    };
-    static GEARPOD_INLINE PlanetMotion planet_motion(const PlanetaryLanes<W>&, int n, int l,
-                                                     const double* q, const double* v,
-                                                     const double* a) {
-        const int x = (9 + 3 * n) * W + l;
-        return {q[x], q[x + W], v[x], v[x + W], a[x], a[x + W]};
+    // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* q,
+                                                    const double* v, const double* a,
+                                                    double* __restrict out) {
+        for (int n = 0; n < p.planets; ++n) {
+            const int x = (9 + 3 * n) * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double w = p.speed[l];
+                out[2 * n * W + l] = absolute_x(a[x + l], q[x + l], v[x + W + l], w);
+                out[(2 * n + 1) * W + l] = absolute_y(a[x + W + l], q[x + W + l], v[x + l], w);
+            }
+        }
     }
 
   private:

@@ -63,7 +63,7 @@ PairOverride FaultSchedule::make_override(int pair, int k, double start) const {
             continue;
         }
         pairs.tooth_pair(*faults_.cracked[l], curve.contact_ratio(), tau, cracked);
-        dynamics::with_mesh_damping(plan_.layout.mesh_damping, [&](auto law) {
+        dynamics::with_mesh_damping(dynamics::mesh_damping(plan_.layout), [&](auto law) {
             for (std::size_t i = 0; i < count; ++i) {
                 // Where the tooth carries alone, the rest is rounding: exactly nothing then.
                 const double others = plan_.nodes.stiffness[column(i)] - healthy[i];

@@ -18,6 +18,9 @@ struct PhaseGrid {
     int samples = 0;              // per mesh period, at phases i / samples
     std::vector<Step> steps;      // ascending phase, covering [0, 1)
     std::vector<double> lengths;  // distinct step lengths, mesh periods
+    // Positions within a step, 0 its start and 1 its end, where the integrator's stages need the
+    // stiffness.
+    std::vector<double> stage_nodes{0.0, 0.5, 1.0};
 };
 
 // At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/planetary.hpp"
+#include "dynamics/effects/mesh_damping.hpp"
 #include "lockstep/phase_grid.hpp"
 #include "stiffness/pair_stiffness.hpp"
 

@@ -86,10 +86,10 @@ TEST_CASE("The carrier-driven train on its own flanks is the model's mirror imag
     layout.positions_rad = kPositions;
     layout.inertial_terms = false;
     const PlanetaryInputs in = inputs();
-    const PlanetaryMatrices model = assemble(layout, in, kStiffness);
+    const GearboxMatrices model = assemble(layout, in, kStiffness);
     const Coast real = coast_flanks(in);
 
-    PlanetaryMatrices flanks = model;
+    GearboxMatrices flanks = model;
     flanks.stiffness = real.stiffness;
     flanks.force = real.force;
     const auto ours = natural_frequencies_Hz(model);

@@ -50,16 +50,22 @@ struct LiangTrain {
     lockstep::MarchPlan plan(int samples, int steps, dynamics::Motion motion,
                              bool inertial = true) const {
         lockstep::MarchPlan p;
-        p.layout.planets = 4;
-        p.layout.pressure_angle_rad = kAngle;
-        p.layout.carrier_radius_m = 25 * kModule;
-        p.layout.motion = motion;
-        p.layout.inertial_terms = inertial;
+        dynamics::PlanetaryLayout layout;
+        layout.planets = 4;
+        layout.pressure_angle_rad = kAngle;
+        layout.carrier_radius_m = 25 * kModule;
+        layout.motion = motion;
+        layout.inertial_terms = inertial;
+        p.layout = layout;
         p.grid = lockstep::make_phase_grid(samples, steps, lockstep::contact_transitions(pairs));
-        p.nodes = lockstep::tabulate(pairs, p.grid, p.layout.mesh_damping);
+        p.nodes = lockstep::tabulate(pairs, p.grid, layout.mesh_damping);
         p.low_pass_rad_s = 2 * std::numbers::pi * 800;
-        p.te_weight[0] = -100.0 / 19 / p.layout.carrier_radius_m;
-        p.te_weight[2] = 1.0 / sun.base_radius();
+        p.te_weight.assign(static_cast<std::size_t>(layout.degrees_of_freedom()), 0.0);
+        const auto u = [&](int body) {
+            return static_cast<std::size_t>(layout.rotation_index(body));
+        };
+        p.te_weight[u(dynamics::carrier)] = -100.0 / 19 / layout.carrier_radius_m;
+        p.te_weight[u(dynamics::sun)] = 1.0 / sun.base_radius();
         return p;
     }
 

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "liang_train.hpp"
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/sensor_filter.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -23,10 +25,9 @@ TileState rest(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
 
 TileState march(const MarchPlan& plan, const dynamics::PlanetaryInputs& in, TileState state,
                 MeshRecord& record) {
-    const auto lanes = dynamics::make_lanes<1>(plan.layout, std::span(&in, 1));
-    const auto filter = filter_coefficients<1>(plan, lanes);
+    const dynamics::GearboxInputs inputs = in;
     record = make_record(plan, 1, false);
-    march_mesh<1>(plan, lanes, filter, {}, state, record);
+    (*make_mesh_march<1>(plan, std::span(&inputs, 1)))({}, state, record);
     return state;
 }
 
