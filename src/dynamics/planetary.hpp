@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "gears/planetary.hpp"
 
@@ -60,7 +61,8 @@ struct PlanetaryInputs {
     double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
-    double force_N[3] = {};  // on u of carrier, ring, sun: torque / r
+    double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
+    double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
 };
 
 // Row vectors of the deflections over all 9 + 3N motions.

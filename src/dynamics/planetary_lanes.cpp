@@ -54,6 +54,7 @@ void set_lane(PlanetaryLanes<W>& lanes, int l, const PlanetaryLayout& layout,
     lanes.speed[l] = w;
     lanes.centrifugal[l] = layout.carrier_radius_m * w * w;
     lanes.mesh_period[l] = in.mesh_period_s;
+    lanes.backlash[l] = in.backlash_m;
 }
 
 }  // namespace
