@@ -35,9 +35,9 @@ void print_gearbox(const Scene& scene) {
     entry("mesh phases, sun", sun.substr(1));
     entry("mesh phases, ring",
           ring.substr(1) + fmt::format("; ring to sun {:g}", gears::ring_to_sun_phase(train)));
-    const auto mesh = [&](const char* name, const stiffness::PairStiffness& pair) {
+    const auto mesh = [&](const char* name, const stiffness::MeshStiffness& pair) {
         entry(name, fmt::format("contact ratio {:.4f}, mean {:.4g} N/m", pair.contact_ratio(),
-                                pair.mean()));
+                                mean_total(pair)));
     };
     mesh("sun-planet mesh", scene.sun_planet());
     mesh("ring-planet mesh", scene.ring_planet());
@@ -126,7 +126,7 @@ void print_cost(const Scene& scene) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
     heading("cost");
-    entry("degrees of freedom", std::to_string(plan.layout.degrees_of_freedom()));
+    entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
     entry("samples a mesh period",
           fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
                       scene.te_samples_per_mesh()));
@@ -142,7 +142,8 @@ void print_cost(const Scene& scene) {
                                    study.sensor.noise_levels.size()));
     // Per step and gearbox in a full tile, measured with an AVX-512 core near 3 GHz for N = 4;
     // proportional to the degrees of freedom. One lane costs as much as eight.
-    const double step_s = 0.65e-6 * plan.layout.degrees_of_freedom() / 21.0 / study.numerics.lanes;
+    const double step_s =
+        0.65e-6 * dynamics::degrees_of_freedom(plan.layout) / 21.0 / study.numerics.lanes;
     const double seconds = static_cast<double>(rows) * marched_meshes(scene) *
                            static_cast<double>(plan.grid.steps.size()) * step_s * 1.3 /
                            thread_count(study);

@@ -40,22 +40,6 @@ GearboxId id_of_row(const Study& study, long row) {
                : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
 }
 
-std::vector<std::string> motion_names(const dynamics::PlanetaryLayout& layout) {
-    std::vector<std::string> bodies{"carrier", "ring", "sun"};
-    for (int n = 1; n <= layout.planets; ++n) {
-        bodies.push_back(fmt::format("planet{}", n));
-    }
-    std::vector<std::string> names;
-    for (const std::string& body : bodies) {
-        if (layout.motion != dynamics::Motion::torsional) {
-            names.push_back(body + "_x");
-            names.push_back(body + "_y");
-        }
-        names.push_back(body + "_u");
-    }
-    return names;
-}
-
 // Values that repeat with the recorded mesh periods: value(record, sample) over `meshes` meshes.
 template <typename Value>
 std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
@@ -72,7 +56,7 @@ std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Va
 }
 
 void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simulation& out) {
-    const auto names = motion_names(scene.plan().layout);
+    const auto names = dynamics::motion_names(scene.plan().layout);
     const int samples = scene.samples_per_mesh();
     out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [](const auto& r, auto p) {
                                return r.te[p];

@@ -27,7 +27,6 @@ std::string_view window_name(PathWindow window) {
         case PathWindow::rectangular:
             return "rectangular";
         case PathWindow::hamming:
-        case PathWindow::none:
             break;
     }
     return "hamming";
@@ -46,11 +45,11 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
 template <int W>
 void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
     auto start = Clock::now();
-    std::vector<dynamics::PlanetaryInputs> inputs;
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    std::vector<dynamics::GearboxInputs> inputs;
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {{}}};
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));
-        faults.cracked.push_back(scene.cracked_tooth(instance.fault_size));
+        faults.curve[0].push_back(scene.faulty_mesh(instance.fault_depth_m));
     }
     tile.stiffness_s = lap(start);
     tile.march =

@@ -10,6 +10,9 @@
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/step_limit.hpp"
 #include "mc/study_gears.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
+#include "stiffness/square_wave_mesh.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -110,47 +113,16 @@ dynamics::PlanetaryInputs body_inputs(const InstanceInputs& in) {
     return out;
 }
 
-// What study files may name and this scene does not simulate.
-void refuse_others(const Study& study) {
-    const auto refuse = [](bool other, const char* key) {
-        if (other) {
-            throw SceneError(key, "is read, but not simulated by this version",
-                             "use another value");
-        }
-    };
-    const Gearbox& g = study.gearbox;
-    const Effects& e = study.effects;
-    refuse(g.kind != GearboxKind::planetary, "gearbox.kind");
-    refuse(g.tooth_profile == ToothProfile::fillet || g.tooth_profile == ToothProfile::square_wave,
-           "gearbox.tooth_profile");
-    refuse(!g.planet_positions_rad.empty(), "gearbox.planet_positions_deg");
-    refuse(g.helix_angle_rad != 0.0, "gearbox.helix_angle_deg");
-    refuse(g.ring_to_sun_phase.has_value(), "gearbox.ring_to_sun_phase");
-    refuse(study.errors != MeshErrors{}, "gearbox.sun_planet_error_um");
-    refuse(study.operation.input == Member::carrier, "operation.input");
-    refuse(e.quasi_static(), "effects.motion");
-    refuse(e.foundation != Foundation::none, "effects.foundation");
-    refuse(e.contact != Contact::linear, "effects.contact");
-    refuse(!e.shear, "effects.shear");
-    refuse(e.separation != Separation::none, "effects.separation");
-    refuse(study.fault.kind != FaultKind::none && study.fault.kind != FaultKind::crack,
-           "fault.kind");
-    refuse(!study.sensor.tones.empty(), "sensor.tones");
-    refuse(study.numerics.integrator != Integrator::automatic &&
-               study.numerics.integrator != Integrator::rk4,
-           "numerics.integrator");
-}
-
 Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).speed_member()) {
-    refuse_others(study_);
     const Gearbox& g = study_.gearbox;
-    if (!has_gears(study_)) {
+    if (!g.has_teeth() || !g.module_m) {
         throw std::invalid_argument("a scene needs tooth numbers and a module");
     }
     train_ = {*g.sun_teeth, *g.planet_teeth, *g.ring_teeth, g.planets};
-    sun_radius_ = gear_of(study_, Member::sun).base_radius();
-    ring_radius_ = gear_of(study_, Member::ring).base_radius();
-    plan_.layout = layout(study_);
+    sun_radius_ = gear_of(g, Member::sun).base_radius();
+    ring_radius_ = gear_of(g, Member::ring).base_radius();
+    layout_ = layout(study_);
+    plan_.layout = layout_;
 
     const InstanceInputs nominal = Sampler(study_).nominal();
     const gears::Speeds turning = speeds(nominal.speed_rad_s);
@@ -165,7 +137,7 @@ Scene::Scene(const Study& study) : study_(study), speed_member_(Sampler(study).s
 // The given member's speed is a magnitude; the input turns in the positive sense.
 gears::Speeds Scene::speeds(double given) const {
     gears::Speeds s =
-        gears::train_speeds(train_, plan_.layout.fixed, turning_member(speed_member_), given);
+        gears::train_speeds(train_, layout_.fixed, turning_member(speed_member_), given);
     const double input = study_.operation.input == Member::ring ? s.ring : s.sun;
     return input >= 0.0 ? s : gears::Speeds{-s.sun, -s.planet, -s.ring, -s.carrier};
 }
@@ -173,76 +145,72 @@ gears::Speeds Scene::speeds(double given) const {
 void Scene::build_pairs() {
     const Gearbox& g = study_.gearbox;
     if (g.tooth_profile == ToothProfile::constant) {
-        sun_planet_ = stiffness::PairStiffness::constant(*g.sun_planet_stiffness_N_m);
-        ring_planet_ = stiffness::PairStiffness::constant(*g.ring_planet_stiffness_N_m);
+        const auto constant = [](double stiffness_N_m) {
+            return std::make_unique<const stiffness::SquareWaveMesh>(
+                stiffness::SquareWaveMesh::constant(stiffness_N_m));
+        };
+        sun_planet_ = constant(*g.sun_planet_stiffness_N_m);
+        ring_planet_ = constant(*g.ring_planet_stiffness_N_m);
     } else {
         const stiffness::Material material{*g.young_modulus_Pa, *g.poisson_ratio, *g.face_width_m};
         const auto profile = g.tooth_profile == ToothProfile::root_circle
                                  ? stiffness::Profile::root_circle
                                  : stiffness::Profile::base_circle;
-        const gears::Gear sun = gear_of(study_, Member::sun);
-        const gears::Gear planet = gear_of(study_, Member::planet);
-        const gears::Gear ring = gear_of(study_, Member::ring);
+        const gears::Gear sun = gear_of(g, Member::sun);
+        const gears::Gear planet = gear_of(g, Member::planet);
+        const gears::Gear ring = gear_of(g, Member::ring);
         const gears::MeshGeometry sun_planet(sun, planet), ring_planet(planet, ring);
-        sun_planet_.emplace(sun_planet, material, profile);
-        ring_planet_.emplace(ring_planet, material, profile);
+        sun_planet_ =
+            std::make_unique<const stiffness::AdditiveMesh>(sun_planet, material, profile);
+        ring_planet_ =
+            std::make_unique<const stiffness::AdditiveMesh>(ring_planet, material, profile);
         const Fault& f = study_.fault;
         if (f.kind == FaultKind::crack) {
             const bool on_sun_mesh =
-                f.member == Member::sun || (f.member == Member::planet && f.side == FaultSide::sun);
+                f.member == Member::sun || (f.member == Member::planet && f.side == Member::sun);
             const int gear =
                 f.member == Member::sun || (f.member == Member::planet && !on_sun_mesh) ? 1 : 2;
-            cracked_.emplace(on_sun_mesh ? sun_planet : ring_planet, material, profile, gear,
-                             f.angle_rad);
+            fault_ = std::make_unique<const stiffness::ToothCrack>(
+                on_sun_mesh ? sun_planet : ring_planet, material, profile, gear, f.angle_rad);
         }
     }
-    pairs_.sun_planet = &*sun_planet_;
-    pairs_.ring_planet = &*ring_planet_;
     // A tooth pair that is touched in the reverse order begins where it used to end.
     pairs_.reversed = sense_ == gears::PlanetSense::counter_clockwise;
-    const auto start = [&](double pitch_phase, const stiffness::PairStiffness& pair) {
+    const auto add = [&](double pitch_phase, const stiffness::MeshStiffness& mesh) {
         const double since =
-            pairs_.reversed ? pair.contact_ratio() - pair.pitch_position() : pair.pitch_position();
-        return lockstep::phase_in_period(pitch_phase - since);
+            pairs_.reversed ? mesh.contact_ratio() - mesh.pitch_position() : mesh.pitch_position();
+        pairs_.mesh.push_back(&mesh);
+        pairs_.start.push_back(lockstep::phase_in_period(pitch_phase - since));
     };
     for (int n = 0; n < train_.planets; ++n) {
-        pairs_.start.push_back(start(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_));
+        add(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_);
     }
     for (int n = 0; n < train_.planets; ++n) {
         const double phase =
             gears::ring_mesh_phase(train_, n, sense_) + gears::ring_to_sun_phase(train_);
-        pairs_.start.push_back(start(phase, *ring_planet_));
+        add(phase, *ring_planet_);
     }
 }
 
-// A cracked planet tooth meets the same gear every Z_p meshes; a sun tooth meets the next planet
-// every Z_s / N meshes, a ring tooth every Z_r / N.
 void Scene::build_pattern() {
     const Fault& f = study_.fault;
     if (f.kind == FaultKind::none) {
         return;
     }
-    const int n_planets = train_.planets;
-    if (*f.member == Member::planet) {
-        const int pair = (f.side == FaultSide::sun ? 0 : n_planets) + f.planet - 1;
-        pattern_.length = train_.planet_teeth;
-        pattern_.passages = {{pair, pairs_.start[static_cast<std::size_t>(pair)]}};
-        return;
+    const auto planets = lockstep::equal_planets(train_.planets);
+    switch (*f.member) {
+        case Member::sun:
+            pattern_ = lockstep::sun_fault_pattern(pairs_, planets, train_.sun_teeth);
+            return;
+        case Member::planet:
+            pattern_ = lockstep::planet_fault_pattern(
+                pairs_, f.planet - 1,
+                f.side == Member::sun ? lockstep::PlanetSide::sun : lockstep::PlanetSide::ring,
+                train_.planet_teeth);
+            return;
+        default:
+            pattern_ = lockstep::ring_fault_pattern(pairs_, planets, train_.ring_teeth);
     }
-    const bool on_sun = *f.member == Member::sun;
-    const int first = on_sun ? 0 : n_planets;
-    pattern_.length = on_sun ? train_.sun_teeth : train_.ring_teeth;
-    for (int i = 0; i < n_planets; ++i) {
-        // The sun overtakes the planets in their order, the planets overtake the ring in reverse;
-        // the other way round if the sun falls behind the carrier.
-        const int n = on_sun != pairs_.reversed ? i : (n_planets - i) % n_planets;
-        const double phase = pairs_.start[static_cast<std::size_t>(first + n)];
-        const double due = pairs_.start[static_cast<std::size_t>(first)] +
-                           static_cast<double>(pattern_.length) * i / n_planets;
-        pattern_.passages.push_back({first + n, phase + std::round(due - phase)});
-    }
-    std::sort(pattern_.passages.begin(), pattern_.passages.end(),
-              [](const auto& a, const auto& b) { return a.start < b.start; });
 }
 
 // Samples a mesh period at least, for a rate of `key`.
@@ -258,8 +226,8 @@ int Scene::sampling(double frequency_Hz, const char* key) const {
 }
 
 std::vector<double> Scene::mean_pairs() const {
-    std::vector<double> k(static_cast<std::size_t>(train_.planets), sun_planet_->mean());
-    k.resize(2 * k.size(), ring_planet_->mean());
+    std::vector<double> k(static_cast<std::size_t>(train_.planets), mean_total(*sun_planet_));
+    k.resize(2 * k.size(), mean_total(*ring_planet_));
     return k;
 }
 
@@ -269,7 +237,7 @@ std::vector<double> Scene::stiffest_pairs() const {
     for (int i = 0; i < pairs_.pairs(); ++i) {
         double stiffest = 0.0;
         for (int p = 0; p < kPhases; ++p) {
-            stiffest = std::max(stiffest, pairs_.mesh(i, static_cast<double>(p) / kPhases));
+            stiffest = std::max(stiffest, pairs_.total(i, static_cast<double>(p) / kPhases));
         }
         k.push_back(stiffest);
     }
@@ -287,7 +255,7 @@ int Scene::choose_steps() {
     const Sampler sampler(study_);
     const std::vector<double> stiffest = stiffest_pairs();
     const auto limit_of = [&](const dynamics::PlanetaryInputs& in) {
-        return lockstep::runge_kutta_limit(dynamics::assemble(plan_.layout, in, stiffest));
+        return lockstep::runge_kutta_limit(dynamics::assemble(layout_, in, stiffest));
     };
     const dynamics::PlanetaryInputs nominal = inputs(sampler.nominal());
     const lockstep::StepLimit limit = limit_of(nominal);
@@ -353,7 +321,7 @@ void Scene::build_plan() {
     }
     plan_.grid =
         lockstep::make_phase_grid(samples, choose_steps(), lockstep::contact_transitions(pairs_));
-    plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, plan_.layout.mesh_damping);
+    plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, layout_.mesh_damping);
     plan_.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
     max_meshes_ = choose_max_meshes();
     set_te_weights();
@@ -364,7 +332,7 @@ void Scene::build_plan() {
 void Scene::set_te_weights() {
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
     double carrier = 0.0, ring = 0.0, sun = 1.0;
-    switch (plan_.layout.fixed) {
+    switch (layout_.fixed) {
         case FixedMember::ring:
             carrier = -(zr + zs) / zs;
             break;
@@ -378,13 +346,17 @@ void Scene::set_te_weights() {
             break;
     }
     const double own = study_.operation.input == Member::ring ? ring : sun;
-    plan_.te_weight[0] = carrier / own / plan_.layout.carrier_radius_m;
-    plan_.te_weight[1] = ring / own / ring_radius_;
-    plan_.te_weight[2] = sun / own / sun_radius_;
+    plan_.te_weight.assign(static_cast<std::size_t>(layout_.degrees_of_freedom()), 0.0);
+    const auto weight = [&](dynamics::Body body) -> double& {
+        return plan_.te_weight[static_cast<std::size_t>(layout_.rotation_index(body))];
+    };
+    weight(dynamics::carrier) = carrier / own / layout_.carrier_radius_m;
+    weight(dynamics::ring) = ring / own / ring_radius_;
+    weight(dynamics::sun) = sun / own / sun_radius_;
 }
 
 int Scene::path_meshes() const {
-    return gears::meshes_per_carrier_turn(train_, plan_.layout.fixed).value_or(1);
+    return gears::meshes_per_carrier_turn(train_, layout_.fixed).value_or(1);
 }
 
 dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
@@ -396,22 +368,20 @@ dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     // Torques of sun, ring and carrier in balance: T_s : T_r : T_c = Z_s : Z_r : -(Z_s + Z_r).
     // The held member's share is its support's reaction.
     const double zs = train_.sun_teeth, zr = train_.ring_teeth;
-    const Member given = study_.operation.torque_on;
-    const double per_tooth = instance.torque_N_m / (given == Member::sun    ? zs
-                                                    : given == Member::ring ? zr
-                                                                            : zs + zr);
+    const double given = layout_.fixed == FixedMember::sun ? zr : zs;
+    const double per_tooth = instance.torque_N_m / given;
     out.force_N[dynamics::sun] = per_tooth * zs / sun_radius_;
     out.force_N[dynamics::ring] = per_tooth * zr / ring_radius_;
-    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / plan_.layout.carrier_radius_m;
-    out.force_N[dynamics::held_body(plan_.layout.fixed)] = 0.0;
+    out.force_N[dynamics::carrier] = -per_tooth * (zs + zr) / layout_.carrier_radius_m;
+    out.force_N[dynamics::held_body(layout_.fixed)] = 0.0;
     return out;
 }
 
-std::optional<stiffness::CrackedToothCurve> Scene::cracked_tooth(double depth_m) const {
-    if (!cracked_ || depth_m <= 0.0) {
-        return std::nullopt;
+std::shared_ptr<const stiffness::FaultyMesh> Scene::faulty_mesh(double size) const {
+    if (!fault_ || size <= 0.0) {
+        return nullptr;
     }
-    return cracked_->at(depth_m);
+    return stiffness::faulty_mesh(pairs_.curve(faulty_pair()), fault_->at(size));
 }
 
 }  // namespace gearpod::mc

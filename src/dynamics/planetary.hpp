@@ -6,9 +6,12 @@
 // Lin and Parker (1999); Liang (2016), Eqs. 4.2.1-4.2.4 in this energy-consistent form.
 #pragma once
 
-#include <Eigen/Dense>
+#include <string>
 #include <vector>
 
+#include "dynamics/effects/mesh_damping.hpp"
+#include "dynamics/effects/mesh_law.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 #include "gears/planetary.hpp"
 
 namespace gearpod::dynamics {
@@ -17,7 +20,6 @@ inline constexpr int kMaxPlanets = 8;
 inline constexpr int kMaxPairs = 2 * kMaxPlanets;
 
 enum class Motion { translational_torsional, torsional };
-enum class MeshDamping { ratio, proportional, constant };
 
 enum Body { carrier, ring, sun, planet, body_count };
 
@@ -29,17 +31,23 @@ inline int motion_index(Body body, int n = 0) {
 // What all gearboxes of an ensemble share.
 struct PlanetaryLayout {
     int planets = 0;
-    double pressure_angle_rad = 0.0;
-    double carrier_radius_m = 0.0;  // centre distance; only inertial terms need it
+    double pressure_angle_rad = 0.0;    // of the normal plane, if the teeth are helical
+    double helix_angle_rad = 0.0;       // see helical_pair.hpp for what it does to a stiffness
+    std::vector<double> positions_rad;  // psi_n; empty: equally spaced
+    double carrier_radius_m = 0.0;      // centre distance; only inertial terms need it
     gears::FixedMember fixed = gears::FixedMember::ring;
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
 
     int pairs() const { return 2 * planets; }
+    int sources() const { return planets; }  // places whose acceleration the sensor hears
     int motions() const { return 9 + 3 * planets; }
     int degrees_of_freedom() const { return motion == Motion::torsional ? 3 + planets : motions(); }
+    // Where the rotation u of carrier, ring, sun or (planet + n) stands among them.
+    int rotation_index(int body) const { return motion == Motion::torsional ? body : 3 * body + 2; }
     double planet_angle(int n) const;  // psi_n, rad
+    double transverse_pressure_angle() const;
 };
 
 // What differs between gearboxes; SI units. Arrays are indexed by Body.
@@ -53,7 +61,8 @@ struct PlanetaryInputs {
     double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
-    double force_N[3] = {};  // on u of carrier, ring, sun: torque / r
+    double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
+    double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
 };
 
 // Row vectors of the deflections over all 9 + 3N motions.
@@ -61,36 +70,35 @@ Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n);
 Eigen::VectorXd planet_bearing_row(const PlanetaryLayout& layout, int n, int axis);
 
-// M q'' + (C + G) q' + (K + K_inertial) q = f at given stiffness of the 2N pairs (sp1..spN,
+// All spring-dampers over the 9 + 3N motions, at given stiffness of the 2N pairs (sp1..spN,
 // rp1..rpN).
-struct PlanetaryMatrices {
-    Eigen::MatrixXd mass, damping, stiffness, gyroscopic, centrifugal;
-    Eigen::VectorXd force;
-};
+std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
+                                         const PlanetaryInputs& inputs,
+                                         const std::vector<double>& pair_stiffness_N_m);
+
+// Planets that cannot move on their bearings, x_n = -u_c sin psi_n, y_n = u_c cos psi_n: motions
+// from the degrees of freedom of the layout's motion.
+Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout);
 
 // Matrices over the layout's degrees of freedom. `torsional` motion ties each planet to the carrier
 // (rigid planet bearings) and keeps the rotations: carrier, ring, sun, planets.
-PlanetaryMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
-                           const std::vector<double>& pair_stiffness_N_m);
+GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& inputs,
+                         const std::vector<double>& pair_stiffness_N_m);
+
+// Name of every degree of freedom: carrier_x, carrier_y, carrier_u, ...
+std::vector<std::string> motion_names(const PlanetaryLayout& layout);
 
 // The member that `fixed` names.
 Body held_body(gears::FixedMember fixed);
 
-// Damping of one pair: 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22)
-// or c.
-double pair_damping(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair,
-                    double stiffness_N_m);
+// Damping of a pair over the shape of its stiffness (effects/mesh_damping.hpp): with it, damping
+// is 2 zeta sqrt(k m1 m2 / (m1 + m2)) (Liang, Eq. 4.2.5), mu k (Tian, Eq. 4.22) or c.
+double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair);
 
 // The motion that deflects nothing: the train turning freely past its held member. It is neutral in
 // a real gearbox. The linearised centrifugal term W^2 x lets it grow at a rate near W, since the
 // linear model lacks the turn of the bearing pull that cancels it; so the march removes it
 // (lockstep/tile).
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout);
-
-// Displacements at rest under the load; the free rigid rotation, if any, is left at zero.
-Eigen::VectorXd static_equilibrium(const PlanetaryMatrices& matrices);
-
-// Undamped natural frequencies at rest, Hz, ascending; a rigid rotation shows as 0.
-std::vector<double> natural_frequencies_Hz(const PlanetaryMatrices& matrices);
 
 }  // namespace gearpod::dynamics

@@ -5,45 +5,55 @@
 #include <cmath>
 
 #include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/planetary_lanes.hpp"
 
 namespace gearpod::dynamics {
 
-// Force of a spring-damper with deflection d and rate r.
-GEARPOD_INLINE double spring_damper(double k, double d, double c, double r) {
-    return std::fma(k, d, c * r);
-}
-
-template <class InertialTerms, int W>
+template <class InertialTerms, class MeshLaw, int W>
 struct TranslationalMotion {
     static constexpr int kWidth = W;
-    static constexpr int degrees_of_freedom(int planets) { return 9 + 3 * planets; }
+    static constexpr int kMaxDegrees = 9 + 3 * kMaxPlanets;
+    static constexpr int kMaxPairs = dynamics::kMaxPairs;
+    static constexpr int kMaxSources = kMaxPlanets;
+    using Lanes = PlanetaryLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
-    // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane]; k, c: [pair][lane].
+    static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
+    static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
+    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+        return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
+    }
+
+    // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane].
     static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
-                                             const double* __restrict v, const double* __restrict k,
-                                             const double* __restrict c, double* __restrict a) {
+                                             const double* __restrict v, const Pairs& pairs,
+                                             double* __restrict a) {
         for (int body = 0; body < 3; ++body) {
             central_bearing(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
         }
         for (int n = 0; n < p.planets; ++n) {
-            planet_forces(p, n, q, v, k + n * W, c + n * W, k + (p.planets + n) * W,
-                          c + (p.planets + n) * W, a);
+            planet_forces(p, n, q, v, pairs, a);
         }
         for (int body = 0; body < 3; ++body) {
             central_acceleration(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
         }
     }
 
-    // Planet n's x, y: displacement, velocity and acceleration in the carrier frame.
-    struct PlanetMotion {
-        double x, y, vx, vy, ax, ay;
-    };
-    static GEARPOD_INLINE PlanetMotion planet_motion(const PlanetaryLanes<W>&, int n, int l,
-                                                     const double* q, const double* v,
-                                                     const double* a) {
-        const int x = (9 + 3 * n) * W + l;
-        return {q[x], q[x + W], v[x], v[x + W], a[x], a[x + W]};
+    // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* q,
+                                                    const double* v, const double* a,
+                                                    double* __restrict out) {
+        for (int n = 0; n < p.planets; ++n) {
+            const int x = (9 + 3 * n) * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double w = p.speed[l];
+                out[2 * n * W + l] = absolute_x(a[x + l], q[x + l], v[x + W + l], w);
+                out[(2 * n + 1) * W + l] = absolute_y(a[x + W + l], q[x + W + l], v[x + l], w);
+            }
+        }
     }
 
   private:
@@ -78,10 +88,10 @@ struct TranslationalMotion {
 
     // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
     // the forces on carrier, ring and sun.
-    static GEARPOD_INLINE void planet_forces(
-        const PlanetaryLanes<W>& p, int n, const double* __restrict q, const double* __restrict v,
-        const double* __restrict k_sun, const double* __restrict c_sun,
-        const double* __restrict k_ring, const double* __restrict c_ring, double* __restrict f) {
+    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const Pairs& pairs, double* __restrict f) {
+        const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
         const int o = (9 + 3 * n) * W;
         const double cs = p.cos_sun[n], ss = p.sin_sun[n];
         const double cr = p.cos_ring[n], sr = p.sin_ring[n];
@@ -95,13 +105,13 @@ struct TranslationalMotion {
                 std::fma(q[6 * W + l] - x, cs, std::fma(q[7 * W + l] - y, ss, q[8 * W + l] + u));
             const double r_sun =
                 std::fma(v[6 * W + l] - vx, cs, std::fma(v[7 * W + l] - vy, ss, v[8 * W + l] + vu));
-            const double f_sun = spring_damper(k_sun[l], d_sun, c_sun[l], r_sun);
+            const double f_sun = Mesh::force(pairs, sun_mesh + l, l, d_sun, r_sun);
 
             const double d_ring =
                 std::fma(q[3 * W + l] - x, cr, std::fma(q[4 * W + l] - y, sr, q[5 * W + l] - u));
             const double r_ring =
                 std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
-            const double f_ring = spring_damper(k_ring[l], d_ring, c_ring[l], r_ring);
+            const double f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
 
             const double kb = p.bearing_stiffness[planet][l];
             const double cb = p.bearing_damping[planet][l];

@@ -41,4 +41,20 @@ void filter_step(double w, double h, double (&coefficients)[kFilterCoefficients]
     }
 }
 
+machine::AlignedVector filter_coefficients(double w, std::span<const double> lengths,
+                                           std::span<const double> mesh_periods) {
+    const std::size_t lanes = mesh_periods.size();
+    machine::AlignedVector all(lengths.size() * kFilterCoefficients * lanes);
+    for (std::size_t kind = 0; kind < lengths.size(); ++kind) {
+        for (std::size_t l = 0; l < lanes; ++l) {
+            double coefficients[kFilterCoefficients];
+            filter_step(w, lengths[kind] * mesh_periods[l], coefficients);
+            for (std::size_t i = 0; i < kFilterCoefficients; ++i) {
+                all[(kind * kFilterCoefficients + i) * lanes + l] = coefficients[i];
+            }
+        }
+    }
+    return all;
+}
+
 }  // namespace gearpod::lockstep

@@ -6,6 +6,8 @@
 // step length and gearbox.
 #pragma once
 
+#include <span>
+
 #include "machine/lanes.hpp"
 
 namespace gearpod::lockstep {
@@ -23,5 +25,10 @@ inline constexpr int kFilterCoefficients = 24;
 
 // Coefficients [kFilterCoefficients] of a step of `h` seconds for the cutoff `w` rad/s.
 void filter_step(double w, double h, double (&coefficients)[kFilterCoefficients]);
+
+// Coefficients of a tile whose lanes have the given mesh periods (s), for steps of the given
+// lengths (mesh periods): [step kind][kFilterCoefficients][lane].
+machine::AlignedVector filter_coefficients(double w, std::span<const double> lengths,
+                                           std::span<const double> mesh_periods);
 
 }  // namespace gearpod::lockstep

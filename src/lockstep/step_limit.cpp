@@ -25,7 +25,7 @@ double longest_step(std::complex<double> lambda) {
 
 }  // namespace
 
-StepLimit runge_kutta_limit(const dynamics::PlanetaryMatrices& m) {
+StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
     const Eigen::Index n = m.mass.rows();
     const Eigen::MatrixXd inverse_mass = m.mass.inverse();
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "lockstep/fault_schedule.hpp"
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -49,14 +51,13 @@ double largest_difference(const machine::AlignedVector& a, const machine::Aligne
 template <int W>
 class TileMarch {
   public:
-    TileMarch(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
+    TileMarch(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
               const FaultCurves& faults, const TileSettings& settings)
         : plan_(plan),
           faults_(faults),
           schedule_(plan, faults),
           settings_(settings),
-          lanes_(dynamics::make_lanes<W>(plan.layout, inputs)),
-          filter_(filter_coefficients<W>(plan, lanes_)) {
+          march_mesh_(make_mesh_march<W>(plan, inputs)) {
         result_.status.assign(W, LaneStatus::ok);
         prepare_rigid_rotation(inputs);
         rest(inputs);
@@ -74,14 +75,15 @@ class TileMarch {
 
   private:
     bool faulty(int lane) const {
-        return faults_.cracked[static_cast<std::size_t>(lane)].has_value() &&
+        return faults_.faulty(lane) &&
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
     // The rigid rotation and, per lane, the weights that measure it in a state: phi M / phi M phi.
-    void prepare_rigid_rotation(std::span<const dynamics::PlanetaryInputs> inputs) {
+    void prepare_rigid_rotation(std::span<const dynamics::GearboxInputs> inputs) {
         turn_ = dynamics::rigid_rotation(plan_.layout);
-        const std::vector<double> none(static_cast<std::size_t>(plan_.layout.pairs()), 0.0);
+        const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(plan_.layout)),
+                                       0.0);
         for (int l = 0; l < W; ++l) {
             const auto m =
                 dynamics::assemble(plan_.layout, inputs[static_cast<std::size_t>(l)], none);
@@ -103,10 +105,10 @@ class TileMarch {
     }
 
     // Static equilibrium under the load at phase 0.
-    void rest(std::span<const dynamics::PlanetaryInputs> inputs) {
+    void rest(std::span<const dynamics::GearboxInputs> inputs) {
         const auto pairs = plan_.nodes.stiffness.begin();
         const std::vector<double> stiffness(pairs, pairs + plan_.nodes.pairs);
-        const auto degrees = static_cast<std::size_t>(plan_.layout.degrees_of_freedom());
+        const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan_.layout));
         state_.q.assign(degrees * W, 0.0);
         state_.v.assign(degrees * W, 0.0);
         state_.filter.assign(static_cast<std::size_t>(plan_.channels()) * kFilterStates * W, 0.0);
@@ -120,7 +122,7 @@ class TileMarch {
     }
 
     void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
-        march_mesh<W>(plan_, lanes_, filter_, overrides, state_, record);
+        (*march_mesh_)(overrides, state_, record);
         remove_rigid_rotation(state_.q);
         remove_rigid_rotation(state_.v);
     }
@@ -313,8 +315,7 @@ class TileMarch {
     const FaultCurves& faults_;
     const FaultSchedule schedule_;
     const TileSettings& settings_;
-    const dynamics::PlanetaryLanes<W> lanes_;
-    const machine::AlignedVector filter_;
+    const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     Eigen::VectorXd turn_;
     std::array<Eigen::VectorXd, W> turn_weight_;
     TileState state_;
@@ -325,15 +326,16 @@ class TileMarch {
 }  // namespace
 
 template <int W>
-TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
+TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings) {
-    assert(inputs.size() == W && faults.cracked.size() == W);
+    assert(inputs.size() == W && std::all_of(faults.curve.begin(), faults.curve.end(),
+                                             [](const auto& lanes) { return lanes.size() == W; }));
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 
-template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                 const FaultCurves&, const TileSettings&);
-template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                 const FaultCurves&, const TileSettings&);
 
 }  // namespace gearpod::lockstep

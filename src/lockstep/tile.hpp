@@ -30,15 +30,15 @@ struct TileResult {
     std::vector<LaneStatus> status;  // per lane
 };
 
-// `inputs` and `faults.cracked` hold W lanes; unused lanes of the last tile repeat its last one.
-// A lane's result never depends on its neighbours.
+// `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
+// one. A lane's result never depends on its neighbours.
 template <int W>
-TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
+TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);
 
-extern template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+extern template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                        const FaultCurves&, const TileSettings&);
-extern template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::PlanetaryInputs>,
+extern template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                        const FaultCurves&, const TileSettings&);
 
 }  // namespace gearpod::lockstep

@@ -43,10 +43,11 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     for (int l = 0; l < W; ++l) {
         inputs.push_back(random_inputs(engine));
     }
-    const auto lanes = make_lanes<W>(layout, inputs);
+    const auto lanes = make_lanes<W>(layout, std::span<const PlanetaryInputs>(inputs));
     const auto degrees = static_cast<std::size_t>(layout.degrees_of_freedom());
     const auto pairs = static_cast<std::size_t>(layout.pairs());
-    std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W), k(pairs * W), c(pairs * W);
+    std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W);
+    typename Model::Pairs mesh{};
     for (auto& x : q) {
         x = 1e-5 * unit(engine);
     }
@@ -55,20 +56,20 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     }
     for (std::size_t pair = 0; pair < pairs; ++pair) {
         for (std::size_t l = 0; l < W; ++l) {
-            k[pair * W + l] = 4e8 * (1.5 + unit(engine));
-            c[pair * W + l] =
-                pair_damping(layout, inputs[l], static_cast<int>(pair), k[pair * W + l]);
+            mesh.k[pair * W + l] = 4e8 * (1.5 + unit(engine));
+            mesh.c[pair * W + l] = mesh_damping_factor(layout, inputs[l], static_cast<int>(pair)) *
+                                   mesh_damping_shape(layout.mesh_damping, mesh.k[pair * W + l]);
         }
     }
-    Model::accelerations(lanes, q.data(), v.data(), k.data(), c.data(), a.data());
+    Model::accelerations(lanes, q.data(), v.data(), mesh, a.data());
 
     double error = 0.0, scale = 0.0;
     for (std::size_t l = 0; l < W; ++l) {
         std::vector<double> stiffness(pairs);
         for (std::size_t pair = 0; pair < pairs; ++pair) {
-            stiffness[pair] = k[pair * W + l];
+            stiffness[pair] = mesh.k[pair * W + l];
         }
-        const PlanetaryMatrices m = assemble(layout, inputs[l], stiffness);
+        const GearboxMatrices m = assemble(layout, inputs[l], stiffness);
         Eigen::VectorXd ql(degrees), vl(degrees);
         for (std::size_t d = 0; d < degrees; ++d) {
             ql(static_cast<Eigen::Index>(d)) = q[d * W + l];
@@ -103,13 +104,13 @@ TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 
         for (const auto damping :
              {MeshDamping::ratio, MeshDamping::proportional, MeshDamping::constant}) {
             const auto seed = static_cast<unsigned>(n);
-            using Inertial = TranslationalMotion<WithInertialTerms, 8>;
-            using Still = TranslationalMotion<WithoutInertialTerms, 8>;
+            using Inertial = TranslationalMotion<WithInertialTerms, LinearMesh, 8>;
+            using Still = TranslationalMotion<WithoutInertialTerms, LinearMesh, 8>;
             const auto full = Motion::translational_torsional;
             CHECK(kernel_error<Inertial>(layout_of(n, full, true, damping), seed) < 1e-13);
             CHECK(kernel_error<Still>(layout_of(n, full, false, damping), seed) < 1e-13);
-            CHECK(kernel_error<TorsionalMotion<8>>(layout_of(n, Motion::torsional, false, damping),
-                                                   seed) < 1e-13);
+            CHECK(kernel_error<TorsionalMotion<LinearMesh, 8>>(
+                      layout_of(n, Motion::torsional, false, damping), seed) < 1e-13);
         }
     }
 }
@@ -127,7 +128,7 @@ TEST_CASE("At rest every planet carries the same share and the held ring takes i
     in.force_N[ring] = 0.0;
     in.force_N[carrier] = -torque * (1 + 81.0 / 19) / r_c;
     const std::vector<double> k(8, 5e8);
-    const PlanetaryMatrices matrices = assemble(layout, in, k);
+    const GearboxMatrices matrices = assemble(layout, in, k);
     const Eigen::VectorXd q = static_equilibrium(matrices);
     CHECK((matrices.stiffness * q - matrices.force).norm() < 1e-9 * matrices.force.norm());
     for (int n = 0; n < 4; ++n) {
@@ -145,7 +146,7 @@ TEST_CASE("A free train turns past its held member without deflecting a spring")
         for (const auto motion : {Motion::translational_torsional, Motion::torsional}) {
             PlanetaryLayout layout = layout_of(5, motion, false, MeshDamping::ratio);
             layout.fixed = fixed;
-            const PlanetaryMatrices m =
+            const GearboxMatrices m =
                 assemble(layout, random_inputs(engine), std::vector<double>(10, 5e8));
             const Eigen::VectorXd turn = rigid_rotation(layout);
             CHECK(turn.norm() > 1.0);

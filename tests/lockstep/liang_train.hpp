@@ -9,6 +9,8 @@
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
 #include "lockstep/tile.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
 
 namespace gearpod::test {
 
@@ -20,25 +22,24 @@ struct LiangTrain {
         ring{81, true, kModule, kAngle};
     stiffness::Material steel{2.068e11, 0.3, 0.0381};
     gears::MeshGeometry sun_mesh{sun, planet}, ring_mesh{planet, ring};
-    stiffness::PairStiffness sun_planet{sun_mesh, steel, stiffness::Profile::root_circle};
-    stiffness::PairStiffness ring_planet{ring_mesh, steel, stiffness::Profile::root_circle};
-    stiffness::CrackedPairFamily cracked{ring_mesh, steel, stiffness::Profile::root_circle, 1,
-                                         std::numbers::pi / 4};
+    stiffness::AdditiveMesh sun_planet{sun_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::AdditiveMesh ring_planet{ring_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::ToothCrack cracked{ring_mesh, steel, stiffness::Profile::root_circle, 1,
+                                  std::numbers::pi / 4};
     lockstep::PairSet pairs;
 
     LiangTrain() {
         const gears::PlanetaryTrain train{19, 31, 81, 4};
-        pairs.sun_planet = &sun_planet;
-        pairs.ring_planet = &ring_planet;
-        const auto add = [&](double pitch_phase, double pitch_position) {
-            const double start = pitch_phase - pitch_position;
+        const auto add = [&](double pitch_phase, const stiffness::AdditiveMesh& mesh) {
+            const double start = pitch_phase - mesh.pitch_position();
+            pairs.mesh.push_back(&mesh);
             pairs.start.push_back(start - std::floor(start));
         };
         for (int n = 0; n < 4; ++n) {
-            add(gears::sun_mesh_phase(train, n), sun_planet.pitch_position());
+            add(gears::sun_mesh_phase(train, n), sun_planet);
         }
         for (int n = 0; n < 4; ++n) {
-            add(gears::ring_mesh_phase(train, n), ring_planet.pitch_position());
+            add(gears::ring_mesh_phase(train, n), ring_planet);
         }
     }
 
@@ -50,16 +51,22 @@ struct LiangTrain {
     lockstep::MarchPlan plan(int samples, int steps, dynamics::Motion motion,
                              bool inertial = true) const {
         lockstep::MarchPlan p;
-        p.layout.planets = 4;
-        p.layout.pressure_angle_rad = kAngle;
-        p.layout.carrier_radius_m = 25 * kModule;
-        p.layout.motion = motion;
-        p.layout.inertial_terms = inertial;
+        dynamics::PlanetaryLayout layout;
+        layout.planets = 4;
+        layout.pressure_angle_rad = kAngle;
+        layout.carrier_radius_m = 25 * kModule;
+        layout.motion = motion;
+        layout.inertial_terms = inertial;
+        p.layout = layout;
         p.grid = lockstep::make_phase_grid(samples, steps, lockstep::contact_transitions(pairs));
-        p.nodes = lockstep::tabulate(pairs, p.grid, p.layout.mesh_damping);
+        p.nodes = lockstep::tabulate(pairs, p.grid, layout.mesh_damping);
         p.low_pass_rad_s = 2 * std::numbers::pi * 800;
-        p.te_weight[0] = -100.0 / 19 / p.layout.carrier_radius_m;
-        p.te_weight[2] = 1.0 / sun.base_radius();
+        p.te_weight.assign(static_cast<std::size_t>(layout.degrees_of_freedom()), 0.0);
+        const auto u = [&](int body) {
+            return static_cast<std::size_t>(layout.rotation_index(body));
+        };
+        p.te_weight[u(dynamics::carrier)] = -100.0 / 19 / layout.carrier_radius_m;
+        p.te_weight[u(dynamics::sun)] = 1.0 / sun.base_radius();
         return p;
     }
 
@@ -88,18 +95,18 @@ struct LiangTrain {
     lockstep::FaultCurves no_fault(int lanes) const {
         lockstep::FaultCurves f;
         f.pairs = &pairs;
-        f.cracked.resize(static_cast<std::size_t>(lanes));
+        f.curve.resize(1);
+        f.curve[0].resize(static_cast<std::size_t>(lanes));
         return f;
     }
 
     // A crack of the given depths on the ring side of planet 1, one a lane; 0: healthy.
     lockstep::FaultCurves ring_side_cracks(const std::vector<double>& depths_m) const {
         lockstep::FaultCurves f = no_fault(static_cast<int>(depths_m.size()));
-        f.pattern.length = 31;
-        f.pattern.passages = {{4, pairs.start[4]}};
+        f.pattern = lockstep::planet_fault_pattern(pairs, 0, lockstep::PlanetSide::ring, 31);
         for (std::size_t l = 0; l < depths_m.size(); ++l) {
             if (depths_m[l] > 0.0) {
-                f.cracked[l] = cracked.at(depths_m[l]);
+                f.curve[0][l] = stiffness::faulty_mesh(ring_planet, cracked.at(depths_m[l]));
             }
         }
         return f;

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "liang_train.hpp"
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/sensor_filter.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -23,10 +25,9 @@ TileState rest(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
 
 TileState march(const MarchPlan& plan, const dynamics::PlanetaryInputs& in, TileState state,
                 MeshRecord& record) {
-    const auto lanes = dynamics::make_lanes<1>(plan.layout, std::span(&in, 1));
-    const auto filter = filter_coefficients<1>(plan, lanes);
+    const dynamics::GearboxInputs inputs = in;
     record = make_record(plan, 1, false);
-    march_mesh<1>(plan, lanes, filter, {}, state, record);
+    (*make_mesh_march<1>(plan, std::span(&inputs, 1)))({}, state, record);
     return state;
 }
 
@@ -46,7 +47,7 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
         std::vector<double> k(8, 0.0);
         const double phase = t / in.mesh_period_s;
         for (std::size_t pair = 0; pair < 8; ++pair) {
-            const auto& curve = train.pairs.curve(static_cast<int>(pair));
+            const auto& curve = pair < 4 ? train.sun_planet : train.ring_planet;
             for (int age = 0; age < 3; ++age) {
                 const double start = train.pairs.start[pair] - age;
                 if (middle > start && middle < start + curve.contact_ratio()) {

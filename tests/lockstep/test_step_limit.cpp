@@ -9,7 +9,7 @@ using namespace gearpod;
 
 namespace {
 
-dynamics::PlanetaryMatrices oscillator(double stiffness, double damping) {
+dynamics::GearboxMatrices oscillator(double stiffness, double damping) {
     const auto one = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
     return {one(1.0), one(damping), one(stiffness), one(0.0), one(0.0), Eigen::VectorXd::Zero(1)};
 }

@@ -15,8 +15,8 @@ constexpr auto kFull = dynamics::Motion::translational_torsional;
 // Ten times the speed keeps the mesh period short; the disturbance then spans several periods.
 constexpr double kSpeedup = 10.0;
 
-std::vector<dynamics::PlanetaryInputs> spread_inputs(double speedup = kSpeedup) {
-    std::vector<dynamics::PlanetaryInputs> inputs;
+std::vector<dynamics::GearboxInputs> spread_inputs(double speedup = kSpeedup) {
+    std::vector<dynamics::GearboxInputs> inputs;
     for (int l = 0; l < 8; ++l) {
         inputs.push_back(LiangTrain::instance().inputs(speedup, 1e8 * (0.8 + 0.05 * l)));
     }
@@ -56,8 +56,9 @@ TEST_CASE("Eight lanes and one lane give the same bits, on every instruction set
     const TileSettings settings;
     const TileResult wide = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), settings);
     for (std::size_t l = 0; l < 8; ++l) {
-        const TileResult narrow = run_tile<1>(plan, std::span(inputs).subspan(l, 1),
-                                              train.ring_side_cracks({kDepths[l]}), settings);
+        const TileResult narrow =
+            run_tile<1>(plan, std::span<const dynamics::GearboxInputs>(inputs).subspan(l, 1),
+                        train.ring_side_cracks({kDepths[l]}), settings);
         CHECK(unrolled(narrow, 0, 1) == unrolled(wide, l, 8));
         CHECK(wide.status[l] == LaneStatus::ok);
     }
@@ -82,7 +83,8 @@ TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
     auto inputs = spread_inputs();
     const auto faults = train.ring_side_cracks(kDepths);
     const TileResult before = run_tile<8>(plan, inputs, faults, {});
-    inputs[3].mass_kg[dynamics::sun] = 1e-7;  // far too light for this step
+    std::get<dynamics::PlanetaryInputs>(inputs[3]).mass_kg[dynamics::sun] =
+        1e-7;  // far too light for this step
     const TileResult after = run_tile<8>(plan, inputs, faults, {});
     for (std::size_t l = 0; l < 8; ++l) {
         if (l == 3) {
@@ -101,7 +103,7 @@ TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
     // Decay within a few periods, and a disturbance that outlives the pattern.
     for (const double speedup : {kSpeedup, 60.0}) {
         const MarchPlan plan = train.plan(24, 1200, kFull);
-        const auto one = std::vector{train.inputs(speedup)};
+        const std::vector<dynamics::GearboxInputs> one{train.inputs(speedup)};
         const auto faults = train.ring_side_cracks({4.28e-3});
         TileSettings reuse;
         reuse.max_meshes = 2000;
@@ -128,7 +130,7 @@ TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
 TEST_CASE("A gearbox without a fault shows one mesh period, at rest in the mean") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = train.plan(24, 1200, kFull);
-    const auto one = std::vector{train.inputs(kSpeedup)};
+    const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
     const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), {});
     CHECK(tile.records.size() == 1);
     CHECK(tile.content == std::vector<int>{0});

@@ -27,4 +27,13 @@ struct WithoutInertialTerms {
     static GEARPOD_INLINE double pull(double, double) { return 0.0; }
 };
 
+// Absolute acceleration along the axes of a frame that turns with w, whatever the model's choice:
+// (x'' - 2 w y' - w^2 x, y'' + 2 w x' - w^2 y).
+GEARPOD_INLINE double absolute_x(double ax, double x, double vy, double w) {
+    return std::fma(-w, std::fma(w, x, 2.0 * vy), ax);
+}
+GEARPOD_INLINE double absolute_y(double ay, double y, double vx, double w) {
+    return std::fma(-w, std::fma(w, y, -2.0 * vx), ay);
+}
+
 }  // namespace gearpod::dynamics

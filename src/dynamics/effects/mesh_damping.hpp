@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "dynamics/planetary.hpp"
-
 namespace gearpod::dynamics {
+
+enum class MeshDamping { ratio, proportional, constant };
 
 // c = 2 zeta sqrt(k m1 m2 / (m1 + m2)): Liang (2016), Eq. 4.2.5.
 struct RatioDamping {
@@ -40,6 +40,10 @@ auto with_mesh_damping(MeshDamping kind, F&& f) {
             break;
     }
     return f(RatioDamping{});
+}
+
+inline double mesh_damping_shape(MeshDamping kind, double stiffness_N_m) {
+    return with_mesh_damping(kind, [&](auto law) { return law.shape(stiffness_N_m); });
 }
 
 }  // namespace gearpod::dynamics

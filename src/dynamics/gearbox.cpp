@@ -1,0 +1,110 @@
+#include "dynamics/gearbox.hpp"
+
+namespace gearpod::dynamics {
+namespace {
+
+template <class... Cases>
+struct ByKind : Cases... {
+    using Cases::operator()...;
+};
+template <class... Cases>
+ByKind(Cases...) -> ByKind<Cases...>;
+
+// f(layout, inputs) of the kind that both have.
+template <class F>
+auto with_inputs(const GearboxLayout& layout, const GearboxInputs& inputs, F f) {
+    return std::visit(ByKind{[&](const PlanetaryLayout& kind) {
+                                 return f(kind, std::get<PlanetaryInputs>(inputs));
+                             },
+                             [&](const FixedShaftLayout& kind) {
+                                 return f(kind, std::get<FixedShaftInputs>(inputs));
+                             }},
+                      layout);
+}
+
+}  // namespace
+
+int degrees_of_freedom(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return kind.degrees_of_freedom(); }, layout);
+}
+
+int pairs(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return kind.pairs(); }, layout);
+}
+
+int sources(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return kind.sources(); }, layout);
+}
+
+MeshDamping mesh_damping(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return kind.mesh_damping; }, layout);
+}
+
+double mesh_period_s(const GearboxInputs& inputs) {
+    return std::visit([](const auto& kind) { return kind.mesh_period_s; }, inputs);
+}
+
+double frame_speed_rad_s(const GearboxInputs& inputs) {
+    return std::visit(ByKind{[](const PlanetaryInputs& in) { return in.carrier_speed_rad_s; },
+                             [](const FixedShaftInputs&) { return 0.0; }},
+                      inputs);
+}
+
+GearboxMatrices assemble(const GearboxLayout& layout, const GearboxInputs& inputs,
+                         const std::vector<double>& pair_stiffness_N_m) {
+    return with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
+        return assemble(kind, in, pair_stiffness_N_m);
+    });
+}
+
+std::vector<SpringDamper> spring_dampers(const GearboxLayout& layout, const GearboxInputs& inputs,
+                                         const std::vector<double>& pair_stiffness_N_m) {
+    auto springs = with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
+        return spring_dampers(kind, in, pair_stiffness_N_m);
+    });
+    if (const auto* planetary = std::get_if<PlanetaryLayout>(&layout)) {
+        const Eigen::MatrixXd tie = motions_from_degrees(*planetary);
+        for (SpringDamper& spring : springs) {
+            spring.row = (tie.transpose() * spring.row).eval();
+        }
+    }
+    return springs;
+}
+
+Eigen::VectorXd rigid_rotation(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return rigid_rotation(kind); }, layout);
+}
+
+double mesh_damping_factor(const GearboxLayout& layout, const GearboxInputs& inputs, int pair) {
+    return with_inputs(layout, inputs, [&](const auto& kind, const auto& in) {
+        return mesh_damping_factor(kind, in, pair);
+    });
+}
+
+std::vector<std::string> motion_names(const GearboxLayout& layout) {
+    return std::visit([](const auto& kind) { return motion_names(kind); }, layout);
+}
+
+Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair) {
+    return std::visit(
+        ByKind{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                   const int n = pair % kind.planets;
+                   return motions_from_degrees(kind).transpose() *
+                          (pair == n ? sun_planet_row(kind, n) : ring_planet_row(kind, n));
+               },
+               [](const FixedShaftLayout& kind) { return mesh_row(kind); }},
+        layout);
+}
+
+Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis) {
+    return std::visit(
+        ByKind{[&](const PlanetaryLayout& kind) -> Eigen::VectorXd {
+                   return motions_from_degrees(kind).row(motion_index(planet, source) + axis);
+               },
+               [&](const FixedShaftLayout& kind) -> Eigen::VectorXd {
+                   return Eigen::VectorXd::Unit(fixed_shaft_motions, 2 * kind.sensor + axis);
+               }},
+        layout);
+}
+
+}  // namespace gearpod::dynamics

@@ -1,0 +1,40 @@
+// A gearbox of any kind: what the march and the program ask of a kind, kind by kind.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dynamics/fixed_shaft.hpp"
+#include "dynamics/planetary.hpp"
+
+namespace gearpod::dynamics {
+
+using GearboxLayout = std::variant<PlanetaryLayout, FixedShaftLayout>;
+// Of the same kind as the layout they go with.
+using GearboxInputs = std::variant<PlanetaryInputs, FixedShaftInputs>;
+
+int degrees_of_freedom(const GearboxLayout& layout);
+int pairs(const GearboxLayout& layout);
+// Places whose x and y acceleration the sensor's channels take: the planets, or one bearing.
+int sources(const GearboxLayout& layout);
+MeshDamping mesh_damping(const GearboxLayout& layout);
+double mesh_period_s(const GearboxInputs& inputs);
+// Speed of the frame that x and y turn with: the carrier's, or 0.
+double frame_speed_rad_s(const GearboxInputs& inputs);
+
+// The functions of the same names in planetary.hpp and fixed_shaft.hpp; all rows are over the
+// degrees of freedom.
+GearboxMatrices assemble(const GearboxLayout& layout, const GearboxInputs& inputs,
+                         const std::vector<double>& pair_stiffness_N_m);
+std::vector<SpringDamper> spring_dampers(const GearboxLayout& layout, const GearboxInputs& inputs,
+                                         const std::vector<double>& pair_stiffness_N_m);
+Eigen::VectorXd rigid_rotation(const GearboxLayout& layout);
+double mesh_damping_factor(const GearboxLayout& layout, const GearboxInputs& inputs, int pair);
+std::vector<std::string> motion_names(const GearboxLayout& layout);
+
+// Row of a pair's deflection, and of a source's motion along x (axis 0) or y (1).
+Eigen::VectorXd mesh_row(const GearboxLayout& layout, int pair);
+Eigen::VectorXd source_row(const GearboxLayout& layout, int source, int axis);
+
+}  // namespace gearpod::dynamics

@@ -1,0 +1,35 @@
+// Marches W gearboxes through one mesh period after the other: an integrator together with the
+// parameters of its gearboxes.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lockstep/march.hpp"
+
+namespace gearpod::lockstep {
+
+// Immutable.
+template <int W>
+class MeshMarch {
+  public:
+    virtual ~MeshMarch() = default;
+    // Marches `state` through one mesh period that begins at an integer phase and records it.
+    // `record` must have its sizes (make_record).
+    virtual void operator()(const std::vector<PairOverride>& overrides, TileState& state,
+                            MeshRecord& record) const = 0;
+};
+
+// The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W
+// gearboxes of the plan's kind. The plan must outlive the result.
+template <int W>
+std::unique_ptr<const MeshMarch<W>> make_mesh_march(
+    const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
+
+extern template std::unique_ptr<const MeshMarch<1>> make_mesh_march<1>(
+    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+extern template std::unique_ptr<const MeshMarch<8>> make_mesh_march<8>(
+    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+
+}  // namespace gearpod::lockstep
