@@ -40,8 +40,9 @@ bool FaultSchedule::continues_after(int k) const {
 PairOverride FaultSchedule::make_override(int pair, int k, double start) const {
     const auto& curve = faults_.pairs->curve(pair);
     const ToothPositions at = tooth_positions(plan_.grid, k, start, curve.contact_ratio());
-    const auto first = static_cast<std::size_t>(at.first_step) * kStageNodes;
-    const auto count = static_cast<std::size_t>(at.last_step) * kStageNodes - first;
+    const std::size_t stages = plan_.grid.stage_nodes.size();
+    const auto first = static_cast<std::size_t>(at.first_step) * stages;
+    const auto count = static_cast<std::size_t>(at.last_step) * stages - first;
     const auto tau = std::span(at.tau).subspan(first, count);
     const std::size_t lanes = faults_.cracked.size();
     std::vector<double> healthy(count), cracked(count);

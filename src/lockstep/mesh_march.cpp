@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "lockstep/explicit_march.hpp"
+#include "lockstep/implicit_march.hpp"
 #include "lockstep/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
@@ -41,10 +42,10 @@ Kernel<dynamics::FixedShaftLanes<W>> kernel_of(const dynamics::FixedShaftLayout&
 }
 
 template <int W, class Lanes>
-class ExplicitMarch final : public MeshMarch<W> {
+class KernelMarch final : public MeshMarch<W> {
   public:
-    ExplicitMarch(const MarchPlan& plan, Lanes lanes, machine::AlignedVector filter,
-                  Kernel<Lanes> kernel)
+    KernelMarch(const MarchPlan& plan, Lanes lanes, machine::AlignedVector filter,
+                Kernel<Lanes> kernel)
         : plan_(plan), lanes_(std::move(lanes)), filter_(std::move(filter)), kernel_(kernel) {}
 
     void operator()(const std::vector<PairOverride>& overrides, TileState& state,
@@ -75,8 +76,27 @@ std::unique_ptr<const MeshMarch<W>> make_explicit(const MarchPlan& plan, const L
                                                   machine::AlignedVector filter) {
     const std::vector<Inputs> own = inputs_of<Inputs>(inputs);
     auto lanes = dynamics::make_lanes<W>(layout, std::span<const Inputs>(own));
-    return std::make_unique<ExplicitMarch<W, decltype(lanes)>>(
+    return std::make_unique<KernelMarch<W, decltype(lanes)>>(
         plan, std::move(lanes), std::move(filter), kernel_of<W>(layout));
+}
+
+template <int W>
+Kernel<ImplicitLanes<W>> kernel_of(Integrator integrator) {
+    if constexpr (W == 1) {
+        return integrator == Integrator::newmark ? newmark_1 : sdirk3_1;
+    } else {
+        return integrator == Integrator::newmark ? newmark_8 : sdirk3_8;
+    }
+}
+
+template <int W>
+std::unique_ptr<const MeshMarch<W>> make_implicit(const MarchPlan& plan,
+                                                  std::span<const dynamics::GearboxInputs> inputs,
+                                                  machine::AlignedVector filter) {
+    const double share = plan.integrator == Integrator::newmark ? 0.5 : Alexander::kDiagonal;
+    return std::make_unique<KernelMarch<W, ImplicitLanes<W>>>(
+        plan, make_implicit_lanes<W>(plan, share, inputs), std::move(filter),
+        kernel_of<W>(plan.integrator));
 }
 
 }  // namespace
@@ -90,7 +110,10 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
         periods.push_back(dynamics::mesh_period_s(in));
     }
     machine::AlignedVector filter =
-        filter_coefficients(plan.low_pass_rad_s, plan.grid.lengths, periods);
+        filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods);
+    if (plan.integrator != Integrator::rk4) {
+        return make_implicit<W>(plan, inputs, std::move(filter));
+    }
     if (const auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
         return make_explicit<W, dynamics::PlanetaryInputs>(plan, *planetary, inputs,
                                                            std::move(filter));

@@ -15,7 +15,8 @@ void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid, const PairSet&
     const ToothPositions positions = tooth_positions(grid, 0.0, start, curve.contact_ratio());
     std::vector<double> k(positions.tau.size());
     pairs.tooth_pair(curve, curve.contact_ratio(), positions.tau, k);
-    for (int i = positions.first_step * kStageNodes; i < positions.last_step * kStageNodes; ++i) {
+    const int stages = static_cast<int>(grid.stage_nodes.size());
+    for (int i = positions.first_step * stages; i < positions.last_step * stages; ++i) {
         nodes.stiffness[static_cast<std::size_t>(i * nodes.pairs + pair)] +=
             k[static_cast<std::size_t>(i)];
     }
@@ -46,7 +47,7 @@ std::vector<double> contact_transitions(const PairSet& pairs) {
 ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
                                double contact_ratio) {
     ToothPositions positions;
-    positions.tau.reserve(grid.steps.size() * kStageNodes);
+    positions.tau.reserve(grid.steps.size() * grid.stage_nodes.size());
     const auto engaged = [&](const Step& step) {
         // A step lies wholly inside or outside the engagement; its middle decides.
         const double middle = mesh + step.phase + 0.5 * step.length - start;
@@ -57,7 +58,7 @@ ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
     positions.first_step = static_cast<int>(first - grid.steps.begin());
     positions.last_step = static_cast<int>(last - grid.steps.begin());
     for (const Step& step : grid.steps) {
-        for (const double part : {0.0, 0.5, 1.0}) {
+        for (const double part : grid.stage_nodes) {
             const double tau = mesh + step.phase + part * step.length - start;
             positions.tau.push_back(std::clamp(tau, 0.0, contact_ratio));
         }
@@ -69,8 +70,8 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
                         dynamics::MeshDamping damping) {
     StiffnessNodes nodes;
     nodes.pairs = pairs.pairs();
-    nodes.stiffness.assign(grid.steps.size() * kStageNodes * static_cast<std::size_t>(nodes.pairs),
-                           0.0);
+    nodes.stiffness.assign(
+        grid.steps.size() * grid.stage_nodes.size() * static_cast<std::size_t>(nodes.pairs), 0.0);
     for (int pair = 0; pair < nodes.pairs; ++pair) {
         const auto& curve = pairs.curve(pair);
         // Tooth pairs that began in this or in an earlier mesh period and are still in contact.

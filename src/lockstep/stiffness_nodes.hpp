@@ -11,9 +11,6 @@
 
 namespace gearpod::lockstep {
 
-// Nodes of a step that the integrator's stages use: start (right limit), middle, end (left limit).
-inline constexpr int kStageNodes = 3;
-
 // A planetary train's 2N pairs: sp1..spN, rp1..rpN. Pair i's tooth pairs start engaging at the
 // phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
 struct PairSet {
