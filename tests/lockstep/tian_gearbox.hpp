@@ -6,6 +6,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/tile.hpp"
+#include "stiffness/additive_mesh.hpp"
 
 namespace gearpod::test {
 
@@ -17,11 +18,11 @@ struct TianGearbox {
     gears::Gear pinion{19, false, kModule, kAngle}, gear{48, false, kModule, kAngle};
     stiffness::Material steel{2.068e11, 0.3, 0.016};
     gears::MeshGeometry mesh{pinion, gear};
-    stiffness::PairStiffness pair{mesh, steel, stiffness::Profile::base_circle};
+    stiffness::AdditiveMesh pair{mesh, steel, stiffness::Profile::base_circle};
     lockstep::PairSet pairs;
 
     TianGearbox() {
-        pairs.sun_planet = pairs.ring_planet = &pair;
+        pairs.mesh = {&pair};
         pairs.start = {0.0};
     }
 
@@ -75,7 +76,8 @@ struct TianGearbox {
     lockstep::FaultCurves no_fault(int lanes) const {
         lockstep::FaultCurves f;
         f.pairs = &pairs;
-        f.cracked.resize(static_cast<std::size_t>(lanes));
+        f.curve.resize(1);
+        f.curve[0].resize(static_cast<std::size_t>(lanes));
         return f;
     }
 };
