@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
 namespace gearpod::dynamics {
@@ -45,6 +46,7 @@ struct FixedShaftInputs {
     double motor_torque_N_m = 0.0, load_torque_N_m = 0.0;  // each along its own arrow, Eqs. 4.7-4.8
     double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
     double mesh_period_s = 0.0;
+    double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
 };
 
 // Row of the mesh's deflection.

@@ -26,6 +26,7 @@ FixedShaftLanes<W> make_lanes(const FixedShaftLayout& layout,
         }
         lanes.mesh_damping_factor[l] = mesh_damping_factor(layout, in, 0);
         lanes.mesh_period[l] = in.mesh_period_s;
+        lanes.backlash[l] = in.backlash_m;
     }
     return lanes;
 }

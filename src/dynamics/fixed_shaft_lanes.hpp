@@ -19,6 +19,7 @@ struct alignas(64) FixedShaftLanes {
     double coupling_damping[fixed_shaft_gear_count][W];
     double mesh_damping_factor[W];  // times the shape of the stiffness
     double mesh_period[W];          // s
+    double backlash[W];             // 2b of the mesh, m
     int sensor;                     // FixedShaftGear
 };
 

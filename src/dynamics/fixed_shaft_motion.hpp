@@ -2,18 +2,20 @@
 // (tests compare the two), written out per spring-damper. Tian (2004), Eqs. 4.1-4.8.
 #pragma once
 
-#include "dynamics/effects/spring_damper.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/fixed_shaft_lanes.hpp"
 
 namespace gearpod::dynamics {
 
-template <int W>
+template <class MeshLaw, int W>
 struct FixedShaftMotions {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = fixed_shaft_motions;
     static constexpr int kMaxPairs = 1;
     static constexpr int kMaxSources = 1;
     using Lanes = FixedShaftLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes&) { return fixed_shaft_motions; }
     static GEARPOD_INLINE int sources(const Lanes&) { return 1; }
@@ -21,15 +23,15 @@ struct FixedShaftMotions {
         return p.mesh_damping_factor;
     }
 
-    // a = M^-1 (f - C v - K q). q, v, a: [motion][lane]; k, c: [lane] of the mesh.
+    // a = M^-1 (f - C v - K q). q, v, a: [motion][lane].
     static GEARPOD_INLINE void accelerations(const Lanes& p, const double* __restrict q,
-                                             const double* __restrict v, const double* __restrict k,
-                                             const double* __restrict c, double* __restrict a) {
+                                             const double* __restrict v, const Pairs& pairs,
+                                             double* __restrict a) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double d = (at(q, u_1, l) - at(q, u_2, l)) - (at(q, y_1, l) - at(q, y_2, l));
             const double r = (at(v, u_1, l) - at(v, u_2, l)) - (at(v, y_1, l) - at(v, y_2, l));
-            const double mesh = spring_damper(k[l], d, c[l], r);
+            const double mesh = Mesh::force(pairs, l, l, d, r);
             const double motor =
                 spring_damper(p.coupling_stiffness[pinion][l], at(q, u_m, l) - at(q, u_1, l),
                               p.coupling_damping[pinion][l], at(v, u_m, l) - at(v, u_1, l));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/helical_pair.hpp"
+
 namespace gearpod::dynamics {
 namespace {
 
@@ -47,7 +49,12 @@ GearboxMatrices reduce(const GearboxMatrices& full, const Eigen::MatrixXd& tie) 
 }  // namespace
 
 double PlanetaryLayout::planet_angle(int n) const {
-    return 2.0 * pi * n / planets;
+    return positions_rad.empty() ? 2.0 * pi * n / planets
+                                 : positions_rad[static_cast<std::size_t>(n)];
+}
+
+double PlanetaryLayout::transverse_pressure_angle() const {
+    return dynamics::transverse_pressure_angle(pressure_angle_rad, helix_angle_rad);
 }
 
 Body held_body(gears::FixedMember fixed) {
@@ -63,7 +70,7 @@ Body held_body(gears::FixedMember fixed) {
 }
 
 Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 - layout.pressure_angle_rad + layout.planet_angle(n);
+    const double angle = pi / 2 - layout.transverse_pressure_angle() + layout.planet_angle(n);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
     const int s = motion_index(sun);
     const int p = motion_index(planet, n);
@@ -77,7 +84,7 @@ Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n) {
 }
 
 Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 + layout.pressure_angle_rad + layout.planet_angle(n);
+    const double angle = pi / 2 + layout.transverse_pressure_angle() + layout.planet_angle(n);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
     const int r = motion_index(ring);
     const int p = motion_index(planet, n);
@@ -197,7 +204,7 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout) {
 
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
     // From zero deflection of both meshes: u_s + u_n = u_c cos a and u_r - u_n = u_c cos a.
-    const double cos_a = std::cos(layout.pressure_angle_rad);
+    const double cos_a = std::cos(layout.transverse_pressure_angle());
     const Body held = held_body(layout.fixed);
     const double u_c = held == carrier ? 0.0 : 1.0;
     const double u_s = held == sun ? 0.0 : held == ring ? 2.0 * cos_a : 1.0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "gears/planetary.hpp"
 
@@ -30,8 +31,10 @@ inline int motion_index(Body body, int n = 0) {
 // What all gearboxes of an ensemble share.
 struct PlanetaryLayout {
     int planets = 0;
-    double pressure_angle_rad = 0.0;
-    double carrier_radius_m = 0.0;  // centre distance; only inertial terms need it
+    double pressure_angle_rad = 0.0;    // of the normal plane, if the teeth are helical
+    double helix_angle_rad = 0.0;       // see helical_pair.hpp for what it does to a stiffness
+    std::vector<double> positions_rad;  // psi_n; empty: equally spaced
+    double carrier_radius_m = 0.0;      // centre distance; only inertial terms need it
     gears::FixedMember fixed = gears::FixedMember::ring;
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
@@ -44,6 +47,7 @@ struct PlanetaryLayout {
     // Where the rotation u of carrier, ring, sun or (planet + n) stands among them.
     int rotation_index(int body) const { return motion == Motion::torsional ? body : 3 * body + 2; }
     double planet_angle(int n) const;  // psi_n, rad
+    double transverse_pressure_angle() const;
 };
 
 // What differs between gearboxes; SI units. Arrays are indexed by Body.
@@ -57,7 +61,8 @@ struct PlanetaryInputs {
     double mesh_damping = 0.0;  // ratio (1), time (s) or constant (N s/m), as the layout says
     double carrier_speed_rad_s = 0.0;
     double mesh_period_s = 0.0;
-    double force_N[3] = {};  // on u of carrier, ring, sun: torque / r
+    double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
+    double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
 };
 
 // Row vectors of the deflections over all 9 + 3N motions.

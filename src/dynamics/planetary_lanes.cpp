@@ -11,7 +11,7 @@ namespace {
 
 template <int W>
 void set_directions(PlanetaryLanes<W>& lanes, const PlanetaryLayout& layout) {
-    const double a = layout.pressure_angle_rad;
+    const double a = layout.transverse_pressure_angle();
     lanes.planets = layout.planets;
     lanes.cos_pressure_angle = std::cos(a);
     for (int n = 0; n < layout.planets; ++n) {
@@ -54,6 +54,7 @@ void set_lane(PlanetaryLanes<W>& lanes, int l, const PlanetaryLayout& layout,
     lanes.speed[l] = w;
     lanes.centrifugal[l] = layout.carrier_radius_m * w * w;
     lanes.mesh_period[l] = in.mesh_period_s;
+    lanes.backlash[l] = in.backlash_m;
 }
 
 }  // namespace

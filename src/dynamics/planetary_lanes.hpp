@@ -22,6 +22,7 @@ struct alignas(64) PlanetaryLanes {
     double speed[W];                   // carrier, rad/s
     double centrifugal[W];             // r_c Omega^2, m/s^2
     double mesh_period[W];             // s
+    double backlash[W];                // 2b of every mesh, m
 
     // Shared by all lanes: unit vectors of planet n's radius, sun mesh and ring mesh.
     double cos_psi[kMaxPlanets], sin_psi[kMaxPlanets];

@@ -7,18 +7,20 @@
 #include <cmath>
 
 #include "dynamics/effects/inertial_terms.hpp"
-#include "dynamics/effects/spring_damper.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/planetary_lanes.hpp"
 
 namespace gearpod::dynamics {
 
-template <int W>
+template <class MeshLaw, int W>
 struct TorsionalMotion {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = 3 + kMaxPlanets;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
     static constexpr int kMaxSources = kMaxPlanets;
     using Lanes = PlanetaryLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 3 + p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
@@ -26,10 +28,10 @@ struct TorsionalMotion {
         return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
     }
 
-    // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane]; k, c: [pair][lane].
+    // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane].
     static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
-                                             const double* __restrict v, const double* __restrict k,
-                                             const double* __restrict c, double* __restrict a) {
+                                             const double* __restrict v, const Pairs& pairs,
+                                             double* __restrict a) {
         for (int body = 0; body < 3; ++body) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -39,7 +41,7 @@ struct TorsionalMotion {
             }
         }
         for (int n = 0; n < p.planets; ++n) {
-            planet_forces(p, n, q, v, k, c, a);
+            planet_forces(p, n, q, v, pairs, a);
         }
         for (int body = 0; body < 3; ++body) {
 #pragma omp simd
@@ -67,19 +69,19 @@ struct TorsionalMotion {
   private:
     static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
                                              const double* __restrict q, const double* __restrict v,
-                                             const double* __restrict k, const double* __restrict c,
-                                             double* __restrict f) {
+                                             const Pairs& pairs, double* __restrict f) {
         const double ca = p.cos_pressure_angle;
         const int o = (3 + n) * W;
-        const double *k_sun = k + n * W, *c_sun = c + n * W;
-        const double *k_ring = k + (p.planets + n) * W, *c_ring = c + (p.planets + n) * W;
+        const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double u = q[o + l], vu = v[o + l];
-            const double f_sun = spring_damper(k_sun[l], std::fma(-q[l], ca, q[2 * W + l] + u),
-                                               c_sun[l], std::fma(-v[l], ca, v[2 * W + l] + vu));
-            const double f_ring = spring_damper(k_ring[l], std::fma(-q[l], ca, q[W + l] - u),
-                                                c_ring[l], std::fma(-v[l], ca, v[W + l] - vu));
+            const double f_sun =
+                Mesh::force(pairs, sun_mesh + l, l, std::fma(-q[l], ca, q[2 * W + l] + u),
+                            std::fma(-v[l], ca, v[2 * W + l] + vu));
+            const double f_ring =
+                Mesh::force(pairs, ring_mesh + l, l, std::fma(-q[l], ca, q[W + l] - u),
+                            std::fma(-v[l], ca, v[W + l] - vu));
             f[l] = std::fma(f_sun + f_ring, ca, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;

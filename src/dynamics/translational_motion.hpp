@@ -5,18 +5,20 @@
 #include <cmath>
 
 #include "dynamics/effects/inertial_terms.hpp"
-#include "dynamics/effects/spring_damper.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/planetary_lanes.hpp"
 
 namespace gearpod::dynamics {
 
-template <class InertialTerms, int W>
+template <class InertialTerms, class MeshLaw, int W>
 struct TranslationalMotion {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = 9 + 3 * kMaxPlanets;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
     static constexpr int kMaxSources = kMaxPlanets;
     using Lanes = PlanetaryLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
@@ -24,16 +26,15 @@ struct TranslationalMotion {
         return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
     }
 
-    // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane]; k, c: [pair][lane].
+    // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane].
     static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
-                                             const double* __restrict v, const double* __restrict k,
-                                             const double* __restrict c, double* __restrict a) {
+                                             const double* __restrict v, const Pairs& pairs,
+                                             double* __restrict a) {
         for (int body = 0; body < 3; ++body) {
             central_bearing(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
         }
         for (int n = 0; n < p.planets; ++n) {
-            planet_forces(p, n, q, v, k + n * W, c + n * W, k + (p.planets + n) * W,
-                          c + (p.planets + n) * W, a);
+            planet_forces(p, n, q, v, pairs, a);
         }
         for (int body = 0; body < 3; ++body) {
             central_acceleration(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
@@ -87,10 +88,10 @@ struct TranslationalMotion {
 
     // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
     // the forces on carrier, ring and sun.
-    static GEARPOD_INLINE void planet_forces(
-        const PlanetaryLanes<W>& p, int n, const double* __restrict q, const double* __restrict v,
-        const double* __restrict k_sun, const double* __restrict c_sun,
-        const double* __restrict k_ring, const double* __restrict c_ring, double* __restrict f) {
+    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
+                                             const double* __restrict q, const double* __restrict v,
+                                             const Pairs& pairs, double* __restrict f) {
+        const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
         const int o = (9 + 3 * n) * W;
         const double cs = p.cos_sun[n], ss = p.sin_sun[n];
         const double cr = p.cos_ring[n], sr = p.sin_ring[n];
@@ -104,13 +105,13 @@ struct TranslationalMotion {
                 std::fma(q[6 * W + l] - x, cs, std::fma(q[7 * W + l] - y, ss, q[8 * W + l] + u));
             const double r_sun =
                 std::fma(v[6 * W + l] - vx, cs, std::fma(v[7 * W + l] - vy, ss, v[8 * W + l] + vu));
-            const double f_sun = spring_damper(k_sun[l], d_sun, c_sun[l], r_sun);
+            const double f_sun = Mesh::force(pairs, sun_mesh + l, l, d_sun, r_sun);
 
             const double d_ring =
                 std::fma(q[3 * W + l] - x, cr, std::fma(q[4 * W + l] - y, sr, q[5 * W + l] - u));
             const double r_ring =
                 std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
-            const double f_ring = spring_damper(k_ring[l], d_ring, c_ring[l], r_ring);
+            const double f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
 
             const double kb = p.bearing_stiffness[planet][l];
             const double cb = p.bearing_damping[planet][l];

@@ -19,22 +19,112 @@ int planets_with_room(const PlanetaryTrain& train, double addendum_coefficient) 
     return ratio >= 1 ? 1 : static_cast<int>(std::ceil(pi / std::asin(ratio))) - 1;
 }
 
-// teeth * planet / planets without its whole part, computed on integers.
-double reduced_phase(int teeth, int planet, int planets) {
-    const long long remainder = static_cast<long long>(teeth) * planet % planets;
-    return static_cast<double>(remainder) / planets;
+// teeth * place / places without its whole part, computed on integers.
+double reduced_phase(int teeth, int planet, const PlanetPlaces& at) {
+    const int place = at.place.at(static_cast<std::size_t>(planet));
+    const long long remainder = static_cast<long long>(teeth) * place % at.places;
+    return static_cast<double>(remainder) / at.places;
+}
+
+// Meshes of a gear from planet 0 to the given one: those of its turn if `onwards`, else the rest.
+double tooth_delay(int teeth, int planet, const PlanetPlaces& at, bool onwards) {
+    const int place = at.place.at(static_cast<std::size_t>(planet));
+    const int passed = onwards ? place : (at.places - place) % at.places;
+    return static_cast<double>(static_cast<long long>(teeth) * passed) / at.places;
 }
 
 double signed_phase(double phase, bool negative) {
     return negative && phase != 0 ? -phase : phase;
 }
 
+void equal_spacing_problems(const PlanetaryTrain& train, double addendum_coefficient,
+                            std::vector<std::string>& problems) {
+    const int teeth = train.sun_teeth + train.ring_teeth, n = train.planets;
+    if (teeth % n != 0) {
+        const int below = teeth / n * n;
+        problems.push_back(
+            fmt::format("(sun + ring) / planets = {} / {} is not an integer, so equally spaced "
+                        "planets do not mesh (sun + ring = {} or {} would)",
+                        teeth, n, below, below + n));
+    }
+    const double between_axes = (train.sun_teeth + train.planet_teeth) * std::sin(pi / n);
+    const double tip_diameter = train.planet_teeth + 2 * addendum_coefficient;
+    if (n > 1 && between_axes <= tip_diameter)
+        problems.push_back(fmt::format(
+            "the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
+            "diameter {:.2f} modules (at most {} planets)",
+            n, between_axes, tip_diameter, planets_with_room(train, addendum_coefficient)));
+}
+
+double degrees(double angle_rad) {
+    return angle_rad * 180 / pi;
+}
+
+// A position this far from a place, as a part of the distance between places, is rounded input.
+constexpr double kPlaceTolerance = 0.01;
+
+void position_problems(const PlanetaryTrain& train, double addendum_coefficient,
+                       std::vector<std::string>& problems) {
+    const auto& psi = train.positions_rad;
+    if (static_cast<int>(psi.size()) != train.planets) {
+        problems.push_back(fmt::format("{} planet positions are given for {} planets (one each)",
+                                       psi.size(), train.planets));
+        return;
+    }
+    if (psi[0] != 0)
+        problems.push_back(fmt::format(
+            "planet 1 is at {:.4g} degrees (positions are counted from it: 0)", degrees(psi[0])));
+    const int places = train.sun_teeth + train.ring_teeth;
+    for (std::size_t n = 0; n < psi.size(); ++n) {
+        const double place = psi[n] * places / (2 * pi);
+        if (!(std::abs(place - std::round(place)) <= kPlaceTolerance))
+            problems.push_back(fmt::format(
+                "planet {} does not mesh at {:.6g} degrees, (sun + ring) x position / 360 = {:.4f} "
+                "is not an integer ({:.6f} or {:.6f} degrees would do)",
+                n + 1, degrees(psi[n]), place, std::floor(place) * 360 / places,
+                std::ceil(place) * 360 / places));
+    }
+    const PlanetPlaces at = planet_places(train);
+    const double tip_diameter = train.planet_teeth + 2 * addendum_coefficient;
+    for (int n = 0; n < train.planets; ++n)
+        for (int m = 0; m < n; ++m) {
+            const double apart = planet_angle(at, n) - planet_angle(at, m);
+            const double between_axes =
+                (train.sun_teeth + train.planet_teeth) * std::abs(std::sin(apart / 2));
+            if (between_axes <= tip_diameter)
+                problems.push_back(fmt::format(
+                    "the tip circles of planets {} and {} touch: axes {:.2f} modules apart, tip "
+                    "diameter {:.2f} modules (move them apart)",
+                    m + 1, n + 1, between_axes, tip_diameter));
+        }
+}
+
 }  // namespace
+
+PlanetPlaces planet_places(const PlanetaryTrain& train) {
+    PlanetPlaces at;
+    if (train.positions_rad.empty()) {
+        at.places = train.planets;
+        for (int n = 0; n < train.planets; ++n)
+            at.place.push_back(n);
+        return at;
+    }
+    at.places = train.sun_teeth + train.ring_teeth;
+    for (const double psi : train.positions_rad) {
+        const auto place = std::llround(psi * at.places / (2 * pi)) % at.places;
+        at.place.push_back(static_cast<int>((place + at.places) % at.places));
+    }
+    return at;
+}
+
+double planet_angle(const PlanetPlaces& places, int planet) {
+    return 2 * pi * places.place.at(static_cast<std::size_t>(planet)) / places.places;
+}
 
 std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient) {
     std::vector<std::string> problems;
-    const auto [s, p, r, n] = train;
+    const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth, n = train.planets;
     if (s < 1 || p < 1 || r < 1 || n < 1) {
         problems.push_back(fmt::format(
             "sun {}, planet {}, ring {} teeth and {} planets must be positive", s, p, r, n));
@@ -45,31 +135,31 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
             fmt::format("the ring has {} teeth, sun + 2 planet is {} + 2 x {} = {} (the planets "
                         "fit between sun and ring only if they are equal)",
                         r, s, p, s + 2 * p));
-    if ((s + r) % n != 0) {
-        const int below = (s + r) / n * n;
-        problems.push_back(
-            fmt::format("(sun + ring) / planets = {} / {} is not an integer, so equally spaced "
-                        "planets do not mesh (sun + ring = {} or {} would)",
-                        s + r, n, below, below + n));
-    }
-    const double between_axes = (s + p) * std::sin(pi / n);
-    const double tip_diameter = p + 2 * addendum_coefficient;
-    if (n > 1 && between_axes <= tip_diameter)
-        problems.push_back(fmt::format(
-            "the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
-            "diameter {:.2f} modules (at most {} planets)",
-            n, between_axes, tip_diameter, planets_with_room(train, addendum_coefficient)));
+    if (train.positions_rad.empty())
+        equal_spacing_problems(train, addendum_coefficient, problems);
+    else
+        position_problems(train, addendum_coefficient, problems);
     return problems;
 }
 
 double sun_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return signed_phase(reduced_phase(train.sun_teeth, planet, train.planets),
+    return signed_phase(reduced_phase(train.sun_teeth, planet, planet_places(train)),
                         sense == PlanetSense::counter_clockwise);
 }
 
 double ring_mesh_phase(const PlanetaryTrain& train, int planet, PlanetSense sense) {
-    return signed_phase(reduced_phase(train.ring_teeth, planet, train.planets),
+    return signed_phase(reduced_phase(train.ring_teeth, planet, planet_places(train)),
                         sense == PlanetSense::clockwise);
+}
+
+double sun_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+    return tooth_delay(train.sun_teeth, planet, planet_places(train),
+                       sense == PlanetSense::clockwise);
+}
+
+double ring_tooth_delay(const PlanetaryTrain& train, int planet, PlanetSense sense) {
+    return tooth_delay(train.ring_teeth, planet, planet_places(train),
+                       sense == PlanetSense::counter_clockwise);
 }
 
 double ring_to_sun_phase(const PlanetaryTrain& train) {
@@ -79,6 +169,10 @@ double ring_to_sun_phase(const PlanetaryTrain& train) {
     // With a trailing flank at the sun's pitch point the leading flanks miss the ring's by 1/2 -
     // Z_p / 2 pitches: nothing for odd Z_p, half a pitch for even Z_p.
     return train.planet_teeth % 2 == 0 ? 0.5 : 0.0;
+}
+
+PlanetSense planet_sense(const Speeds& speeds) {
+    return speeds.sun > speeds.carrier ? PlanetSense::clockwise : PlanetSense::counter_clockwise;
 }
 
 Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given, double speed) {

@@ -1,7 +1,8 @@
-// A planetary train with equally spaced planets: assembly, mesh phases and speeds.
-// Sources: Liang (2016), section 2.3 and Table 2.2, after Parker and Lin (2004); Kahraman (1994)
-// for the mesh frequency. Planets count from 0; planet n sits at psi_n = 2 pi n / N. Phases are in
-// mesh periods.
+// A planetary train: assembly, planet positions, mesh phases and speeds.
+// Sources: Liang (2016), section 2.3 and Table 2.2, after Parker and Lin (2004); Park et al.
+// (2016), Eqs. 1 and 5; Kahraman (1994) for the mesh frequency. Planets count from 0; planet n sits
+// at psi_n, by default 2 pi n / N, counted in the sense in which positive rotations turn. Phases
+// are in mesh periods.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,19 @@ struct PlanetaryTrain {
     int planet_teeth = 0;
     int ring_teeth = 0;
     int planets = 0;
+    // psi_n, rad, psi_0 = 0; empty: equally spaced. A planet fits only at whole multiples of
+    // 2 pi / (Z_s + Z_r); positions count as the multiple next to them.
+    std::vector<double> positions_rad = {};
 };
+
+// Where the planets sit, exactly: planet n at place[n] / places of a turn.
+struct PlanetPlaces {
+    std::vector<int> place;
+    int places = 1;
+};
+PlanetPlaces planet_places(const PlanetaryTrain& train);
+// psi_n, rad.
+double planet_angle(const PlanetPlaces& places, int planet);
 
 enum class FixedMember { ring, sun, carrier };
 enum class Member { sun, ring, carrier };
@@ -35,6 +48,12 @@ double sun_mesh_phase(const PlanetaryTrain& train, int planet,
                       PlanetSense sense = PlanetSense::clockwise);
 double ring_mesh_phase(const PlanetaryTrain& train, int planet,
                        PlanetSense sense = PlanetSense::clockwise);
+// Mesh periods, 0 <= delay < teeth, from a sun or ring tooth's contact with planet 0 to the same
+// tooth's contact with planet `planet`. Without its whole part it is the mesh phase.
+double sun_tooth_delay(const PlanetaryTrain& train, int planet,
+                       PlanetSense sense = PlanetSense::clockwise);
+double ring_tooth_delay(const PlanetaryTrain& train, int planet,
+                        PlanetSense sense = PlanetSense::clockwise);
 // How much later than its sun mesh a planet's ring mesh is at its pitch point: 0 or 1/2.
 double ring_to_sun_phase(const PlanetaryTrain& train);
 
@@ -45,6 +64,9 @@ struct Speeds {
     double ring = 0;
     double carrier = 0;
 };
+
+// The sun overtakes the carrier and turns the planets clockwise, or falls behind it.
+PlanetSense planet_sense(const Speeds& speeds);
 
 // All speeds from one of them (Willis). Throws std::invalid_argument if the given member is the
 // fixed one.

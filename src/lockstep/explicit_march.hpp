@@ -8,17 +8,17 @@
 
 namespace gearpod::lockstep {
 
-#define GEARPOD_EXPLICIT_MARCH(NAME, LANES)                                                    \
-    void NAME(const MarchPlan& plan, const LANES& lanes, const machine::AlignedVector& filter, \
-              const std::vector<PairOverride>& overrides, TileState& state, MeshRecord& record);
-GEARPOD_EXPLICIT_MARCH(translational_inertial_1, dynamics::PlanetaryLanes<1>)
-GEARPOD_EXPLICIT_MARCH(translational_inertial_8, dynamics::PlanetaryLanes<8>)
-GEARPOD_EXPLICIT_MARCH(translational_1, dynamics::PlanetaryLanes<1>)
-GEARPOD_EXPLICIT_MARCH(translational_8, dynamics::PlanetaryLanes<8>)
-GEARPOD_EXPLICIT_MARCH(torsional_1, dynamics::PlanetaryLanes<1>)
-GEARPOD_EXPLICIT_MARCH(torsional_8, dynamics::PlanetaryLanes<8>)
-GEARPOD_EXPLICIT_MARCH(fixed_shaft_1, dynamics::FixedShaftLanes<1>)
-GEARPOD_EXPLICIT_MARCH(fixed_shaft_8, dynamics::FixedShaftLanes<8>)
-#undef GEARPOD_EXPLICIT_MARCH
+#define GEARPOD_EXPLICIT_MARCHES(LAW, W)                                       \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_inertial_##W; \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_##W;          \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_torsional_##W;              \
+    MarchKernel<dynamics::FixedShaftLanes<W>> LAW##_fixed_shaft_##W;
+GEARPOD_EXPLICIT_MARCHES(linear, 1)
+GEARPOD_EXPLICIT_MARCHES(linear, 8)
+GEARPOD_EXPLICIT_MARCHES(with_error, 1)
+GEARPOD_EXPLICIT_MARCHES(with_error, 8)
+GEARPOD_EXPLICIT_MARCHES(separating, 1)
+GEARPOD_EXPLICIT_MARCHES(separating, 8)
+#undef GEARPOD_EXPLICIT_MARCHES
 
 }  // namespace gearpod::lockstep

@@ -96,6 +96,7 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
     for (int l = 0; l < W; ++l) {
         const auto& in = inputs[static_cast<std::size_t>(l)];
         lanes.mesh_period[l] = dynamics::mesh_period_s(in);
+        lanes.backlash[l] = dynamics::backlash_m(in);
         lanes.frame_speed[l] = dynamics::frame_speed_rad_s(in);
         for (int pair = 0; pair < lanes.pairs; ++pair) {
             lanes.mesh_damping_factor[pair][l] =

@@ -33,6 +33,7 @@ struct ImplicitLanes {
     double source_weight[2 * dynamics::kMaxPlanets] = {};
 
     alignas(64) double mesh_period[W] = {};                               // s
+    alignas(64) double backlash[W] = {};                                  // m
     alignas(64) double frame_speed[W] = {};                               // rad/s
     alignas(64) double mesh_damping_factor[dynamics::kMaxPairs][W] = {};  // times the shape
 

@@ -4,19 +4,22 @@
 #include <cmath>
 
 #include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/implicit_lanes.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
 
-// The model that implicit integrators march: matrices of any gearbox kind.
-template <int W>
-struct LinearMotion {
+// The model that implicit integrators march: matrices of any gearbox kind, and a mesh law.
+template <class MeshLaw, int W>
+struct MatrixMotion {
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = ImplicitLanes<W>::kMaxDegrees;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
     static constexpr int kMaxSources = dynamics::kMaxPlanets;
     using Lanes = ImplicitLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
 
     static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
         return p.mesh_damping_factor[pair];
@@ -42,12 +45,16 @@ struct LinearMotion {
     }
 };
 
-// Scratch of a stage. k, c: [pair][lane] in; the rest is its own.
-template <int W>
+// Scratch of a stage; [pair][lane] but for the matrix. `pairs` goes in, `force` comes out.
+template <class Model, int W = Model::kWidth>
 struct alignas(64) StageScratch {
-    double k[dynamics::kMaxPairs * W], c[dynamics::kMaxPairs * W];
-    double s[dynamics::kMaxPairs * W], force[dynamics::kMaxPairs * W];
-    double matrix[dynamics::kMaxPairs * dynamics::kMaxPairs * W];
+    static constexpr int kRows = Model::kMaxPairs * W;
+    typename Model::Pairs pairs;
+    double force[kRows];                      // mesh forces, N
+    double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
+    double touching[kRows], back[kRows];      // of a separating mesh: see touch()
+    double s[kRows];                          // S
+    double matrix[Model::kMaxPairs * kRows];  // 1 + S G
 };
 
 // y = B f - B C_0 v - B K_0 x; four rows at a time.
@@ -85,39 +92,58 @@ GEARPOD_INLINE void free_acceleration(const ImplicitLanes<W>& p, const double* _
     }
 }
 
-// force = k R x + c R v + S R y and matrix = 1 + S G, S = a c + a^2 k.
-template <int W>
-GEARPOD_INLINE void mesh_system(const ImplicitLanes<W>& p, const double* __restrict block,
-                                const double* __restrict a, const double* __restrict x,
+// Deflections and rates of the meshes: t.d, t.r and t.y.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void deflections(const ImplicitLanes<W>& p, const double* __restrict x,
                                 const double* __restrict v, const double* __restrict y,
-                                StageScratch<W>& t) {
+                                StageScratch<Model>& t) {
     for (int pair = 0; pair < p.pairs; ++pair) {
-        double* __restrict force = t.force + pair * W;
-        double* __restrict s = t.s + pair * W;
-        const double* __restrict k = t.k + pair * W;
-        const double* __restrict c = t.c + pair * W;
+        const int row = pair * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            s[l] = a[l] * std::fma(a[l], k[l], c[l]);
-            force[l] = 0.0;
+            t.d[row + l] = t.r[row + l] = t.y[row + l] = 0.0;
         }
         for (int e = 0; e < p.row_entries[pair]; ++e) {
             const int d = p.row_degree[pair][e] * W;
             const double weight = p.row_weight[pair][e];
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double sum =
-                    std::fma(k[l], x[d + l], std::fma(c[l], v[d + l], s[l] * y[d + l]));
-                force[l] = std::fma(weight, sum, force[l]);
+                t.d[row + l] = std::fma(weight, x[d + l], t.d[row + l]);
+                t.r[row + l] = std::fma(weight, v[d + l], t.r[row + l]);
+                t.y[row + l] = std::fma(weight, y[d + l], t.y[row + l]);
             }
         }
-        const double* __restrict g = block + p.capacitance + pair * p.pairs * W;
-        double* __restrict row = t.matrix + pair * p.pairs * W;
+    }
+}
+
+// force = k R x + c R v + S R y and matrix = 1 + S G, S = a c + a^2 k.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void mesh_system(const ImplicitLanes<W>& p, const double* __restrict block,
+                                const double* __restrict a, StageScratch<Model>& t) {
+    for (int pair = 0; pair < p.pairs; ++pair) {
+        const int i = pair * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            double k = t.pairs.k[i + l], c = t.pairs.c[i + l], d = t.d[i + l], r = t.r[i + l];
+            if constexpr (Model::Mesh::kSeparates) {
+                k *= t.touching[i + l];
+                c *= t.touching[i + l];
+                d += t.back[i + l];
+            }
+            if constexpr (Model::Mesh::kHasError) {
+                d -= t.pairs.e[i + l];
+                r -= t.pairs.de[i + l];
+            }
+            t.s[i + l] = a[l] * std::fma(a[l], k, c);
+            t.force[i + l] = std::fma(k, d, std::fma(c, r, t.s[i + l] * t.y[i + l]));
+        }
+        const double* __restrict g = block + p.capacitance + i * p.pairs;
+        double* __restrict row = t.matrix + i * p.pairs;
         for (int other = 0; other < p.pairs; ++other) {
             const double diagonal = other == pair ? 1.0 : 0.0;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                row[other * W + l] = std::fma(s[l], g[other * W + l], diagonal);
+                row[other * W + l] = std::fma(t.s[i + l], g[other * W + l], diagonal);
             }
         }
     }
@@ -165,16 +191,66 @@ GEARPOD_INLINE void solve_meshes(int pairs, double* __restrict matrix, double* _
     }
 }
 
-// The acceleration A of a stage from x = q + a v and v; t.k and t.c hold the meshes. On return
-// t.force holds the mesh forces, N. All [degree of freedom][lane], rounded up to four degrees.
-template <int W>
+// Which flanks of the separating meshes touch at the stage's end, where a mesh deflects by
+// R Q = d + a^2 (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
+// backlash if the back flanks touch. Returns whether any lane changed.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict block,
+                          const double* __restrict a, bool first, StageScratch<Model>& t) {
+    int changes = 0;
+    alignas(64) double rest[W];
+    for (int pair = 0; pair < p.pairs; ++pair) {
+        const int i = pair * W;
+        const double* __restrict g = block + p.capacitance + i * p.pairs;
+        for (int l = 0; l < W; ++l) {
+            rest[l] = t.y[i + l];
+        }
+        for (int other = 0; other < p.pairs && !first; ++other) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                rest[l] = std::fma(-g[other * W + l], t.force[other * W + l], rest[l]);
+            }
+        }
+#pragma omp simd reduction(| : changes)
+        for (int l = 0; l < W; ++l) {
+            const double front = std::fma(a[l] * a[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
+            const bool behind = front + t.pairs.backlash[l] < 0.0;
+            const double touching = front > 0.0 || behind ? 1.0 : 0.0;
+            const double back = behind ? t.pairs.backlash[l] : 0.0;
+            changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
+            t.touching[i + l] = touching;
+            t.back[i + l] = back;
+        }
+    }
+    return changes != 0;
+}
+
+// Rounds in which separating meshes find who touches; one more than most stages need. A lane that
+// has found it is the same in every further round.
+inline constexpr int kMostRounds = 6;
+
+// The acceleration A of a stage from x = q + a v and v; t.pairs holds the meshes. All [degree of
+// freedom][lane], rounded up to four degrees.
+template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void implicit_stage(const ImplicitLanes<W>& p, const double* __restrict block,
                                    const double* __restrict a, const double* __restrict x,
                                    const double* __restrict v, double* __restrict acceleration,
-                                   StageScratch<W>& t) {
+                                   StageScratch<Model>& t) {
     free_acceleration<W>(p, block, x, v, acceleration);
-    mesh_system<W>(p, block, a, x, v, acceleration, t);
-    solve_meshes<W>(p.pairs, t.matrix, t.force);
+    deflections<Model>(p, x, v, acceleration, t);
+    if constexpr (Model::Mesh::kSeparates) {
+        touch<Model>(p, block, a, true, t);
+        for (int round = 0; round < kMostRounds; ++round) {
+            mesh_system<Model>(p, block, a, t);
+            solve_meshes<W>(p.pairs, t.matrix, t.force);
+            if (!touch<Model>(p, block, a, false, t)) {
+                break;
+            }
+        }
+    } else {
+        mesh_system<Model>(p, block, a, t);
+        solve_meshes<W>(p.pairs, t.matrix, t.force);
+    }
     for (int i = 0; i < p.degrees; ++i) {
         const double* __restrict z = block + p.reactions + i * p.pairs * W;
         double* __restrict sum = acceleration + i * W;

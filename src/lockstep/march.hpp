@@ -16,6 +16,7 @@ struct MarchPlan {
     dynamics::GearboxLayout layout;
     Integrator integrator = Integrator::rk4;
     PhaseGrid grid;
+    dynamics::MeshLaw mesh_law = dynamics::MeshLaw::linear;
     StiffnessNodes nodes;
     double low_pass_rad_s = 0.0;
     std::vector<double> te_weight;  // TE = weight . q, one a degree of freedom (rad/m)
@@ -37,14 +38,25 @@ struct MeshRecord {
     machine::AlignedVector acceleration, te, motion;
 };
 
-// A pair whose stiffness differs between lanes during some steps of this mesh.
+// A pair whose stiffness, or transmission error, or both, differ between lanes during some steps of
+// this mesh. What is left empty stays as it is without the override.
 struct PairOverride {
     int pair = 0;
     int first_step = 0;
-    int last_step = 0;                     // one past the last
-    machine::AlignedVector stiffness;      // [step - first_step][stage node][lane], N/m
-    machine::AlignedVector damping_shape;  // likewise
+    int last_step = 0;                       // one past the last
+    machine::AlignedVector stiffness;        // [step - first_step][stage node][lane], N/m
+    machine::AlignedVector damping_shape;    // likewise
+    machine::AlignedVector error = {};       // likewise, m
+    machine::AlignedVector error_rate = {};  // likewise, m per mesh period
 };
+
+// A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in
+// `lanes`. `filter` holds the sensor's coefficients (sensor_filter.hpp).
+template <class Lanes>
+using MarchKernel = void(const MarchPlan& plan, const Lanes& lanes,
+                         const machine::AlignedVector& filter,
+                         const std::vector<PairOverride>& overrides, TileState& state,
+                         MeshRecord& record);
 
 // Allocates a record of W lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);

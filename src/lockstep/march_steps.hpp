@@ -14,16 +14,60 @@
 
 namespace gearpod::lockstep {
 
-// Stiffness and damping of all pairs at a stage node, shared values spread over the lanes; k, c:
-// [pair][lane].
+// One row of values, the same for all lanes.
+template <int W>
+GEARPOD_INLINE void spread(double value, double* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = value;
+    }
+}
+
+// row = values / divisor, lane by lane.
+template <int W>
+GEARPOD_INLINE void divide(const double* __restrict values, const double* __restrict divisor,
+                           double* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = values[l] / divisor[l];
+    }
+}
+
+// Static transmission error of all pairs at a stage node.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                const std::vector<PairOverride>& overrides, int step, int node,
+                                typename Model::Pairs& m) {
+    const int pairs = plan.nodes.pairs;
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const int at = (step * nodes + node) * pairs;
+    alignas(64) double rate[W];
+    for (int pair = 0; pair < pairs; ++pair) {
+        const bool none = plan.nodes.error.empty();
+        spread<W>(none ? 0.0 : plan.nodes.error.data()[at + pair], m.e + pair * W);
+        spread<W>(none ? 0.0 : plan.nodes.error_rate.data()[at + pair], rate);
+        divide<W>(rate, lanes.mesh_period, m.de + pair * W);
+    }
+    for (const PairOverride& o : overrides) {
+        if (step < o.first_step || step >= o.last_step || o.error.empty()) {
+            continue;
+        }
+        const int row = ((step - o.first_step) * nodes + node) * W;
+        std::copy_n(o.error.data() + row, W, m.e + o.pair * W);
+        divide<W>(o.error_rate.data() + row, lanes.mesh_period, m.de + o.pair * W);
+    }
+}
+
+// What the mesh law needs of all pairs at a stage node, shared values spread over the lanes.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                const std::vector<PairOverride>& overrides, int step, int node,
-                               double* __restrict k, double* __restrict c) {
+                               typename Model::Pairs& m) {
     const int pairs = plan.nodes.pairs;
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
     const double* shared = plan.nodes.stiffness.data() + (step * nodes + node) * pairs;
     const double* shape = plan.nodes.damping_shape.data() + (step * nodes + node) * pairs;
+    double* __restrict k = m.k, * __restrict c = m.c;
     for (int pair = 0; pair < pairs; ++pair) {
         const double* factor = Model::mesh_damping_factor(lanes, pair);
 #pragma omp simd
@@ -33,7 +77,7 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
         }
     }
     for (const PairOverride& o : overrides) {
-        if (step < o.first_step || step >= o.last_step) {
+        if (step < o.first_step || step >= o.last_step || o.stiffness.empty()) {
             continue;
         }
         const double* factor = Model::mesh_damping_factor(lanes, o.pair);
@@ -45,6 +89,12 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
             k[o.pair * W + l] = ko[l];
             c[o.pair * W + l] = factor[l] * co[l];
         }
+    }
+    if constexpr (Model::Mesh::kHasError) {
+        load_errors<Model>(plan, lanes, overrides, step, node, m);
+    }
+    if constexpr (Model::Mesh::kSeparates) {
+        std::copy_n(lanes.backlash, W, m.backlash);
     }
 }
 

@@ -10,36 +10,46 @@ namespace gearpod::lockstep {
 namespace {
 
 template <class Lanes>
-using Kernel = void (*)(const MarchPlan&, const Lanes&, const machine::AlignedVector&,
-                        const std::vector<PairOverride>&, TileState&, MeshRecord&);
+using Kernel = MarchKernel<Lanes>*;
+
+// The kernel NAME of the plan's mesh law and of width W.
+#define GEARPOD_KERNEL_OF(PLAN, NAME)                            \
+    [](dynamics::MeshLaw law) {                                  \
+        const bool error = law == dynamics::MeshLaw::with_error; \
+        const bool linear = law == dynamics::MeshLaw::linear;    \
+        if constexpr (W == 1)                                    \
+            return linear  ? linear_##NAME##_1                   \
+                   : error ? with_error_##NAME##_1               \
+                           : separating_##NAME##_1;              \
+        else                                                     \
+            return linear  ? linear_##NAME##_8                   \
+                   : error ? with_error_##NAME##_8               \
+                           : separating_##NAME##_8;              \
+    }(PLAN.mesh_law)
 
 template <int W>
-Kernel<dynamics::PlanetaryLanes<W>> kernel_of(const dynamics::PlanetaryLayout& layout) {
+Kernel<dynamics::PlanetaryLanes<W>> kernel_of(const MarchPlan& plan,
+                                              const dynamics::PlanetaryLayout& layout) {
     if (layout.motion == dynamics::Motion::torsional) {
-        if constexpr (W == 1)
-            return torsional_1;
-        else
-            return torsional_8;
+        return GEARPOD_KERNEL_OF(plan, torsional);
     }
-    if (layout.inertial_terms) {
-        if constexpr (W == 1)
-            return translational_inertial_1;
-        else
-            return translational_inertial_8;
-    }
-    if constexpr (W == 1)
-        return translational_1;
-    else
-        return translational_8;
+    return layout.inertial_terms ? GEARPOD_KERNEL_OF(plan, translational_inertial)
+                                 : GEARPOD_KERNEL_OF(plan, translational);
 }
 
 template <int W>
-Kernel<dynamics::FixedShaftLanes<W>> kernel_of(const dynamics::FixedShaftLayout&) {
-    if constexpr (W == 1)
-        return fixed_shaft_1;
-    else
-        return fixed_shaft_8;
+Kernel<dynamics::FixedShaftLanes<W>> kernel_of(const MarchPlan& plan,
+                                               const dynamics::FixedShaftLayout&) {
+    return GEARPOD_KERNEL_OF(plan, fixed_shaft);
 }
+
+template <int W>
+Kernel<ImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
+    return plan.integrator == Integrator::newmark ? GEARPOD_KERNEL_OF(plan, newmark)
+                                                  : GEARPOD_KERNEL_OF(plan, sdirk3);
+}
+
+#undef GEARPOD_KERNEL_OF
 
 template <int W, class Lanes>
 class KernelMarch final : public MeshMarch<W> {
@@ -77,16 +87,7 @@ std::unique_ptr<const MeshMarch<W>> make_explicit(const MarchPlan& plan, const L
     const std::vector<Inputs> own = inputs_of<Inputs>(inputs);
     auto lanes = dynamics::make_lanes<W>(layout, std::span<const Inputs>(own));
     return std::make_unique<KernelMarch<W, decltype(lanes)>>(
-        plan, std::move(lanes), std::move(filter), kernel_of<W>(layout));
-}
-
-template <int W>
-Kernel<ImplicitLanes<W>> kernel_of(Integrator integrator) {
-    if constexpr (W == 1) {
-        return integrator == Integrator::newmark ? newmark_1 : sdirk3_1;
-    } else {
-        return integrator == Integrator::newmark ? newmark_8 : sdirk3_8;
-    }
+        plan, std::move(lanes), std::move(filter), kernel_of<W>(plan, layout));
 }
 
 template <int W>
@@ -96,7 +97,7 @@ std::unique_ptr<const MeshMarch<W>> make_implicit(const MarchPlan& plan,
     const double share = plan.integrator == Integrator::newmark ? 0.5 : Alexander::kDiagonal;
     return std::make_unique<KernelMarch<W, ImplicitLanes<W>>>(
         plan, make_implicit_lanes<W>(plan, share, inputs), std::move(filter),
-        kernel_of<W>(plan.integrator));
+        implicit_kernel_of<W>(plan));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct Newmark {
         static constexpr int kSize = (Model::kMaxDegrees + 3) / 4 * 4 * W;
         double x[kSize], v[kSize], a_start[kSize], a_end[kSize];
         double input[2][2 * Model::kMaxSources * W];  // of the sensor, at the step's ends
-        StageScratch<W> meshes;
+        StageScratch<Model> meshes;
     };
 
     template <class Model, int W = Model::kWidth>
@@ -32,9 +32,9 @@ struct Newmark {
             half[l] = 0.5 * step.length * lanes.mesh_period[l];
             none[l] = 0.0;
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.k, s.meshes.c);
-        implicit_stage<W>(lanes, lanes.block(lanes.blocks_at_rest()), none, q, v, s.a_start,
-                          s.meshes);
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(lanes.blocks_at_rest()), none, q, v, s.a_start,
+                              s.meshes);
         Model::source_accelerations(lanes, q, v, s.a_start, s.input[0]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
@@ -44,8 +44,8 @@ struct Newmark {
                 s.x[j + l] = std::fma(half[l], v[j + l] + vj, q[j + l]);
             }
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.k, s.meshes.c);
-        implicit_stage<W>(lanes, lanes.block(step.kind), half, s.x, s.v, s.a_end, s.meshes);
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(step.kind), half, s.x, s.v, s.a_end, s.meshes);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {

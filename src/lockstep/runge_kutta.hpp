@@ -12,7 +12,7 @@ struct RungeKutta4 {
     struct alignas(64) Stages {
         double q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
         double a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
-        double k[Model::kMaxPairs * W], c[Model::kMaxPairs * W];
+        typename Model::Pairs pairs;
         double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
     };
 
@@ -35,8 +35,8 @@ struct RungeKutta4 {
             sixth[l] = h[l] / 6.0;
         }
 
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.k, s.c);
-        Model::accelerations(lanes, q, v, s.k, s.c, s.a1);
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
+        Model::accelerations(lanes, q, v, s.pairs, s.a1);
         Model::source_accelerations(lanes, q, v, s.a1, s.input[0]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
@@ -45,8 +45,8 @@ struct RungeKutta4 {
                 s.v[j + l] = std::fma(half[l], s.a1[j + l], v[j + l]);
             }
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 1, s.k, s.c);
-        Model::accelerations(lanes, s.q, s.v, s.k, s.c, s.a2);
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
+        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a2);
         Model::source_accelerations(lanes, s.q, s.v, s.a2, s.input[1]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
@@ -55,7 +55,7 @@ struct RungeKutta4 {
                 s.v[j + l] = std::fma(half[l], s.a2[j + l], v[j + l]);
             }
         }
-        Model::accelerations(lanes, s.q, s.v, s.k, s.c, s.a3);
+        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a3);
         Model::source_accelerations(lanes, s.q, s.v, s.a3, s.input[2]);
         for (int j = 0; j < channels * W; j += W) {
 #pragma omp simd
@@ -76,8 +76,8 @@ struct RungeKutta4 {
                 v[j + l] = std::fma(sixth[l], std::fma(2.0, sum, s.a1[j + l]), v[j + l]);
             }
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 2, s.k, s.c);
-        Model::accelerations(lanes, s.q, s.v, s.k, s.c, s.a1);
+        load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
+        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a1);
         Model::source_accelerations(lanes, s.q, s.v, s.a1, s.input[2]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd

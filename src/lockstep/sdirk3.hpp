@@ -17,7 +17,7 @@ struct Sdirk3 {
         double q_end[kSize];        // and with it
         double v1[kSize], v2[kSize], v3[kSize], a1[kSize], a2[kSize], a3[kSize];
         double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the stages
-        StageScratch<W> meshes;
+        StageScratch<Model> meshes;
     };
 
     template <class Model, int W = Model::kWidth>
@@ -87,8 +87,8 @@ struct Sdirk3 {
                                      const double* __restrict a, Stages<Model>& s,
                                      double* __restrict velocity, double* __restrict acceleration) {
         const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;
-        load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.k, s.meshes.c);
-        implicit_stage<W>(lanes, lanes.block(kind), a, s.x, s.v, acceleration, s.meshes);
+        load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(kind), a, s.x, s.v, acceleration, s.meshes);
         for (int j = 0; j < lanes.degrees * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {

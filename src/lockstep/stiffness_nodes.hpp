@@ -42,6 +42,8 @@ struct StiffnessNodes {
     int pairs = 0;
     std::vector<double> stiffness;      // N/m
     std::vector<double> damping_shape;  // see effects/mesh_damping.hpp
+    // Static transmission error, m, and its rate, m per mesh period; empty: none.
+    std::vector<double> error, error_rate;
 };
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);

@@ -32,7 +32,23 @@ std::string_view name(InstructionSet set);
 // GEARPOD_KERNEL(march, (State& s, int n), (s, n), march_steps<8>(s, n))
 // defines void march(State&, int), which runs the last argument built for the active instruction
 // set.
+// GEARPOD_NARROW_KERNEL: the same for kernels of one lane, which wider registers cannot help.
 #if defined(__x86_64__)
+#    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                  \
+        namespace {                                                                  \
+        __attribute__((target("arch=x86-64-v3"))) void NAME##_x86_64_v3 PARAMETERS { \
+            __VA_ARGS__;                                                             \
+        }                                                                            \
+        void NAME##_baseline PARAMETERS {                                            \
+            __VA_ARGS__;                                                             \
+        }                                                                            \
+        }                                                                            \
+        void NAME PARAMETERS {                                                       \
+            return gearpod::machine::active_instruction_set() ==                     \
+                           gearpod::machine::InstructionSet::baseline                \
+                       ? NAME##_baseline ARGUMENTS                                   \
+                       : NAME##_x86_64_v3 ARGUMENTS;                                 \
+        }
 #    define GEARPOD_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                                      \
         namespace {                                                                               \
         __attribute__((                                                                           \
@@ -61,4 +77,5 @@ std::string_view name(InstructionSet set);
         void NAME PARAMETERS {                               \
             __VA_ARGS__;                                     \
         }
+#    define GEARPOD_NARROW_KERNEL GEARPOD_KERNEL
 #endif

@@ -1,10 +1,10 @@
 // Transmission path from the planets to the sensor on the housing: Liang (2016), Eq. 4.3.1,
 //
 //     y = sum over n of g(x_n) (sin theta a_x,n + cos theta a_y,n),
-//     g(x) = exp(alpha (x - pi)^2) w(x),    x_n = mod(theta + psi_n, 2 pi),    psi_n = 2 pi n / N,
+//     g(x) = exp(alpha (x - pi)^2) w(x),    x_n = mod(theta + psi_n, 2 pi),
 //
-// with theta the carrier angle and a_x, a_y planet n's acceleration along the carrier frame's axes:
-// the sensor takes the vertical part of the rotated vector.
+// with theta the carrier angle, psi_n planet n's position and a_x, a_y planet n's acceleration
+// along the carrier frame's axes: the sensor takes the vertical part of the rotated vector.
 //
 // The sensor's low-pass filter acts on each planet's acceleration before the path, not on the
 // resultant. The filter forgets within its time constant 1/omega_c (milliseconds), the path turns
@@ -17,14 +17,18 @@
 #include <cstddef>
 #include <vector>
 
+#include "gears/planetary.hpp"
 #include "signals/path_window.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::signals {
 
 // What of the path is the same for all gearboxes of a study, tabulated at every sample of a carrier
-// turn: mesh c = 0..M_c - 1 at phases p/P, theta = 2 pi (c + p/P) / M_c. With the carrier standing
-// still theta = 0 at all phases.
+// turn: mesh c = 0..M_c - 1 at phases p/P, theta = 2 pi (c + p/P) / M_c, or its negative where the
+// carrier turns in the negative sense. With the carrier standing still theta = 0 at all phases.
+//
+// A carrier in the negative sense is the mirror image of one in the positive sense with the planets
+// at -psi_n: g(x) = g(2 pi - x), and sin theta changes its sign.
 //
 // Only exp(alpha (x - pi)^2) is left to the lanes. At a given phase the planets stand at
 // equidistant angles as c goes round, x - pi = h (m + f) with h = 2 pi / M_c, whole m and a
@@ -33,9 +37,14 @@ namespace gearpod::signals {
 //     exp(alpha (x - pi)^2) = exp(alpha h^2 m^2) exp(2 alpha h^2 f)^m exp(alpha h^2 f^2):
 //
 // a table over m, powers of one number, and a factor (path_weights.hpp).
+enum class CarrierSense { positive, negative };
+
 class PathGrid {
   public:
     // Throws std::invalid_argument unless planets and phases are positive.
+    PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets, int phases,
+             const SpanLayout& layout, CarrierSense sense = CarrierSense::positive);
+    // Equally spaced planets.
     PathGrid(const PathWindow& window, int planets, int phases, const SpanLayout& layout);
 
     int planets() const { return planets_; }

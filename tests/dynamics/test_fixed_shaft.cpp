@@ -78,17 +78,18 @@ TEST_CASE("The fixed-shaft matrices and lanes are Tian's equations less the trai
             inputs.push_back(random_inputs(engine));
         }
         const auto lanes = make_lanes<8>(layout, std::span<const FixedShaftInputs>(inputs));
-        std::vector<double> q(64), v(64), a(64), k(8), c(8);
+        std::vector<double> q(64), v(64), a(64);
+        FixedShaftMotions<LinearMesh, 8>::Pairs mesh;
         for (std::size_t i = 0; i < 64; ++i) {
             q[i] = 1e-5 * unit(engine);
             v[i] = 1e-2 * unit(engine);
         }
         for (std::size_t l = 0; l < 8; ++l) {
-            k[l] = 4e8 * (1.5 + unit(engine));
-            c[l] = mesh_damping_factor(layout, inputs[l], 0) * mesh_damping_shape(damping, k[l]);
+            mesh.k[l] = 4e8 * (1.5 + unit(engine));
+            mesh.c[l] =
+                mesh_damping_factor(layout, inputs[l], 0) * mesh_damping_shape(damping, mesh.k[l]);
         }
-        FixedShaftMotions<8>::accelerations(lanes, q.data(), v.data(), k.data(), c.data(),
-                                            a.data());
+        FixedShaftMotions<LinearMesh, 8>::accelerations(lanes, q.data(), v.data(), mesh, a.data());
         const double radius[] = {1, 1, 1, 1, 0.02834, 0.02834, 0.0716, 0.0716};
         for (std::size_t l = 0; l < 8; ++l) {
             Eigen::VectorXd ql(8), vl(8), al(8), angles(8), rates(8);
@@ -100,13 +101,13 @@ TEST_CASE("The fixed-shaft matrices and lanes are Tian's equations less the trai
                 angles(d) = q[at] / radius[d];
                 rates(d) = v[at] / radius[d];
             }
-            const GearboxMatrices m = assemble(layout, inputs[l], {k[l]});
+            const GearboxMatrices m = assemble(layout, inputs[l], {mesh.k[l]});
             const Eigen::VectorXd assembled =
                 m.mass.ldlt().solve(m.force - m.damping * vl - m.stiffness * ql);
             CHECK((al - assembled).norm() < 1e-13 * assembled.norm());
 
             Eigen::VectorXd printed =
-                printed_equations(layout, inputs[l], k[l], c[l], angles, rates);
+                printed_equations(layout, inputs[l], mesh.k[l], mesh.c[l], angles, rates);
             for (int d = 0; d < 8; ++d) {
                 printed(d) *= radius[d];
             }

@@ -46,7 +46,8 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     const auto lanes = make_lanes<W>(layout, std::span<const PlanetaryInputs>(inputs));
     const auto degrees = static_cast<std::size_t>(layout.degrees_of_freedom());
     const auto pairs = static_cast<std::size_t>(layout.pairs());
-    std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W), k(pairs * W), c(pairs * W);
+    std::vector<double> q(degrees * W), v(degrees * W), a(degrees * W);
+    typename Model::Pairs mesh{};
     for (auto& x : q) {
         x = 1e-5 * unit(engine);
     }
@@ -55,18 +56,18 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
     }
     for (std::size_t pair = 0; pair < pairs; ++pair) {
         for (std::size_t l = 0; l < W; ++l) {
-            k[pair * W + l] = 4e8 * (1.5 + unit(engine));
-            c[pair * W + l] = mesh_damping_factor(layout, inputs[l], static_cast<int>(pair)) *
-                              mesh_damping_shape(layout.mesh_damping, k[pair * W + l]);
+            mesh.k[pair * W + l] = 4e8 * (1.5 + unit(engine));
+            mesh.c[pair * W + l] = mesh_damping_factor(layout, inputs[l], static_cast<int>(pair)) *
+                                   mesh_damping_shape(layout.mesh_damping, mesh.k[pair * W + l]);
         }
     }
-    Model::accelerations(lanes, q.data(), v.data(), k.data(), c.data(), a.data());
+    Model::accelerations(lanes, q.data(), v.data(), mesh, a.data());
 
     double error = 0.0, scale = 0.0;
     for (std::size_t l = 0; l < W; ++l) {
         std::vector<double> stiffness(pairs);
         for (std::size_t pair = 0; pair < pairs; ++pair) {
-            stiffness[pair] = k[pair * W + l];
+            stiffness[pair] = mesh.k[pair * W + l];
         }
         const GearboxMatrices m = assemble(layout, inputs[l], stiffness);
         Eigen::VectorXd ql(degrees), vl(degrees);
@@ -103,13 +104,13 @@ TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 
         for (const auto damping :
              {MeshDamping::ratio, MeshDamping::proportional, MeshDamping::constant}) {
             const auto seed = static_cast<unsigned>(n);
-            using Inertial = TranslationalMotion<WithInertialTerms, 8>;
-            using Still = TranslationalMotion<WithoutInertialTerms, 8>;
+            using Inertial = TranslationalMotion<WithInertialTerms, LinearMesh, 8>;
+            using Still = TranslationalMotion<WithoutInertialTerms, LinearMesh, 8>;
             const auto full = Motion::translational_torsional;
             CHECK(kernel_error<Inertial>(layout_of(n, full, true, damping), seed) < 1e-13);
             CHECK(kernel_error<Still>(layout_of(n, full, false, damping), seed) < 1e-13);
-            CHECK(kernel_error<TorsionalMotion<8>>(layout_of(n, Motion::torsional, false, damping),
-                                                   seed) < 1e-13);
+            CHECK(kernel_error<TorsionalMotion<LinearMesh, 8>>(
+                      layout_of(n, Motion::torsional, false, damping), seed) < 1e-13);
         }
     }
 }

@@ -78,6 +78,40 @@ TEST_CASE("With the carrier standing still the planets keep their places") {
     }
 }
 
+TEST_CASE("The path grid holds the angles of planets at given places, whichever way they go") {
+    // 16/26/68 with planets at places 0, 25 and 51 of 84.
+    const SpanLayout layout{26, 68, 68};
+    const gears::PlanetPlaces places{{0, 25, 51}, 84};
+    const double pi = std::numbers::pi;
+    const int phases = 6;
+    for (const auto sense : {CarrierSense::positive, CarrierSense::negative}) {
+        const PathGrid grid(path_window("hann"), places, phases, layout, sense);
+        REQUIRE(grid.planets() == 3);
+        double worst = 0.0;
+        for (int p = 0; p < phases; ++p) {
+            for (int c = 0; c < 68; ++c) {
+                const double turned = 2.0 * pi * (c + p / 6.0) / 68.0;
+                const double theta = sense == CarrierSense::positive ? turned : -turned;
+                const int place = p * 68 + c;
+                worst = std::max({worst, std::abs(grid.sine()[place] - std::sin(theta)),
+                                  std::abs(grid.cosine()[place] - std::cos(theta))});
+                for (int n = 0; n < 3; ++n) {
+                    const double angle = theta + gears::planet_angle(places, n);
+                    const int steps = (c - grid.centre()[p * 3 + n] + 68 + 34) % 68 - 34;
+                    const double h = 2.0 * pi / 68.0;
+                    const double from_sensor = h * (steps + grid.fraction()[p * 3 + n]);
+                    // g depends on x - pi by its square: its sign does not matter.
+                    worst = std::max(
+                        {worst, std::abs(std::cos(from_sensor) + std::cos(angle)),
+                         std::abs(grid.window()[place * 3 + n] - (0.5 - 0.5 * std::cos(angle)))});
+                    CHECK(std::abs(from_sensor) <= pi + 1e-12);
+                }
+            }
+        }
+        CHECK(worst < 1e-13);
+    }
+}
+
 TEST_CASE("An unknown path window is refused by naming the known ones") {
     CHECK_THROWS_WITH(path_window("hanning"), Catch::Contains("hamming, hann, rectangular"));
 }

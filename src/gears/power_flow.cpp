@@ -1,0 +1,85 @@
+#include "gears/power_flow.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace gearpod::gears {
+namespace {
+
+Member member_of(FixedMember fixed) {
+    switch (fixed) {
+        case FixedMember::sun:
+            return Member::sun;
+        case FixedMember::carrier:
+            return Member::carrier;
+        case FixedMember::ring:
+            break;
+    }
+    return Member::ring;
+}
+
+const char* name_of(Member member) {
+    switch (member) {
+        case Member::sun:
+            return "sun";
+        case Member::carrier:
+            return "carrier";
+        case Member::ring:
+            break;
+    }
+    return "ring";
+}
+
+double speed_of(const Speeds& speeds, Member member) {
+    return member == Member::sun    ? speeds.sun
+           : member == Member::ring ? speeds.ring
+                                    : speeds.carrier;
+}
+
+double& value_of(Members& members, Member member) {
+    return member == Member::sun    ? members.sun
+           : member == Member::ring ? members.ring
+                                    : members.carrier;
+}
+
+}  // namespace
+
+std::vector<std::string> power_flow_problems(const PowerFlow& flow) {
+    if (member_of(flow.fixed) != flow.input)
+        return {};
+    return {fmt::format("the {0} is held and cannot drive (hold or drive another member)",
+                        name_of(flow.input))};
+}
+
+Member output_member(const PowerFlow& flow) {
+    for (const Member member : {Member::sun, Member::ring})
+        if (member != flow.input && member != member_of(flow.fixed))
+            return member;
+    return Member::carrier;
+}
+
+Speeds driven_speeds(const PlanetaryTrain& train, const PowerFlow& flow, Member given,
+                     double magnitude) {
+    const Speeds s = train_speeds(train, flow.fixed, given, magnitude);
+    const bool with_torque = (speed_of(s, flow.input) >= 0) == (flow.input != Member::carrier);
+    return with_torque ? s : Speeds{-s.sun, -s.planet, -s.ring, -s.carrier};
+}
+
+Members balanced_torques(const PlanetaryTrain& train, Member given, double magnitude) {
+    const double s = train.sun_teeth, r = train.ring_teeth;
+    Members torques{-(s + r), r, s};
+    const double per_tooth = magnitude / std::abs(value_of(torques, given));
+    return {per_tooth * torques.carrier, per_tooth * torques.ring, per_tooth * torques.sun};
+}
+
+Members transmission_error_weights(const PlanetaryTrain& train, const PowerFlow& flow) {
+    const Speeds s = train_speeds(train, flow.fixed, flow.input, 1);
+    const Member output = output_member(flow);
+    Members weights;
+    value_of(weights, output) = 1;
+    value_of(weights, flow.input) = -speed_of(s, output);
+    return weights;
+}
+
+}  // namespace gearpod::gears

@@ -1,0 +1,144 @@
+// Park's 12-DOF pair matrices against the entries that the paper prints legibly, and their plane
+// reduction against the planetary model.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/helical_pair.hpp"
+#include "dynamics/planetary.hpp"
+
+using namespace gearpod::dynamics;
+
+namespace {
+
+constexpr double kPhi = 0.43, kOmega = 0.31;
+constexpr double kSun = 0.112, kPlanet = 0.182, kRing = 0.476;  // Park's Table III
+constexpr HelicalPair kPair{kPhi, kOmega};
+
+const double s2 = std::sin(kPhi) * std::sin(kPhi), c2 = std::cos(kPhi) * std::cos(kPhi);
+const double half_sin_2phi = std::sin(2 * kPhi) / 2, half_sin_2om = std::sin(2 * kOmega) / 2;
+const double sin_om = std::sin(kOmega), cos_om = std::cos(kOmega);
+
+void check_row(const PairMatrix& k, int row, std::initializer_list<double> printed) {
+    int column = 12 - static_cast<int>(printed.size());
+    for (const double value : printed) {
+        INFO("row " << row << ", column " << column);
+        CHECK(k(row, column) == Approx(value).margin(1e-15));
+        ++column;
+    }
+}
+
+// Rigid motion of both gears: translation t and rotation w about the central gear's centre, the
+// other gear's centre at (a, 0, 0).
+PairVector rigid(const Eigen::Vector3d& t, const Eigen::Vector3d& w, double a, bool planet_first) {
+    const Eigen::Vector3d arm(a, 0, 0);
+    Eigen::Matrix<double, 6, 1> centre, planet;
+    centre << t, w;
+    planet << t + w.cross(arm), w;
+    PairVector q;
+    planet_first ? q << planet, centre : q << centre, planet;
+    return q;
+}
+
+}  // namespace
+
+TEST_CASE("The sun-planet matrix has the printed rows of (A1)") {
+    const PairMatrix k = pair_matrix(sun_planet_deflection(kPair, kSun, kPlanet), 1.0);
+    check_row(
+        k, 0,
+        {s2, half_sin_2phi * cos_om, -half_sin_2phi * sin_om, 0, kSun * half_sin_2phi * sin_om,
+         kSun * half_sin_2phi * cos_om, -s2, -half_sin_2phi * cos_om, half_sin_2phi * sin_om, 0,
+         kPlanet * half_sin_2phi * sin_om, kPlanet * half_sin_2phi * cos_om});
+    // The printed y_s y_p entry -cos^2 sin^2 is a misprint: rigid translation would cost energy.
+    check_row(k, 1,
+              {c2 * cos_om * cos_om, -c2 * half_sin_2om, 0, kSun * c2 * half_sin_2om,
+               kSun * c2 * cos_om * cos_om, -half_sin_2phi * cos_om, -c2 * cos_om * cos_om,
+               c2 * half_sin_2om, 0, kPlanet * c2 * half_sin_2om, kPlanet * c2 * cos_om * cos_om});
+    check_row(k, 2,
+              {c2 * sin_om * sin_om, 0, -kSun * c2 * sin_om * sin_om, -kSun * c2 * half_sin_2om,
+               half_sin_2phi * sin_om, c2 * half_sin_2om, -c2 * sin_om * sin_om, 0,
+               -kPlanet * c2 * sin_om * sin_om, -kPlanet * c2 * half_sin_2om});
+    CHECK(k.row(3).norm() == 0);
+    CHECK(k.row(9).norm() == 0);
+}
+
+TEST_CASE("The planet-ring matrix has the printed rows of (A2)") {
+    const PairMatrix k = pair_matrix(planet_ring_deflection(kPair, kPlanet, kRing), 1.0);
+    check_row(
+        k, 0,
+        {s2, -half_sin_2phi * cos_om, -half_sin_2phi * sin_om, 0, kPlanet * half_sin_2phi * sin_om,
+         -kPlanet * half_sin_2phi * cos_om, -s2, half_sin_2phi * cos_om, half_sin_2phi * sin_om, 0,
+         -kRing * half_sin_2phi * sin_om, kRing * half_sin_2phi * cos_om});
+    check_row(k, 1,
+              {c2 * cos_om * cos_om, c2 * half_sin_2om, 0, -kPlanet * c2 * half_sin_2om,
+               kPlanet * c2 * cos_om * cos_om, half_sin_2phi * cos_om, -c2 * cos_om * cos_om,
+               -c2 * half_sin_2om, 0, kRing * c2 * half_sin_2om, -kRing * c2 * cos_om * cos_om});
+    check_row(k, 2,
+              {c2 * sin_om * sin_om, 0, -kPlanet * c2 * sin_om * sin_om,
+               kPlanet * c2 * half_sin_2om, half_sin_2phi * sin_om, -c2 * half_sin_2om,
+               -c2 * sin_om * sin_om, 0, kRing * c2 * sin_om * sin_om, -kRing * c2 * half_sin_2om});
+}
+
+TEST_CASE("Both matrices are symmetric, of rank one, and rigid motion costs nothing") {
+    const PairVector sun = sun_planet_deflection(kPair, kSun, kPlanet);
+    const PairVector ring = planet_ring_deflection(kPair, kPlanet, kRing);
+    for (const bool planet_first : {false, true}) {
+        const PairVector& v = planet_first ? ring : sun;
+        const PairMatrix k = pair_matrix(v, 3e9);
+        CHECK((k - k.transpose()).norm() == 0);
+        Eigen::FullPivLU<PairMatrix> lu(k);
+        lu.setThreshold(1e-12);
+        CHECK(lu.rank() == 1);
+        const double axes = planet_first ? kRing - kPlanet : kSun + kPlanet;
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i), none = Eigen::Vector3d::Zero();
+            CHECK(std::abs(v.dot(rigid(axis, none, axes, planet_first))) < 1e-15);
+            CHECK(std::abs(v.dot(rigid(none, axis, axes, planet_first))) < 1e-15);
+        }
+        // Rolling on each other's pitch circles.
+        PairVector roll = PairVector::Zero();
+        roll(5) = planet_first ? 1 / kPlanet : 1 / kSun;
+        roll(11) = planet_first ? 1 / kRing : -1 / kPlanet;
+        CHECK(std::abs(v.dot(roll)) < 1e-15);
+    }
+}
+
+TEST_CASE("In the plane the pair is the planetary model's spur pair of the transverse angle") {
+    PlanetaryLayout layout;
+    layout.planets = 1;
+    layout.pressure_angle_rad = kPhi;
+    layout.helix_angle_rad = kOmega;
+    const double angle = transverse_pressure_angle(kPhi, kOmega);
+    CHECK(layout.transverse_pressure_angle() == angle);
+    CHECK(std::tan(angle) * std::cos(kOmega) == Approx(std::tan(kPhi)));
+    const double base = std::cos(angle);  // base over pitch radius
+    const double k = 2.7e9, factor = transverse_stiffness_factor(kPhi, kOmega);
+    CHECK(factor == Approx(s2 + c2 * cos_om * cos_om));
+
+    const int plane[] = {0, 1, 5, 6, 7, 11};
+    const PairMatrix sun = pair_matrix(sun_planet_deflection(kPair, kSun, kPlanet), k);
+    const PairMatrix ring = pair_matrix(planet_ring_deflection(kPair, kPlanet, kRing), k);
+    const Eigen::VectorXd sun_row = sun_planet_row(layout, 0),
+                          ring_row = ring_planet_row(layout, 0);
+    const int s = motion_index(gearpod::dynamics::sun), p = motion_index(planet, 0),
+              r = motion_index(gearpod::dynamics::ring);
+    const int sun_motions[] = {s, s + 1, s + 2, p, p + 1, p + 2};
+    const int ring_motions[] = {p, p + 1, p + 2, r, r + 1, r + 2};
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+            // u = base radius times rotation.
+            const auto scale = [&](int index, double first, double second) {
+                return index == 2 ? base * first : index == 5 ? base * second : 1.0;
+            };
+            const double of_sun = factor * k * sun_row(sun_motions[i]) * sun_row(sun_motions[j]) *
+                                  scale(i, kSun, kPlanet) * scale(j, kSun, kPlanet);
+            const double of_ring = factor * k * ring_row(ring_motions[i]) *
+                                   ring_row(ring_motions[j]) * scale(i, kPlanet, kRing) *
+                                   scale(j, kPlanet, kRing);
+            CHECK(sun(plane[i], plane[j]) == Approx(of_sun).margin(1e-6));
+            CHECK(ring(plane[i], plane[j]) == Approx(of_ring).margin(1e-6));
+        }
+    }
+    CHECK(transverse_pressure_angle(kPhi, 0.0) == kPhi);
+    CHECK(transverse_stiffness_factor(kPhi, 0.0) == 1.0);
+}

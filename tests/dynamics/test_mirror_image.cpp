@@ -1,0 +1,115 @@
+// A train whose carrier drives presses the other flanks together. The model runs its mirror image
+// instead (gears/power_flow.hpp); here is the real one, with springs along the other flanks' line
+// of action, assembled by hand.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/planetary.hpp"
+
+using namespace gearpod::dynamics;
+
+namespace {
+
+constexpr double kAlpha = 0.43;
+const std::vector<double> kPositions{0, 2.2, 4.0};
+const std::vector<double> kStiffness{5e8, 3e8, 4e8, 7e8, 6e8, 8e8};
+
+PlanetaryInputs inputs() {
+    PlanetaryInputs in;
+    const double masses[] = {5.43, 2.35, 0.40, 0.66};
+    const double inertias[] = {6.29, 3.00, 0.39, 0.61};
+    for (int body = 0; body < body_count; ++body) {
+        in.mass_kg[body] = masses[body];
+        in.inertia_over_r2_kg[body] = inertias[body];
+        in.bearing_stiffness_N_m[body] = 1e8;
+    }
+    in.support_stiffness_N_m = 1e9;
+    in.force_N[sun] = 3000.0;
+    in.force_N[carrier] = -2.0 * std::cos(kAlpha) * 3000.0;
+    return in;
+}
+
+struct Coast {
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(18, 18);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(18);
+    std::vector<Eigen::VectorXd> rows;  // of the pairs
+};
+
+// Planets at -psi; the flanks' normals have turned from pi/2 -+ alpha to pi/2 +- alpha, and a pair
+// is pressed together by negative rotation of its central gear.
+Coast coast_flanks(const PlanetaryInputs& in) {
+    Coast model;
+    const auto add = [&](const Eigen::VectorXd& v, double k) {
+        model.stiffness += k * v * v.transpose();
+    };
+    for (int body = 0; body < 3; ++body) {
+        add(Eigen::VectorXd::Unit(18, 3 * body), in.bearing_stiffness_N_m[body]);
+        add(Eigen::VectorXd::Unit(18, 3 * body + 1), in.bearing_stiffness_N_m[body]);
+        model.force(3 * body + 2) = -in.force_N[body];
+    }
+    add(Eigen::VectorXd::Unit(18, 5), in.support_stiffness_N_m);
+    for (int pair = 0; pair < 6; ++pair) {
+        const int n = pair % 3, planet_x = 9 + 3 * n;
+        const bool with_sun = pair < 3;
+        const double psi = -kPositions[static_cast<std::size_t>(n)];
+        const double angle = std::numbers::pi / 2 + (with_sun ? kAlpha : -kAlpha) + psi;
+        Eigen::VectorXd v = Eigen::VectorXd::Zero(18);
+        const int x = with_sun ? 6 : 3;
+        v(x) = -std::cos(angle);
+        v(x + 1) = -std::sin(angle);
+        v(x + 2) = -1.0;
+        v(planet_x) = std::cos(angle);
+        v(planet_x + 1) = std::sin(angle);
+        v(planet_x + 2) = with_sun ? -1.0 : 1.0;
+        add(v, kStiffness[static_cast<std::size_t>(pair)]);
+        model.rows.push_back(v);
+        if (with_sun) {
+            Eigen::VectorXd bx = Eigen::VectorXd::Zero(18), by = bx;
+            bx(planet_x) = by(planet_x + 1) = 1.0;
+            bx(0) = by(1) = -1.0;
+            bx(2) = std::sin(psi);
+            by(2) = -std::cos(psi);
+            add(bx, in.bearing_stiffness_N_m[planet]);
+            add(by, in.bearing_stiffness_N_m[planet]);
+        }
+    }
+    return model;
+}
+
+}  // namespace
+
+TEST_CASE("The carrier-driven train on its own flanks is the model's mirror image") {
+    PlanetaryLayout layout;
+    layout.planets = 3;
+    layout.pressure_angle_rad = kAlpha;
+    layout.positions_rad = kPositions;
+    layout.inertial_terms = false;
+    const PlanetaryInputs in = inputs();
+    const GearboxMatrices model = assemble(layout, in, kStiffness);
+    const Coast real = coast_flanks(in);
+
+    GearboxMatrices flanks = model;
+    flanks.stiffness = real.stiffness;
+    flanks.force = real.force;
+    const auto ours = natural_frequencies_Hz(model);
+    const auto theirs = natural_frequencies_Hz(flanks);
+    REQUIRE(ours.size() == theirs.size());
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        CHECK(ours[i] == Approx(theirs[i]).epsilon(1e-9));
+    }
+    // The same shape, reflected: x as it is, y and u reversed.
+    const Eigen::VectorXd q = static_equilibrium(model), mirrored = static_equilibrium(flanks);
+    CHECK(q.norm() > 1e-6);
+    for (int i = 0; i < 18; ++i) {
+        CHECK(mirrored(i) == Approx(i % 3 == 0 ? q(i) : -q(i)).margin(1e-9 * q.norm()));
+    }
+    // Both press their flanks together with the same forces.
+    for (int pair = 0; pair < 6; ++pair) {
+        const Eigen::VectorXd row =
+            pair < 3 ? sun_planet_row(layout, pair) : ring_planet_row(layout, pair - 3);
+        CHECK(row.dot(q) > 0.0);
+        CHECK(real.rows[static_cast<std::size_t>(pair)].dot(mirrored) ==
+              Approx(row.dot(q)).epsilon(1e-9));
+    }
+}
