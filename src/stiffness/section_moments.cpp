@@ -18,15 +18,16 @@ double compliance(const SectionMoments& m, const ToothProfile& profile, const Ma
     const double root_arm = profile.base_radius() - profile.root_axial() * c;
     const double bending =
         root_arm * (root_arm * m.bending[0] - 2 * c * m.bending[1]) + c * c * m.bending[2];
-    const double shear = 2.4 * (1 + material.poisson_ratio) * c * c * m.shear;
+    const double shear =
+        material.shear_energy ? 2.4 * (1 + material.poisson_ratio) * c * c * m.shear : 0;
     return (bending + shear + s * s * m.axial) /
            (material.youngs_modulus_Pa * material.face_width_m);
 }
 
 SectionSweep::SectionSweep(const ToothProfile& profile, const CrackedSections& sections)
-    : profile_(&profile), sections_(&sections), u_(profile.involute_root()) {
+    : profile_(&profile), sections_(&sections), u_(profile.root()) {
     add_lengthening();
-    add_straight();
+    advance(profile.involute_root());
 }
 
 void SectionSweep::add_section(double weight, double axial, double thickness,
@@ -56,18 +57,9 @@ void SectionSweep::add_lengthening() {
     moments_.axial = axial;
 }
 
-void SectionSweep::add_straight() {
-    const double length = profile_->straight_length();
-    if (length <= 0)
-        return;
-    const double half = profile_->root_half_thickness();
-    const double thickness = sections_->cracked() ? sections_->cracked_thickness(half) : 2 * half;
-    const double bending = 12 / (thickness * thickness * thickness);
-    moments_.bending[0] += bending * length;
-    moments_.bending[1] += bending * length * length / 2;
-    moments_.bending[2] += bending * length * length * length / 3;
-    moments_.shear += length / thickness;
-    moments_.axial += length / (2 * half);
+void SectionSweep::advance(double to) {
+    for_section_parts(*profile_, *sections_, u_, to,
+                      [&](double, double until, bool cracked) { advance(until, cracked); });
 }
 
 void SectionSweep::advance(double to, bool cracked) {
