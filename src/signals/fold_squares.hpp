@@ -12,9 +12,10 @@ struct FoldArguments {
     const FoldPlan* plan = nullptr;
     const double* const* accel = nullptr;
     const double* exponent = nullptr;  // [lane]
+    const ToneTable* tones = nullptr;  // if any, over the whole span
     double* whole_steps = nullptr;     // scratch, [M_c/2 + 1][lane]
     double* weight = nullptr;          // scratch, [carrier index][planet][lane]
-    double* squares = nullptr;         // scratch, [pair][lane]
+    double* pairs = nullptr;           // scratch, [pair][lane]: y^2, or y if there are tones
     double* totals = nullptr;          // scratch, [sum][lane]
     double* folded = nullptr;          // [tooth * P + p][lane]
 };
