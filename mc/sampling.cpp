@@ -38,13 +38,13 @@ void resolve_masses(const Study& study, InstanceInputs& inputs) {
     inputs.ring_mass_kg = g.ring_mass_kg.value_or(0.0);
     inputs.carrier_mass_kg = g.carrier_mass_kg.value_or(0.0);
     double sun_m = 0.0, planet_m = 0.0, ring_m = 0.0, centre_m = 0.0;
-    if (g.has_teeth() && g.module_m) {
+    if (has_gears(study)) {
         sun_m = gear_of(study, Member::sun).base_radius();
         planet_m = gear_of(study, Member::planet).base_radius();
         ring_m = gear_of(study, Member::ring).base_radius();
         centre_m = 0.5 * *g.module_m * (*g.sun_teeth + *g.planet_teeth);
     }
-    const double cosine = std::cos(g.pressure_angle_rad);
+    const double cosine = std::cos(transverse_pressure_angle_rad(g));
     const double disc = 0.5 / (cosine * cosine);
     inputs.sun_inertia_over_r2_kg =
         over_r2(g.sun_inertia_over_r2_kg, g.sun_inertia_kg_m2, sun_m, disc * inputs.sun_mass_kg);
@@ -150,7 +150,9 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.mesh_damping = mesh_damping(study);
     inputs.torque_N_m = study.operation.torque_N_m;
     inputs.speed_rad_s = speed(study.operation);
-    inputs.path_exponent = study.sensor.path_exponent;
+    // No path weighs the sensor of a fixed-shaft gearbox.
+    inputs.path_exponent =
+        g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
     inputs.noise_m_s2 = study.sensor.noise_m_s2;
     inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
     inputs.fault_size = fault_size(study);

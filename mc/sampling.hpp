@@ -46,6 +46,12 @@ struct InstanceInputs {
     double fault_size;         // 0 in the threshold group and without a fault
 };
 
+// Which gearbox: row `index` of its group.
+struct GearboxId {
+    Group group = Group::graded;
+    std::uint64_t index = 0;
+};
+
 struct ParameterColumn {
     std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
     std::string unit;  // SI, e.g. "N/m"; "1" for a pure number

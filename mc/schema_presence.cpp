@@ -1,5 +1,6 @@
 #include "mc/schema_presence.hpp"
 
+#include "mc/study_gears.hpp"
 #include "mc/study_sizes.hpp"
 
 namespace gearpod::mc {
@@ -11,10 +12,6 @@ constexpr std::string_view kMotion = "effects.motion";
 
 bool is(const Study& s, ToothProfile profile) {
     return s.gearbox.tooth_profile == profile;
-}
-
-bool stiffness_given(const Study& s) {
-    return is(s, ToothProfile::constant) || is(s, ToothProfile::square_wave);
 }
 
 bool planet_fault(const Study& s) {
@@ -105,13 +102,6 @@ Presence tooth_model(const Study& s) {
                               : kOptional;
 }
 
-Presence fillet(const Study& s) {
-    return is(s, ToothProfile::fillet)
-               ? kOptional
-               : Presence{
-                     Need::forbidden, "only for gearbox.tooth_profile = \"fillet\"", {kProfile}};
-}
-
 Presence helix(const Study& s) {
     return stiffness_given(s)
                ? kOptional
@@ -142,6 +132,15 @@ Presence foundation(const Study& s) {
                ? kOptional
                : Presence{
                      Need::required, "effects.foundation is not \"none\"", {"effects.foundation"}};
+}
+
+Presence ring_foundation(const Study& s) {
+    // Sainsot's formula is fitted to external gears.
+    return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
+               ? Presence{Need::required,
+                          "effects.foundation is \"elastic-ring\"",
+                          {"effects.foundation"}}
+               : kOptional;
 }
 
 Presence backlash(const Study& s) {

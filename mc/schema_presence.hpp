@@ -23,11 +23,11 @@ Presence tooth_numbers(const Study&);       // unless the stiffness is constant
 Presence tooth_module(const Study&);        // as these; a fixed-shaft gearbox always needs it
 Presence tooth_body(const Study&);          // unless the stiffness is given
 Presence tooth_model(const Study&);         // only if it is not
-Presence fillet(const Study&);              // only for that profile
 Presence helix(const Study&);               // only if the stiffness is given
 Presence constant_stiffness(const Study&);  // only if it is
 Presence square_wave(const Study&);         // only if it is
 Presence foundation(const Study&);          // required for one
+Presence ring_foundation(const Study&);     // required for one of which rings have one
 Presence backlash(const Study&);            // only for two-sided separation
 Presence pitch_error(const Study&);         // only where every mesh is marched
 

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/effects/mesh_damping.hpp"
 #include "mc/distribution.hpp"
 #include "mc/problems.hpp"
+#include "stiffness/contact/hertz_contact.hpp"
+#include "stiffness/foundation/fillet_foundation.hpp"
 
 namespace gearpod::mc {
 
@@ -16,10 +19,10 @@ enum class GearboxKind { planetary, fixed_shaft };
 enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
 enum class Member { sun, planet, ring, carrier, pinion, gear };
 enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
-enum class Foundation { none, sainsot, elastic_ring };
-enum class Contact { linear, load_dependent };
 enum class Separation { none, one_sided, two_sided };
-enum class MeshDamping { ratio, proportional, constant };
+using Foundation = stiffness::FoundationModel;
+using dynamics::MeshDamping;
+using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
@@ -44,7 +47,6 @@ struct Gearbox {
     double addendum_coefficient = 1.0;
     double dedendum_coefficient = 1.25;
     ToothProfile tooth_profile = ToothProfile::root_circle;
-    double fillet_radius_coefficient = 0.38;  // radius of the transition curve over the module
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     std::optional<double> sun_planet_stiffness_N_m, ring_planet_stiffness_N_m;  // constant profile
     // Square-wave profile.
@@ -152,7 +154,7 @@ struct Fault {
     std::optional<double> end_angle_rad;  // by default angle_rad
     double height_wave = 0.0;
     double height_waves = 0.0;
-    int slices = 100;
+    int slices = 16;
 
     std::optional<double> chip_m;         // along the face width, at the tip
     std::optional<double> chip_height_m;  // along the tooth

@@ -67,14 +67,15 @@ void check_path(StudyDraft& draft) {
     }
 }
 
-void check_separation(StudyDraft& draft) {
-    const Effects& e = draft.study.effects;
-    if (draft.all_usable({"effects.motion", "effects.separation"}) && e.quasi_static() &&
-        e.separation != Separation::none) {
-        draft.reject("effects.separation",
-                     "teeth under a steady load stay in contact (a quasi-static gearbox has no "
-                     "vibration that parts them: effects.motion)",
-                     "use separation = \"none\"");
+// Tian's model has no other degrees of freedom.
+void check_fixed_shaft_motion(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
+        draft.all_usable({"gearbox.kind", "effects.motion"})) {
+        draft.reject("effects.motion",
+                     "has rotations only (a fixed-shaft gearbox's gears move on their bearings, "
+                     "too)",
+                     "use motion = \"translational-torsional\" or \"quasi-static\"");
     }
 }
 
@@ -154,7 +155,7 @@ void check_lanes(StudyDraft& draft) {
 void check_consistency(StudyDraft& draft) {
     check_operation(draft);
     check_path(draft);
-    check_separation(draft);
+    check_fixed_shaft_motion(draft);
     check_sampling(draft);
     check_features(draft);
     check_lanes(draft);

@@ -16,11 +16,6 @@ using std::numbers::pi;
 
 constexpr double kMmPerM = 1e3;
 
-bool stiffness_given(const Study& study) {
-    return study.gearbox.tooth_profile == ToothProfile::constant ||
-           study.gearbox.tooth_profile == ToothProfile::square_wave;
-}
-
 std::string teeth_key(Member member) {
     return fmt::format("gearbox.{}_teeth", member_name(member));
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/helical_pair.hpp"
 #include "stiffness/faults/crack.hpp"
 #include "stiffness/tooth_profile.hpp"
 
@@ -73,6 +74,11 @@ std::optional<int> teeth_of(const Study& study, Member member) {
     return std::nullopt;
 }
 
+bool stiffness_given(const Study& study) {
+    return study.gearbox.tooth_profile == ToothProfile::constant ||
+           study.gearbox.tooth_profile == ToothProfile::square_wave;
+}
+
 bool has_gears(const Study& study) {
     const auto meshes = meshes_of(study.gearbox.kind);
     return study.gearbox.module_m &&
@@ -81,23 +87,39 @@ bool has_gears(const Study& study) {
            });
 }
 
+double transverse_pressure_angle_rad(const Gearbox& gearbox) {
+    return gearbox.helix_angle_rad == 0.0
+               ? gearbox.pressure_angle_rad
+               : dynamics::transverse_pressure_angle(gearbox.pressure_angle_rad,
+                                                     gearbox.helix_angle_rad);
+}
+
 gears::Gear gear_of(const Study& study, Member member) {
     const Gearbox& gearbox = study.gearbox;
     gears::Gear gear;
     gear.teeth = teeth_of(study, member).value();
     gear.internal = member == Member::ring;
     gear.module_m = gearbox.module_m.value();
-    gear.pressure_angle_rad = gearbox.pressure_angle_rad;
+    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
     gear.addendum_coefficient = gearbox.addendum_coefficient;
     gear.dedendum_coefficient = gearbox.dedendum_coefficient;
     return gear;
 }
 
+stiffness::Profile profile_of(const Study& study) {
+    switch (study.gearbox.tooth_profile) {
+        case ToothProfile::base_circle:
+            return stiffness::Profile::base_circle;
+        case ToothProfile::fillet:
+            return stiffness::Profile::fillet;
+        default:
+            return stiffness::Profile::root_circle;
+    }
+}
+
 double max_crack_depth_m(const Study& study) {
-    const auto profile = study.gearbox.tooth_profile == ToothProfile::base_circle
-                             ? stiffness::Profile::base_circle
-                             : stiffness::Profile::root_circle;
-    const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()), profile);
+    const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()),
+                                        profile_of(study));
     return stiffness::max_crack_depth(tooth, study.fault.angle_rad);
 }
 

@@ -7,6 +7,7 @@
 
 #include "gears/gear.hpp"
 #include "mc/study.hpp"
+#include "stiffness/tooth_profile.hpp"
 
 namespace gearpod::mc {
 
@@ -26,11 +27,21 @@ bool has_toothed_member(GearboxKind kind, Member member);
 // Its tooth number, if given.
 std::optional<int> teeth_of(const Study& study, Member member);
 
+// Whether the study gives the meshes' stiffness instead of the teeth that make it.
+bool stiffness_given(const Study& study);
+
 // Whether all tooth numbers and the module are given.
 bool has_gears(const Study& study);
 
-// A toothed member of the study's gearbox, whose tooth number and module must be given.
+// The pressure angle in the plane in which the gears turn.
+double transverse_pressure_angle_rad(const Gearbox& gearbox);
+
+// A toothed member of the study's gearbox, whose tooth number and module must be given. Helical
+// gears stand for the spur gears that they are in the transverse plane.
 gears::Gear gear_of(const Study& study, Member member);
+
+// Where the beams of its teeth begin; of no meaning where the stiffness is given.
+stiffness::Profile profile_of(const Study& study);
 
 // Length of the longest crack that the faulty member's tooth holds, m: there it breaks. The study
 // must have the tooth geometry and a crack.

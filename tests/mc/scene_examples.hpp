@@ -114,7 +114,6 @@ face_width_mm = 18
 young_modulus_Pa = 2.06e11
 poisson_ratio = 0.3
 tooth_profile = "fillet"
-fillet_radius_coefficient = 0.38
 sun_bore_mm = 20
 planet_bore_mm = 24
 ring_outer_mm = 230
