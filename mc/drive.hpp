@@ -1,5 +1,5 @@
-// What turns and loads the gears of a study, one class for each kind of gearbox: speeds, mesh phases,
-// torques, transmission error, and the meshes after which all this repeats.
+// What turns and loads the gears of a study, one class for each kind of gearbox: speeds, mesh
+// phases, torques, transmission error, and the meshes after which all this repeats.
 #pragma once
 
 #include <memory>

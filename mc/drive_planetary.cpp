@@ -43,9 +43,8 @@ PlanetaryDrive::PlanetaryDrive(const Study& study)
       speed_of_(central_member(Sampler(study).speed_member())),
       torque_on_(central_member(study.operation.torque_on)),
       sense_(gears::planet_sense(speeds(1.0))),
-      ring_to_sun_phase_(study.gearbox.ring_to_sun_phase
-                             ? *study.gearbox.ring_to_sun_phase
-                             : gears::ring_to_sun_phase(train_)),
+      ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
+                                                         : gears::ring_to_sun_phase(train_)),
       radius_m_{0.5 * study.gearbox.module_m.value() * (train_.sun_teeth + train_.planet_teeth),
                 gear_of(study, Member::ring).base_radius(),
                 gear_of(study, Member::sun).base_radius()} {}
@@ -59,8 +58,7 @@ void PlanetaryDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs
     const gears::Speeds turning = speeds(instance.speed_rad_s);
     out.carrier_speed_rad_s = turning.carrier;
     out.mesh_period_s = 2.0 * pi / gears::mesh_frequency(train_, turning);
-    const gears::Members torque =
-        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    const gears::Members torque = gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
     out.force_N[dynamics::sun] = torque.sun / radius_m_.sun;
     out.force_N[dynamics::ring] = torque.ring / radius_m_.ring;
     out.force_N[dynamics::carrier] = torque.carrier / radius_m_.carrier;
@@ -69,8 +67,7 @@ void PlanetaryDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs
 }
 
 double PlanetaryDrive::mesh_force_N(const InstanceInputs& instance) const {
-    const gears::Members torque =
-        gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
+    const gears::Members torque = gears::balanced_torques(train_, torque_on_, instance.torque_N_m);
     return torque.sun / radius_m_.sun / train_.planets;
 }
 

@@ -151,8 +151,7 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.torque_N_m = study.operation.torque_N_m;
     inputs.speed_rad_s = speed(study.operation);
     // No path weighs the sensor of a fixed-shaft gearbox.
-    inputs.path_exponent =
-        g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
+    inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
     inputs.noise_m_s2 = study.sensor.noise_m_s2;
     inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
     inputs.fault_size = fault_size(study);

@@ -87,8 +87,8 @@ void Scene::build_plan() {
 // Errors of one kind of mesh are alike for all planets, shifted with their mesh phases.
 void Scene::add_errors() {
     const MeshErrors& e = study_.errors;
-    const bool pitch = e.pitch_error_m > 0.0 ||
-                       study_.find_random("gearbox.pitch_error_um") != nullptr;
+    const bool pitch =
+        e.pitch_error_m > 0.0 || study_.find_random("gearbox.pitch_error_um") != nullptr;
     const lockstep::MeshError first =
         study_.gearbox.kind == GearboxKind::fixed_shaft
             ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}

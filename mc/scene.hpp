@@ -34,9 +34,7 @@ class Scene {
     const lockstep::MarchPlan& plan() const { return plan_; }
     const lockstep::FaultPattern& pattern() const { return fault_->pattern(); }
     // The pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const {
-        return pattern().passages.empty() ? -1 : pattern().passages[0].pair;
-    }
+    int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
     // Of the pitch errors of single teeth; null without them.
     const lockstep::LoadShares* load_shares() const { return load_shares_.get(); }
 

@@ -84,9 +84,9 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
         mesh.body[1] = coupled->body(2);
         mesh.stiffness = std::move(coupled);
     } catch (const std::invalid_argument& error) {
-        throw SceneError(study.effects.foundation == Foundation::none ? "effects.contact"
-                                                                      : "effects.foundation",
-                         error.what(), "");
+        throw SceneError(
+            study.effects.foundation == Foundation::none ? "effects.contact" : "effects.foundation",
+            error.what(), "");
     }
 }
 
@@ -99,8 +99,8 @@ stiffness::Material material_of(const Study& study) {
 }
 
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
-    const bool coupled = study.effects.foundation != Foundation::none ||
-                         study.effects.contact != Contact::linear;
+    const bool coupled =
+        study.effects.foundation != Foundation::none || study.effects.contact != Contact::linear;
     std::vector<SceneMesh> meshes;
     for (const MeshMembers& members : meshes_of(study.gearbox.kind)) {
         SceneMesh mesh;

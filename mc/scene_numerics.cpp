@@ -61,8 +61,7 @@ class StepNeeds {
         constexpr int kPilot = 32;
         for (int i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
             gearboxes_.push_back(gearbox_inputs(
-                study, drive,
-                sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
+                study, drive, sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
         }
         const lockstep::StepLimit limit = lockstep::runge_kutta_limit(system(0));
         decay_meshes_ = 1.0 / (limit.slowest_decay_1_s * period(0));
@@ -80,8 +79,8 @@ class StepNeeds {
     double implicit(lockstep::Integrator integrator) const {
         double steps = 1.0;
         for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
-            steps = std::max(steps, lockstep::implicit_steps(integrator, system(i), period(i),
-                                                             low_pass_rad_s_));
+            steps = std::max(
+                steps, lockstep::implicit_steps(integrator, system(i), period(i), low_pass_rad_s_));
         }
         return steps;
     }
@@ -181,17 +180,16 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     Sampling result;
     result.samples = round_up_to_smooth(samples_at_least(rate, mesh_frequency_Hz, key));
     if (result.samples < kFewestSamples) {
-        throw SceneError(key,
-                         fmt::format("{} sample(s) a mesh period leave nothing to {} (mesh "
-                                     "frequency {:.4g} Hz)",
-                                     result.samples, sensor ? "window" : "average",
-                                     mesh_frequency_Hz),
-                         fmt::format("at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
+        throw SceneError(
+            key,
+            fmt::format("{} sample(s) a mesh period leave nothing to {} (mesh "
+                        "frequency {:.4g} Hz)",
+                        result.samples, sensor ? "window" : "average", mesh_frequency_Hz),
+            fmt::format("at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
     }
-    result.te_samples =
-        std::min(samples_at_least(study.sensor.encoder_sampling_Hz, mesh_frequency_Hz,
-                                  "sensor.encoder_sampling_Hz"),
-                 result.samples);
+    result.te_samples = std::min(samples_at_least(study.sensor.encoder_sampling_Hz,
+                                                  mesh_frequency_Hz, "sensor.encoder_sampling_Hz"),
+                                 result.samples);
     while (result.samples % result.te_samples != 0) {
         ++result.te_samples;
     }

@@ -43,6 +43,17 @@ const Key* find_key(std::string_view section, std::string_view name) {
     return found == keys.end() ? nullptr : &*found;
 }
 
+std::string_view choice_text(const Study& study, std::string_view section, std::string_view name) {
+    const auto& access = std::get<ChoiceAccess>(find_key(section, name)->access);
+    const auto value = access.get(study);
+    for (const ChoiceName& choice : access.names) {
+        if (value == choice.value) {
+            return choice.text;
+        }
+    }
+    return "";
+}
+
 namespace {
 
 struct KindText {

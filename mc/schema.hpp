@@ -93,6 +93,9 @@ std::span<const std::string_view> section_names();
 // The key of that section and name, or nullptr.
 const Key* find_key(std::string_view section, std::string_view name);
 
+// The text of a choice, as a study file would say it.
+std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);
+
 // A reference of all keys with unit, range, default and meaning, for help.
 std::string schema_help();
 

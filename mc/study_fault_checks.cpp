@@ -64,7 +64,8 @@ void check_planet(StudyDraft& draft) {
 // Whether the tooth has a shape that a fault can change.
 bool check_profile(StudyDraft& draft) {
     const ToothProfile profile = draft.study.gearbox.tooth_profile;
-    if (!stiffness_given(draft.study) || !shapes_tooth(draft.study.fault.kind) || !draft.usable("gearbox.tooth_profile")) {
+    if (!stiffness_given(draft.study) || !shapes_tooth(draft.study.fault.kind) ||
+        !draft.usable("gearbox.tooth_profile")) {
         return true;
     }
     draft.reject("fault.kind",

@@ -49,6 +49,12 @@ std::span<const MeshMembers> meshes_of(GearboxKind kind) {
     return kPlanetaryMeshes;
 }
 
+std::string mesh_name(const MeshMembers& mesh) {
+    const bool ring = mesh.driven == Member::ring;
+    const std::string first(member_name(ring ? mesh.driven : mesh.driver));
+    return first + "-" + std::string(member_name(ring ? mesh.driver : mesh.driven));
+}
+
 bool has_toothed_member(GearboxKind kind, Member member) {
     const auto meshes = meshes_of(kind);
     return std::any_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {

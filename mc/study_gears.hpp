@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "gears/gear.hpp"
@@ -20,6 +21,9 @@ struct MeshMembers {
 
 // The meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
 std::span<const MeshMembers> meshes_of(GearboxKind kind);
+
+// "sun-planet", "ring-planet", "pinion-gear".
+std::string mesh_name(const MeshMembers& mesh);
 
 // Whether a gearbox of that kind has that member, and it has teeth.
 bool has_toothed_member(GearboxKind kind, Member member);

@@ -61,14 +61,9 @@ class ValueText {
         const auto value = access.get(study_);
         return value ? fmt::format("{}", *value) : "";
     }
-    std::string operator()(const ChoiceAccess& access) const {
-        const auto value = access.get(study_);
-        for (const ChoiceName& name : access.names) {
-            if (value == name.value) {
-                return quoted(std::string(name.text));
-            }
-        }
-        return "";
+    std::string operator()(const ChoiceAccess&) const {
+        const std::string_view text = choice_text(study_, key_.section, key_.name);
+        return text.empty() ? "" : quoted(std::string(text));
     }
     std::string operator()(const NumbersAccess& access) const {
         std::vector<std::string> texts;

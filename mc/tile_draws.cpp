@@ -64,10 +64,10 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
     lockstep::ToothErrors errors;
     errors.shares = scene.load_shares();
     const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
-    errors.pairs = planetary == nullptr
-                       ? lockstep::fixed_shaft_teeth()
-                       : lockstep::planetary_teeth(scene.pairs(), planetary->train(),
-                                                   planetary->sense());
+    errors.pairs =
+        planetary == nullptr
+            ? lockstep::fixed_shaft_teeth()
+            : lockstep::planetary_teeth(scene.pairs(), planetary->train(), planetary->sense());
     for (const int teeth : flanks(scene.study())) {
         errors.gears.push_back(
             {teeth, machine::AlignedVector(static_cast<std::size_t>(teeth) * lanes)});
