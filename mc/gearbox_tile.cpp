@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "lockstep/quasi_static.hpp"
+#include "mc/schema.hpp"
 #include "mc/tile_draws.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
@@ -19,18 +20,6 @@ double lap(Clock::time_point& start) {
     const double seconds = std::chrono::duration<double>(now - start).count();
     start = now;
     return seconds;
-}
-
-std::string_view window_name(PathWindow window) {
-    switch (window) {
-        case PathWindow::hann:
-            return "hann";
-        case PathWindow::rectangular:
-            return "rectangular";
-        case PathWindow::hamming:
-            break;
-    }
-    return "hamming";
 }
 
 lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
@@ -78,7 +67,7 @@ signals::PathGrid path_grid(const Scene& scene) {
     }
     const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
                                                             : signals::CarrierSense::positive;
-    return {signals::path_window(window_name(scene.study().effects.path)),
+    return {signals::path_window(choice_text(scene.study(), "effects", "path")),
             gears::planet_places(planetary->train()), scene.samples_per_mesh(), scene.span(),
             sense};
 }

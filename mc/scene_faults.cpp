@@ -67,8 +67,8 @@ std::unique_ptr<const ToothFaultFamily> make_family(const Study& study, const Sc
                 *mesh.geometry, material_of(study), profile_of(study), gear, growth_of(f),
                 mesh.body[gear - 1]);
         case FaultKind::chip:
-            return std::make_unique<const stiffness::ToothChip>(*mesh.geometry,
-                                                                *study.gearbox.face_width_m, gear);
+            return std::make_unique<const stiffness::ToothChip>(
+                *mesh.geometry, *study.gearbox.face_width_m, gear, f.chip_height_m);
         case FaultKind::pitting:
             return std::make_unique<const stiffness::ToothPitting>(
                 *mesh.geometry, material_of(study), profile_of(study), gear,

@@ -38,7 +38,7 @@ const Key kKeys[] = {
     {"fault", "height_waves", number<&Fault::height_waves>, kNone, kNotNegative, fault_may<kSpatial>, kFaultShape, "half waves along the face width, b of that equation"},
     {"fault", "slices", integer<&Fault::slices>, kNone, from_to(1, 10000), fault_may<kSpatial>, kFaultShape, "slices along the face width"},
     {"fault", "chip_mm", number<&Fault::chip_m>, kMm, kNotNegative, fault_needs<FaultKind::chip>, kRandom, "width that the chip takes off the face width at the tip"},
-    {"fault", "chip_height_mm", number<&Fault::chip_height_m>, kMm, kPositive, fault_needs<FaultKind::chip>, kFaultShape, "height of the chip along the tooth, from the tip"},
+    {"fault", "chip_height_mm", number<&Fault::chip_height_m>, kMm, kPositive, fault_may<FaultKind::chip>, kFaultShape, "height of the chip along the tooth, from the tip; a quarter of its width by default"},
     {"fault", "pit_width_mm", number<&Fault::pit_width_m>, kMm, kNotNegative, fault_needs<FaultKind::pitting>, kRandom, "width of the pitted band along the face width"},
     {"fault", "pit_length_mm", number<&Fault::pit_length_m>, kMm, kPositive, fault_needs<FaultKind::pitting>, kFaultShape, "length of the band along the tooth height"},
     {"fault", "pit_radius_mm", number<&Fault::pit_radius_m>, kMm, kPositive, fault_needs<FaultKind::pitting>, kFaultShape, "radius of the band's centre"},
