@@ -1,0 +1,66 @@
+// Static equilibrium of W gearboxes in lockstep: K q = f with the stiffness of all meshes at one
+// phase, or the equilibrium of meshes that separate.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamics/gearbox.hpp"
+#include "machine/lanes.hpp"
+
+namespace gearpod::lockstep {
+
+// What of W gearboxes does not depend on the phase.
+template <int W>
+struct StaticLanes {
+    int degrees = 0;
+    int pairs = 0;
+    // Deflection of pair p: the sum of weight[i] q[motion[i]] over first[p] <= i < first[p + 1].
+    std::vector<int> first, motion;
+    std::vector<double> weight;
+    // Stiffness without the meshes, lower triangle [row (row + 1) / 2 + column][lane]. The free
+    // rigid rotation phi is held by a spring on phi . q, which a balanced load leaves at zero.
+    machine::AlignedVector stiffness;
+    machine::AlignedVector force;       // [degree of freedom][lane], N
+    machine::AlignedVector force_size;  // [lane]: the largest of them
+    machine::AlignedVector backlash;    // [lane], m
+    bool separating = false;
+};
+
+template <int W>
+StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics::MeshLaw law,
+                                 std::span<const dynamics::GearboxInputs> inputs,
+                                 double mesh_stiffness_N_m);
+
+extern template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayout&,
+                                                    dynamics::MeshLaw,
+                                                    std::span<const dynamics::GearboxInputs>,
+                                                    double);
+extern template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&,
+                                                    dynamics::MeshLaw,
+                                                    std::span<const dynamics::GearboxInputs>,
+                                                    double);
+
+// Meshes at one phase, the solution, and room to find it.
+template <int W>
+struct StaticState {
+    explicit StaticState(const StaticLanes<W>& lanes);
+    machine::AlignedVector k, e;  // [pair][lane], N/m and m
+    machine::AlignedVector q;     // [degree of freedom][lane], m
+    // [lane], 1 or 0: some load meets no stiffness; the contacts did not come to rest.
+    machine::AlignedVector loose, restless;
+
+    machine::AlignedVector held, preload;                // [pair][lane] in contact
+    machine::AlignedVector factor, inverse, right_hand;  // of the equations
+};
+
+extern template struct StaticState<1>;
+extern template struct StaticState<8>;
+
+// Solves for state.q with state.k and state.e. A body that no stiffness holds and no load moves
+// stays where it is, at zero; a load that meets no stiffness marks its lane `loose`, whose q is of
+// no use then. Lanes never mix.
+void solve_static_1(const StaticLanes<1>& lanes, StaticState<1>& state);
+void solve_static_8(const StaticLanes<8>& lanes, StaticState<8>& state);
+
+}  // namespace gearpod::lockstep
