@@ -16,12 +16,12 @@ struct TianGearbox {
     static constexpr double kMeshFrequency_Hz = 570.0;
 
     gears::Gear pinion{19, false, kModule, kAngle}, gear{48, false, kModule, kAngle};
-    stiffness::Material steel{2.068e11, 0.3, 0.016};
+    stiffness::Material steel;
     gears::MeshGeometry mesh{pinion, gear};
     stiffness::AdditiveMesh pair{mesh, steel, stiffness::Profile::base_circle};
     lockstep::PairSet pairs;
 
-    TianGearbox() {
+    explicit TianGearbox(bool shear_energy = true) : steel{2.068e11, 0.3, 0.016, shear_energy} {
         pairs.mesh = {&pair};
         pairs.start = {0.0};
     }
