@@ -44,6 +44,10 @@ double mesh_period_s(const GearboxInputs& inputs) {
     return std::visit([](const auto& kind) { return kind.mesh_period_s; }, inputs);
 }
 
+double backlash_m(const GearboxInputs& inputs) {
+    return std::visit([](const auto& kind) { return kind.backlash_m; }, inputs);
+}
+
 double frame_speed_rad_s(const GearboxInputs& inputs) {
     return std::visit(ByKind{[](const PlanetaryInputs& in) { return in.carrier_speed_rad_s; },
                              [](const FixedShaftInputs&) { return 0.0; }},

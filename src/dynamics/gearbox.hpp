@@ -20,6 +20,7 @@ int pairs(const GearboxLayout& layout);
 int sources(const GearboxLayout& layout);
 MeshDamping mesh_damping(const GearboxLayout& layout);
 double mesh_period_s(const GearboxInputs& inputs);
+double backlash_m(const GearboxInputs& inputs);
 // Speed of the frame that x and y turn with: the carrier's, or 0.
 double frame_speed_rad_s(const GearboxInputs& inputs);
 

@@ -74,6 +74,13 @@ void position_problems(const PlanetaryTrain& train, double addendum_coefficient,
     if (psi[0] != 0)
         problems.push_back(fmt::format(
             "planet 1 is at {:.4g} degrees (positions are counted from it: 0)", degrees(psi[0])));
+    for (std::size_t n = 1; n < psi.size(); ++n)
+        if (!(psi[n] > psi[n - 1] && psi[n] < 2 * pi))
+            problems.push_back(
+                fmt::format("planet {} at {:.4g} degrees does not follow planet {} at {:.4g} "
+                            "degrees (positions "
+                            "ascend from 0 and stay below 360)",
+                            n + 1, degrees(psi[n]), n, degrees(psi[n - 1])));
     const int places = train.sun_teeth + train.ring_teeth;
     for (std::size_t n = 0; n < psi.size(); ++n) {
         const double place = psi[n] * places / (2 * pi);

@@ -16,8 +16,8 @@ struct PlanetaryTrain {
     int planet_teeth = 0;
     int ring_teeth = 0;
     int planets = 0;
-    // psi_n, rad, psi_0 = 0; empty: equally spaced. A planet fits only at whole multiples of
-    // 2 pi / (Z_s + Z_r); positions count as the multiple next to them.
+    // psi_n, rad, ascending from psi_0 = 0; empty: equally spaced. A planet fits only at whole
+    // multiples of 2 pi / (Z_s + Z_r); positions count as the multiple next to them.
     std::vector<double> positions_rad = {};
 };
 

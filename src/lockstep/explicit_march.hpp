@@ -8,17 +8,11 @@
 
 namespace gearpod::lockstep {
 
-template <class Lanes>
-using ExplicitKernel = void(const MarchPlan& plan, const Lanes& lanes,
-                            const machine::AlignedVector& filter,
-                            const std::vector<PairOverride>& overrides, TileState& state,
-                            MeshRecord& record);
-
-#define GEARPOD_EXPLICIT_MARCHES(LAW, W)                                          \
-    ExplicitKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_inertial_##W; \
-    ExplicitKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_##W;          \
-    ExplicitKernel<dynamics::PlanetaryLanes<W>> LAW##_torsional_##W;              \
-    ExplicitKernel<dynamics::FixedShaftLanes<W>> LAW##_fixed_shaft_##W;
+#define GEARPOD_EXPLICIT_MARCHES(LAW, W)                                       \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_inertial_##W; \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_##W;          \
+    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_torsional_##W;              \
+    MarchKernel<dynamics::FixedShaftLanes<W>> LAW##_fixed_shaft_##W;
 GEARPOD_EXPLICIT_MARCHES(linear, 1)
 GEARPOD_EXPLICIT_MARCHES(linear, 8)
 GEARPOD_EXPLICIT_MARCHES(with_error, 1)

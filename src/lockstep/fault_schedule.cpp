@@ -43,6 +43,17 @@ std::vector<PairOverride> FaultSchedule::overrides(int k) const {
     return all;
 }
 
+std::vector<PairOverride> FaultSchedule::all_overrides(int k) const {
+    const int length = faults_.pattern.length;
+    std::vector<PairOverride> all = overrides((k % length + length) % length);
+    if (faults_.tooth_errors) {
+        for (PairOverride& error : tooth_error_overrides(plan_, *faults_.tooth_errors, k)) {
+            all.push_back(std::move(error));
+        }
+    }
+    return all;
+}
+
 bool FaultSchedule::continues_after(int k) const {
     return std::any_of(faults_.pattern.passages.begin(), faults_.pattern.passages.end(),
                        [&](const FaultPassage& passage) {

@@ -7,6 +7,7 @@
 
 #include "lockstep/fault_pattern.hpp"
 #include "lockstep/march.hpp"
+#include "lockstep/tooth_errors.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::lockstep {
@@ -19,6 +20,9 @@ struct FaultCurves {
     // faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
 
+    // Pitch errors of single teeth; only with TileSettings::march_meshes.
+    const ToothErrors* tooth_errors = nullptr;
+
     bool faulty(int lane) const;
 };
 
@@ -29,6 +33,9 @@ class FaultSchedule {
 
     // The pairs whose stiffness the faulty tooth changes during mesh k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
+
+    // The same, and the tooth errors, during mesh k of a march; k counts from any integer.
+    std::vector<PairOverride> all_overrides(int k) const;
 
     // Is the faulty tooth still in contact at the end of mesh k?
     bool continues_after(int k) const;

@@ -1,9 +1,26 @@
-// Which method marches the equations of motion.
+// Which method marches the equations of motion, and where within a step it needs the stiffness.
 #pragma once
+
+#include <vector>
 
 namespace gearpod::lockstep {
 
-// rk4: the classical explicit Runge-Kutta method of order 4.
-enum class Integrator { rk4 };
+// rk4: the classical Runge-Kutta method, explicit, order 4. newmark: average acceleration (beta
+// 1/4, gamma 1/2), implicit, order 2, keeps the energy. sdirk3: Alexander (1977), three implicit
+// stages, order 3, L-stable and stiffly accurate: it damps what is too fast for the step.
+enum class Integrator { rk4, newmark, sdirk3 };
+
+// Alexander's method: every stage has the same diagonal coefficient, a root of
+// x^3 - 3 x^2 + 3/2 x - 1/6; the last stage is the end of the step.
+struct Alexander {
+    static constexpr double kDiagonal = 0.43586652150845899942;
+    static constexpr double kSecond = (1.0 + kDiagonal) / 2.0;  // node of the second stage
+    static constexpr double k21 = (1.0 - kDiagonal) / 2.0;
+    static constexpr double k31 = -(6.0 * kDiagonal * kDiagonal - 16.0 * kDiagonal + 1.0) / 4.0;
+    static constexpr double k32 = (6.0 * kDiagonal * kDiagonal - 20.0 * kDiagonal + 5.0) / 4.0;
+};
+
+// Positions within a step, ascending from 0 (right limit) to 1 (left limit).
+std::vector<double> stage_nodes(Integrator integrator);
 
 }  // namespace gearpod::lockstep

@@ -50,6 +50,14 @@ struct PairOverride {
     machine::AlignedVector error_rate = {};  // likewise, m per mesh period
 };
 
+// A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in
+// `lanes`. `filter` holds the sensor's coefficients (sensor_filter.hpp).
+template <class Lanes>
+using MarchKernel = void(const MarchPlan& plan, const Lanes& lanes,
+                         const machine::AlignedVector& filter,
+                         const std::vector<PairOverride>& overrides, TileState& state,
+                         MeshRecord& record);
+
 // Allocates a record of W lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);
 

@@ -3,13 +3,14 @@
 #include <cassert>
 
 #include "lockstep/explicit_march.hpp"
+#include "lockstep/implicit_march.hpp"
 #include "lockstep/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
 namespace {
 
 template <class Lanes>
-using Kernel = ExplicitKernel<Lanes>*;
+using Kernel = MarchKernel<Lanes>*;
 
 // The kernel NAME of the plan's mesh law and of width W.
 #define GEARPOD_KERNEL_OF(PLAN, NAME)                            \
@@ -42,13 +43,19 @@ Kernel<dynamics::FixedShaftLanes<W>> kernel_of(const MarchPlan& plan,
     return GEARPOD_KERNEL_OF(plan, fixed_shaft);
 }
 
+template <int W>
+Kernel<ImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
+    return plan.integrator == Integrator::newmark ? GEARPOD_KERNEL_OF(plan, newmark)
+                                                  : GEARPOD_KERNEL_OF(plan, sdirk3);
+}
+
 #undef GEARPOD_KERNEL_OF
 
 template <int W, class Lanes>
-class ExplicitMarch final : public MeshMarch<W> {
+class KernelMarch final : public MeshMarch<W> {
   public:
-    ExplicitMarch(const MarchPlan& plan, Lanes lanes, machine::AlignedVector filter,
-                  Kernel<Lanes> kernel)
+    KernelMarch(const MarchPlan& plan, Lanes lanes, machine::AlignedVector filter,
+                Kernel<Lanes> kernel)
         : plan_(plan), lanes_(std::move(lanes)), filter_(std::move(filter)), kernel_(kernel) {}
 
     void operator()(const std::vector<PairOverride>& overrides, TileState& state,
@@ -79,8 +86,18 @@ std::unique_ptr<const MeshMarch<W>> make_explicit(const MarchPlan& plan, const L
                                                   machine::AlignedVector filter) {
     const std::vector<Inputs> own = inputs_of<Inputs>(inputs);
     auto lanes = dynamics::make_lanes<W>(layout, std::span<const Inputs>(own));
-    return std::make_unique<ExplicitMarch<W, decltype(lanes)>>(
+    return std::make_unique<KernelMarch<W, decltype(lanes)>>(
         plan, std::move(lanes), std::move(filter), kernel_of<W>(plan, layout));
+}
+
+template <int W>
+std::unique_ptr<const MeshMarch<W>> make_implicit(const MarchPlan& plan,
+                                                  std::span<const dynamics::GearboxInputs> inputs,
+                                                  machine::AlignedVector filter) {
+    const double share = plan.integrator == Integrator::newmark ? 0.5 : Alexander::kDiagonal;
+    return std::make_unique<KernelMarch<W, ImplicitLanes<W>>>(
+        plan, make_implicit_lanes<W>(plan, share, inputs), std::move(filter),
+        implicit_kernel_of<W>(plan));
 }
 
 }  // namespace
@@ -94,7 +111,10 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
         periods.push_back(dynamics::mesh_period_s(in));
     }
     machine::AlignedVector filter =
-        filter_coefficients(plan.low_pass_rad_s, plan.grid.lengths, periods);
+        filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods);
+    if (plan.integrator != Integrator::rk4) {
+        return make_implicit<W>(plan, inputs, std::move(filter));
+    }
     if (const auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
         return make_explicit<W, dynamics::PlanetaryInputs>(plan, *planetary, inputs,
                                                            std::move(filter));

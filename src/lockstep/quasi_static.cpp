@@ -42,6 +42,19 @@ class QuasiStatic {
 
     TileResult run() {
         add_record({});
+        if (faults_.tooth_errors) {
+            for (int k = 0; k < settings_.march_meshes; ++k) {
+                result_.content.push_back(add_record(schedule_.all_overrides(k)));
+            }
+        } else {
+            solve_pattern();
+        }
+        retire_loose_lanes();
+        return std::move(result_);
+    }
+
+  private:
+    void solve_pattern() {
         const int length = faults_.pattern.length;
         for (int k = 0; k < length; ++k) {
             const std::vector<PairOverride> passages = schedule_.overrides(k);
@@ -53,11 +66,8 @@ class QuasiStatic {
         if (settings_.march_meshes > 0) {
             result_.content.resize(static_cast<std::size_t>(settings_.march_meshes));
         }
-        retire_loose_lanes();
-        return std::move(result_);
     }
 
-  private:
     void load_meshes(const std::vector<PairOverride>& overrides, int step) {
         const int pairs = plan_.nodes.pairs;
         const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
@@ -153,6 +163,7 @@ template <int W>
 TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                             const FaultCurves& faults, const TileSettings& settings) {
     assert(inputs.size() == W);
+    check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
     return QuasiStatic<W>(plan, inputs, faults, settings).run();
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <complex>
 #include <limits>
+#include <numbers>
 
 namespace gearpod::lockstep {
 namespace {
@@ -23,30 +24,93 @@ double longest_step(std::complex<double> lambda) {
     return (z - kResolution) * unit;
 }
 
-}  // namespace
-
-StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
+// (q, v)' = system (q, v).
+Eigen::MatrixXd first_order(const dynamics::GearboxMatrices& m) {
     const Eigen::Index n = m.mass.rows();
     const Eigen::MatrixXd inverse_mass = m.mass.inverse();
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     system.topRightCorner(n, n).setIdentity();
     system.bottomLeftCorner(n, n) = -inverse_mass * (m.stiffness + m.centrifugal);
     system.bottomRightCorner(n, n) = -inverse_mass * (m.damping + m.gyroscopic);
-    const Eigen::VectorXcd eigenvalues =
-        Eigen::EigenSolver<Eigen::MatrixXd>(system, false).eigenvalues();
-    const double largest = eigenvalues.cwiseAbs().maxCoeff();
+    return system;
+}
 
+Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
+    return Eigen::EigenSolver<Eigen::MatrixXd>(first_order(m), false).eigenvalues();
+}
+
+// Below this a mode is the rigid rotation: what rounding, and the linearised centrifugal term,
+// leave of its rate 0. Both scale with the stiffest spring, never with the dampers.
+double rigid_rate(const dynamics::GearboxMatrices& m) {
+    const Eigen::VectorXd rates2 =
+        (m.stiffness.diagonal().array() / m.mass.diagonal().array()).matrix();
+    return 1e-4 * std::sqrt(rates2.maxCoeff());
+}
+
+}  // namespace
+
+StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
     StepLimit limit{std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
-    for (const std::complex<double> lambda : eigenvalues) {
+    const double rigid = rigid_rate(m);
+    for (const std::complex<double> lambda : modes(m)) {
         const double size = std::abs(lambda);
-        if (size < 1e-4 * largest || lambda.real() > 1e-9 * size) {
+        if (size < rigid || lambda.real() > 1e-9 * size) {
             continue;
         }
         limit.step_s = std::min(limit.step_s, longest_step(lambda));
         limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
     }
     return limit;
+}
+
+StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
+                        const dynamics::GearboxInputs& inputs,
+                        const std::vector<double>& pair_stiffness_N_m) {
+    const dynamics::GearboxMatrices m = dynamics::assemble(layout, inputs, pair_stiffness_N_m);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(first_order(m));
+    Eigen::Index fastest = 0;
+    solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
+    const double rate = std::abs(solver.eigenvalues()(fastest));
+    // The half of the eigenvector that holds the velocities; the displacements are far smaller.
+    const Eigen::Index n = m.mass.rows();
+    const Eigen::VectorXcd mode = solver.eigenvectors().col(fastest).tail(n);
+
+    StiffPart result;
+    result.rate_1_s = rate;
+    double most = 0.0;
+    for (const auto& spring : dynamics::spring_dampers(layout, inputs, pair_stiffness_N_m)) {
+        // The terms lambda c and k of the mode's equation lambda^2 m + lambda c + k = 0.
+        const double deflection = std::norm(spring.row.cast<std::complex<double>>().dot(mode));
+        const double by_damper = rate * spring.damping * deflection;
+        const double by_spring = spring.stiffness * deflection;
+        if (std::max(by_damper, by_spring) > most) {
+            most = std::max(by_damper, by_spring);
+            result.part =
+                (by_damper > by_spring ? "the damper of " : "the spring of ") + spring.name;
+        }
+    }
+    Eigen::Index heaviest = 0;
+    (m.mass.diagonal().array() * mode.cwiseAbs2().array()).maxCoeff(&heaviest);
+    result.motion = dynamics::motion_names(layout)[static_cast<std::size_t>(heaviest)];
+    return result;
+}
+
+Integrator choose_integrator(double stable_steps_per_mesh) {
+    return stable_steps_per_mesh <= kMostExplicitSteps ? Integrator::rk4 : Integrator::sdirk3;
+}
+
+double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,
+                      double mesh_period_s, double low_pass_rad_s) {
+    const double steps_per_period = integrator == Integrator::newmark ? 100.0 : 25.0;
+    double fastest = low_pass_rad_s;
+    for (const std::complex<double> lambda : modes(m)) {
+        const double size = std::abs(lambda);
+        if (-lambda.real() < 0.5 * size) {
+            fastest = std::max(fastest, std::min(size, 5.0 * low_pass_rad_s));
+        }
+    }
+    return steps_per_period * fastest * mesh_period_s / (2.0 * std::numbers::pi);
 }
 
 }  // namespace gearpod::lockstep

@@ -10,9 +10,6 @@
 
 namespace gearpod::lockstep {
 
-// Nodes of a step that the classical Runge-Kutta method uses: start, middle, end.
-inline constexpr int kStageNodes = 3;
-
 // A gearbox's gear pairs; of a planetary train sp1..spN, rp1..rpN. Pair i's tooth pairs start
 // engaging at the phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
 struct PairSet {

@@ -298,11 +298,14 @@ class TileMarch {
 
     // Every mesh of the span for itself.
     void march_everything() {
-        const int length = faults_.pattern.length;
+        MeshRecord unseen = new_record();
+        for (int k = -settings_.run_in_meshes; k < 0; ++k) {
+            march(schedule_.all_overrides(k), unseen);
+        }
         for (int k = 0; k < settings_.march_meshes; ++k) {
             result_.content.push_back(static_cast<int>(result_.records.size()));
             result_.records.push_back(new_record());
-            march(schedule_.overrides(k % length), result_.records.back());
+            march(schedule_.all_overrides(k), result_.records.back());
         }
         for (int l = 0; l < W; ++l) {
             if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
@@ -330,6 +333,7 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
                     const FaultCurves& faults, const TileSettings& settings) {
     assert(inputs.size() == W && std::all_of(faults.curve.begin(), faults.curve.end(),
                                              [](const auto& lanes) { return lanes.size() == W; }));
+    check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 

@@ -20,6 +20,7 @@ struct TileSettings {
     double tolerance = 1e-10;  // of the state, relative, when orbit or decay count as reached
     int max_meshes = 200;      // of one approach to the orbit or of one decay
     int march_meshes = 0;      // 0: reuse; else: record so many meshes one by one
+    int run_in_meshes = 0;     // marched before them: tooth errors have no orbit to start from
     bool with_motion = false;
 };
 

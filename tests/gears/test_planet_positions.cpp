@@ -69,7 +69,9 @@ TEST_CASE("A planet meshes with sun and ring at once at its place, and only ther
     CHECK(assembly_problems(park_at({0, 120.00001, 240})).empty());
     CHECK(says(assembly_problems(park_at({0, 121, 240})), "120.000000 or 124.285714"));
     CHECK(says(assembly_problems(park_at({0, 360.0 * 14 / 84, 240})), "planets 1 and 2 touch"));
-    CHECK(says(assembly_problems(park_at({0, 120, 120})), "planets 2 and 3 touch"));
+    CHECK(says(assembly_problems(park_at({0, 240, 120})), "does not follow planet 2"));
+    CHECK(assembly_problems(park_at({0, 120, 360})).size() ==
+          2);  // not below 360; touches planet 1
     CHECK(says(assembly_problems(park_at({360.0 / 84, 120, 240})), "counted from it"));
     PlanetaryTrain two = park_at({0, 120});
     two.planets = 3;

@@ -175,10 +175,11 @@ TEST_CASE("A lane without rest leaves its neighbours their bits, and lanes count
             const TileResult narrow = run_quasi_static<1>(plan, std::span(inputs).subspan(l, 1),
                                                           train.ring_side_cracks({depths[l]}), {});
             CHECK(wide.status[l] == LaneStatus::ok);
-            CHECK(wide.content == narrow.content);
-            for (std::size_t r = 0; r < wide.records.size(); ++r) {
+            for (std::size_t k = 0; k < 31; ++k) {
+                const auto& one = narrow.records[static_cast<std::size_t>(narrow.content[k])].te;
+                const auto& all = wide.records[static_cast<std::size_t>(wide.content[k])].te;
                 for (std::size_t i = 0; i < 24; ++i) {
-                    CHECK(narrow.records[r].te[i] == wide.records[r].te[8 * i + l]);
+                    CHECK(one[i] == all[8 * i + l]);
                 }
             }
         }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "lockstep/sensor_filter.hpp"
 
@@ -12,11 +13,15 @@ namespace {
 
 // Gain of the stepped filter for a sine at `frequency` (times the cutoff), from its steady
 // response.
-double gain(double frequency, double steps_per_cutoff_period) {
+double gain(Integrator integrator, double frequency, double steps_per_cutoff_period) {
     const double w = 2 * std::numbers::pi;  // cutoff 1 Hz
     const double h = 1.0 / steps_per_cutoff_period;
     double m[kFilterCoefficients];
-    filter_step(w, h, m);
+    filter_step(integrator, w, h, m);
+    // newmark has no middle: it takes the input at the start and the end.
+    const std::vector<double> given = stage_nodes(integrator);
+    const std::vector<double> nodes =
+        given.size() == 3 ? given : std::vector<double>{given[0], 0.5, given[1]};
     double z[kFilterStates] = {};
     double sine = 0.0, cosine = 0.0;
     const auto input = [&](double t) { return std::sin(w * frequency * t); };
@@ -34,9 +39,9 @@ double gain(double frequency, double steps_per_cutoff_period) {
                           m[kFilterYY + 2 * r] * z[2] + m[kFilterYY + 2 * r + 1] * z[3];
         }
         for (int r = 0; r < kFilterStates; ++r) {
-            z[r] = next[r] + m[kFilterInput + r] * input(t) +
-                   m[kFilterInput + 4 + r] * input(t + h / 2) +
-                   m[kFilterInput + 8 + r] * input(t + h);
+            z[r] = next[r] + m[kFilterInput + r] * input(t + nodes[0] * h) +
+                   m[kFilterInput + 4 + r] * input(t + nodes[1] * h) +
+                   m[kFilterInput + 8 + r] * input(t + nodes[2] * h);
         }
     }
     return 2.0 * std::hypot(sine, cosine) / measure;
@@ -51,13 +56,23 @@ double butterworth(double frequency) {
 TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
     for (const double frequency : {0.1, 0.5, 1.0, 2.0, 4.0}) {
         INFO("frequency over cutoff " << frequency);
-        CHECK(gain(frequency, 100) == Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::rk4, frequency, 100) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::sdirk3, frequency, 400) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::newmark, frequency, 800) ==
+              Approx(butterworth(frequency)).epsilon(2e-3));
     }
 }
 
-TEST_CASE("The low-pass converges at order 4 in the step") {
+TEST_CASE("The low-pass converges at its integrator's order in the step") {
     // At twice the cutoff, where the gain is small and its error shows.
-    const double coarse = std::abs(gain(2.0, 40) - butterworth(2.0));
-    const double fine = std::abs(gain(2.0, 80) - butterworth(2.0));
-    CHECK(std::log2(coarse / fine) > 3.5);
+    const auto order = [](Integrator integrator, double steps) {
+        const double coarse = std::abs(gain(integrator, 2.0, steps) - butterworth(2.0));
+        const double fine = std::abs(gain(integrator, 2.0, 2 * steps) - butterworth(2.0));
+        return std::log2(coarse / fine);
+    };
+    CHECK(order(Integrator::rk4, 40) > 3.5);
+    CHECK(order(Integrator::sdirk3, 80) > 2.7);
+    CHECK(order(Integrator::newmark, 80) == Approx(2.0).margin(0.1));
 }

@@ -3,9 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "liang_train.hpp"
 #include "lockstep/step_limit.hpp"
+#include "tian_gearbox.hpp"
 
 using namespace gearpod;
+using namespace gearpod::lockstep;
 
 namespace {
 
@@ -28,4 +31,92 @@ TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on 
 
 TEST_CASE("The slowest decay of an oscillator is half its damping rate") {
     CHECK(lockstep::runge_kutta_limit(oscillator(1e8, 500.0)).slowest_decay_1_s == Approx(250.0));
+}
+
+TEST_CASE("What is stiff in Tian's gearbox is the motor coupling's damper; it calls for sdirk3") {
+    // Its rate, from the printed values: c (1/I_m + 1/I_1), the gears barely moving with it.
+    const auto& gearbox = test::TianGearbox::instance();
+    const dynamics::GearboxLayout layout = gearbox.layout();
+    const dynamics::FixedShaftInputs in = gearbox.inputs();
+    const StiffPart stiff = stiffest_part(layout, in, {1.1e9});
+    CHECK(stiff.part == "the damper of the motor coupling");
+    CHECK(stiff.motion == "pinion_u");
+    CHECK(stiff.rate_1_s == Approx(5e5 * (1 / 0.0021 + 1 / 4.3659e-4)).epsilon(1e-3));
+    const StepLimit limit = runge_kutta_limit(dynamics::assemble(layout, in, {1.1e9}));
+    CHECK(limit.step_s * stiff.rate_1_s == Approx(2.7853).epsilon(1e-3));
+    CHECK(choose_integrator(in.mesh_period_s / limit.step_s) == Integrator::sdirk3);
+
+    // A gearbox without heavy dampers is stiff by a spring and marches explicitly.
+    const auto& train = test::LiangTrain::instance();
+    const auto plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
+    const auto inputs = train.inputs();
+    const std::vector<double> k(8, 1e9);
+    CHECK(stiffest_part(plan.layout, inputs, k).part.find("the spring of planet") == 0);
+    const double steps =
+        inputs.mesh_period_s / runge_kutta_limit(dynamics::assemble(plan.layout, inputs, k)).step_s;
+    CHECK(choose_integrator(steps) == Integrator::rk4);
+}
+
+namespace {
+
+// Largest error of a mesh period's acceleration and TE, relative to their largest values.
+std::pair<double, double> errors(const MeshRecord& ours, const MeshRecord& exact) {
+    const auto error = [](const machine::AlignedVector& a, const machine::AlignedVector& b) {
+        double largest = 0.0, apart = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            apart = std::max(apart, std::abs(a[i] - b[i]));
+            largest = std::max(largest, std::abs(b[i]));
+        }
+        return apart / largest;
+    };
+    return {error(ours.acceleration, exact.acceleration), error(ours.te, exact.te)};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "The steps of the implicit integrators keep signals within 0.1 % of their largest value") {
+    const auto& gearbox = test::TianGearbox::instance();
+    const std::vector<dynamics::GearboxInputs> stage{gearbox.inputs()};
+    const auto stage_matrices =
+        dynamics::assemble(dynamics::GearboxLayout(gearbox.layout()), stage[0], {1.1e9});
+    for (const double low_pass_Hz : {2e3, 10e3}) {
+        const auto orbit = [&](Integrator integrator, double steps) {
+            MarchPlan plan = gearbox.plan(50, static_cast<int>(std::ceil(steps)), integrator);
+            plan.low_pass_rad_s = 2 * std::numbers::pi * low_pass_Hz;
+            return run_tile<1>(plan, stage, gearbox.no_fault(1), {}).records[0];
+        };
+        const auto exact = orbit(Integrator::sdirk3, 10000);
+        for (const auto integrator : {Integrator::newmark, Integrator::sdirk3}) {
+            const double steps =
+                implicit_steps(integrator, stage_matrices, gearbox.inputs().mesh_period_s,
+                               2 * std::numbers::pi * low_pass_Hz);
+            CHECK(steps < 2000);  // rk4 would need 870,000
+            const auto [acceleration, te] = errors(orbit(integrator, steps), exact);
+            INFO("low-pass " << low_pass_Hz << " Hz, steps " << steps);
+            CHECK(acceleration < 1e-3);
+            CHECK(te < 1e-3);
+        }
+    }
+
+    const auto& train = test::LiangTrain::instance();
+    const std::vector<dynamics::GearboxInputs> planetary{train.inputs(10.0)};
+    const auto full = dynamics::Motion::translational_torsional;
+    const MarchPlan fine = train.plan(24, 2400, full);
+    const auto exact = run_tile<1>(fine, planetary, train.no_fault(1), {}).records[0];
+    const auto matrices =
+        dynamics::assemble(fine.layout, planetary[0], std::vector<double>(8, 1e9));
+    for (const auto integrator : {Integrator::newmark, Integrator::sdirk3}) {
+        const double steps = implicit_steps(integrator, matrices, train.inputs(10.0).mesh_period_s,
+                                            fine.low_pass_rad_s);
+        MarchPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
+        plan.integrator = integrator;
+        plan.grid.stage_nodes = stage_nodes(integrator);
+        plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+        const auto ours = run_tile<1>(plan, planetary, train.no_fault(1), {}).records[0];
+        const auto [acceleration, te] = errors(ours, exact);
+        INFO("steps " << steps);
+        CHECK(acceleration < 1e-3);
+        CHECK(te < 1e-3);
+    }
 }
