@@ -19,13 +19,18 @@ struct SectionMoments {
 // m/N, of a tooth with these moments touched at the contact angle.
 double compliance(const SectionMoments& moments, const ToothProfile& profile,
                   const Material& material, double contact_angle);
+// Its three parts, by the contact angle's cosine or sine.
+double bending_compliance(const SectionMoments& moments, const ToothProfile& profile,
+                          const Material& material, double cosine);
+double shear_compliance(const SectionMoments& moments, const Material& material, double cosine);
+double axial_compliance(const SectionMoments& moments, const Material& material, double sine);
 
 // The sections of one tooth, healthy or cracked, gathered from the root towards the contact by
 // Gauss panels; relative error below 1e-12 as long as the stretch touches no section that is gone.
 class SectionSweep {
   public:
     // Gathers what lies between the beam's start and the involute, for contacts that see the crack.
-    // Both arguments must outlive the sweep.
+    // Nothing of a tooth that is broken. Both arguments must outlive the sweep.
     SectionSweep(const ToothProfile& profile, const CrackedSections& sections);
 
     // Goes on along the involute to u (towards the tip) as the crack has it.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "stiffness/sine_cosine.hpp"
+
 namespace gearpod::stiffness {
 
 ToothProfile::ToothProfile(const gears::Gear& gear, Profile profile)
@@ -77,7 +79,7 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
 }
 
 ToothSection ToothProfile::involute_section(double u) const {
-    const double cosine = std::cos(u), sine = std::sin(u);
+    const auto [sine, cosine] = sine_cosine(u);
     const double roll = half_base_angle_ - u;
     return {base_radius_ * (cosine - roll * sine), base_radius_ * (roll * cosine + sine),
             base_radius_ * std::abs(roll) * cosine};
