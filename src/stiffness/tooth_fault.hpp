@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace gearpod::stiffness {
@@ -48,6 +49,8 @@ class ToothFaultFamily {
     // The size at which the tooth carries nothing any more, or beyond which the fault's shape has
     // no meaning; larger ones count as it.
     virtual double largest_size() const = 0;
+    // What is wrong with a tooth that has this size, one sentence each; empty if nothing is.
+    virtual std::vector<std::string> problems(double /*size*/) const { return {}; }
     // Positions, ascending, at which the stiffness jumps whatever the size: an integrator's steps
     // should end there.
     virtual std::vector<double> jumps() const { return {}; }

@@ -10,6 +10,12 @@
 
 namespace gearpod::stiffness {
 
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
 class CrackOfOneDepth : public ToothFault {
   public:
     CrackOfOneDepth(const ToothCrack& family, double depth_m)
@@ -19,6 +25,10 @@ class CrackOfOneDepth : public ToothFault {
     bool changes_sections() const override { return true; }
 
     void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
+        if (sections_.broken()) {
+            std::fill(compliance.begin(), compliance.end(), kInfinity);
+            return;
+        }
         SectionSweep sweep(family_.profile_, sections_);
         const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
         for (std::size_t i = 0; i < tau.size(); ++i) {
@@ -40,10 +50,8 @@ class CrackOfOneDepth : public ToothFault {
   private:
     double touched_at(double u, SectionSweep& sweep) const {
         if (sections_.gone(u))
-            return std::numeric_limits<double>::infinity();
-        if (sections_.cracked())
-            sweep.advance_cracked(std::max(u, sections_.boundary()));
-        sweep.advance_healthy(u);
+            return kInfinity;
+        sweep.advance(u);
         return stiffness::compliance(sweep.moments(), family_.profile_, family_.material_,
                                      family_.profile_.involute_angle(u));
     }

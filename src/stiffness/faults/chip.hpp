@@ -1,0 +1,53 @@
+// A tooth with a chip off one end of its tip: the contact's width shrinks along a hyperbola towards
+// the tip and with it the Hertz stiffness alone; the beam keeps its stiffness. Tian (2004), section
+// 3.2, Eqs. 3.1-3.4.
+//
+//     L_c = L                                                        0 <= d_c <= d_h - b
+//     L_c = (d_h^2 z / b - d_h z) / d_c + L - d_h z / b,     d_h - b <= d_c <= d_h
+//
+// so that L_c falls from the whole width L at the depth b below the tip to L - z at the tip. d_c is
+// the contact's distance, along the tooth's centre line, from the section at the base circle
+// (Eq. 3.3); at the root circle where that is the larger one, and for internal teeth. Tian calls
+// d_h the distance between roof and root; it is taken as the radial distance of the tip circle from
+// the circle where d_c is 0, since only this starts the chip at his 22.4 degrees (22.42; from
+// section to section 22.96, and the whole tooth's height leaves nothing to touch the chip).
+// Contacts beyond d_h, on the last tenth of a millimetre in his case, count as d_h.
+//
+// Size: the chip's length z along the face, m. Its depth is a quarter of that, as in Tian's case (z
+// = 8 mm, b = 2 mm).
+#pragma once
+
+#include "gears/mesh_geometry.hpp"
+#include "stiffness/tooth_fault.hpp"
+#include "stiffness/tooth_profile.hpp"
+
+namespace gearpod::stiffness {
+
+class ToothChip : public ToothFaultFamily {
+  public:
+    static constexpr double kDepthOverLength = 0.25;
+
+    // which: the gear whose tooth is chipped (1 or 2 of the geometry).
+    ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which);
+
+    std::unique_ptr<const ToothFault> at(double length_m) const override;
+    // The face width, or the length at which the chip is as deep as the tooth is high.
+    double largest_size() const override;
+    std::vector<std::string> problems(double length_m) const override;
+
+    double tooth_height() const { return height_; }  // d_h, m
+
+  private:
+    friend class ChipOfOneLength;
+    double distance(double tau) const;         // d_c
+    double position(double distance_m) const;  // tau of a d_c
+
+    ToothProfile profile_;  // root circle: its involute begins where d_c is 0
+    double face_width_m_;
+    int which_;
+    double contact_ratio_;
+    double contact_start_, contact_rate_;  // involute angle of the contact: start + rate tau
+    double foot_axial_ = 0, height_ = 0;
+};
+
+}  // namespace gearpod::stiffness
