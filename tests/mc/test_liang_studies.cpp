@@ -98,6 +98,25 @@ TEST_CASE("Figs. 3.12, 3.14, 3.16: each crack level lowers the stiffness, a lost
     }
 }
 
+TEST_CASE("Cracks of all four levels march, and show the more the deeper they are") {
+    // A planet's crack shows in its own tooth; a sun's meets all planet teeth in turn.
+    const std::map<std::string, std::string> shown{{"liang-fig-3-12.toml", "sensor_rms"},
+                                                   {"liang-fig-3-14.toml", "window_ratio"},
+                                                   {"liang-fig-3-16.toml", "window_ratio"}};
+    for (const auto& [name, feature] : shown) {
+        INFO(name);
+        const mc::Results results = test::run(shipped_study(name));
+        for (const auto status : results.status) {
+            CHECK(status == 0);
+        }
+        const auto& values = results.features[test::feature_index(results, feature)].values;
+        REQUIRE(values.size() == 6);  // a healthy gearbox for the threshold, then 0 to 100 %
+        for (std::size_t i = 2; i < values.size(); ++i) {
+            CHECK(values[i] > 1.02 * values[i - 1]);
+        }
+    }
+}
+
 TEST_CASE(
     "Fig. 4.6: a cracked sun tooth moves the sun as it meets each planet, every 4.75 meshes") {
     const mc::Scene scene(shipped_study("liang-fig-4-6.toml"));
