@@ -89,6 +89,10 @@ FoldPlan::FoldPlan(const Timeline& timeline, const SpanLayout& layout) : layout_
         }
         sums_.first.push_back(static_cast<int>(sums_.pair.size()));
     }
+    for (long k = 0; k < layout.meshes(); ++k) {
+        const int mesh = timeline[k % static_cast<long>(timeline.size())];
+        pair_of_mesh_.push_back(number[code(mesh, static_cast<int>(k % layout.carrier_meshes))]);
+    }
 }
 
 }  // namespace gearpod::signals

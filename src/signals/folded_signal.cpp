@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "signals/fold_squares.hpp"
@@ -29,13 +30,20 @@ void check_shapes(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
 
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
                   std::span<const double> path_exponent, machine::AlignedVector& folded) {
+    fold_squares(tile, plan, path, path_exponent, {}, folded);
+}
+
+void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
+                  std::span<const double> path_exponent, const Tones& tones,
+                  machine::AlignedVector& folded) {
     check_shapes(tile, plan, path, path_exponent.size());
     const std::size_t lanes = tile.lanes;
     const std::size_t positions = path.positions();
     const machine::AlignedVector exponent(path_exponent.begin(), path_exponent.end());
     machine::AlignedVector whole_steps((positions / 2 + 1) * lanes);
     machine::AlignedVector weight(positions * tile.planets * lanes);
-    machine::AlignedVector squares(plan.pairs().carrier.size() * lanes);
+    machine::AlignedVector pairs(plan.pairs().carrier.size() * lanes *
+                                 (tones.empty() ? 1 : kTonePhases));
     machine::AlignedVector totals(plan.sums().first.size() * lanes);
     folded.resize(static_cast<std::size_t>(plan.layout().planet_teeth) * tile.phases * lanes);
 
@@ -44,9 +52,14 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     a.plan = &plan;
     a.accel = tile.accel.data();
     a.exponent = exponent.data();
+    std::optional<ToneTable> table;
+    if (!tones.empty()) {
+        table.emplace(tones, tile.lanes, 0, plan.layout().meshes(), tile.phases);
+        a.tones = &*table;
+    }
     a.whole_steps = whole_steps.data();
     a.weight = weight.data();
-    a.squares = squares.data();
+    a.pairs = pairs.data();
     a.totals = totals.data();
     a.folded = folded.data();
     if (tile.lanes == machine::kLanes) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "signals/tile_signals.hpp"
+#include "signals/tones.hpp"
 #include "signals/transmission_path.hpp"
 
 namespace gearpod::signals {
@@ -42,6 +43,7 @@ class FoldPlan {
     const Pairs& pairs() const { return pairs_; }
     const Sums& sums() const { return sums_; }
     const std::vector<int>& sum_of_tooth() const { return sum_of_tooth_; }  // Z_p
+    const std::vector<int>& pair_of_mesh() const { return pair_of_mesh_; }  // Z_p Z_r, of the span
     const SpanLayout& layout() const { return layout_; }
     int largest_mesh() const { return largest_mesh_; }
 
@@ -51,6 +53,7 @@ class FoldPlan {
     Pairs pairs_;
     Sums sums_;
     std::vector<int> sum_of_tooth_;
+    std::vector<int> pair_of_mesh_;
 };
 
 // F in (m/s^2)^2, [b][lane], Z_p P bins, for every lane's path exponent (1/rad^2, one per lane).
@@ -58,6 +61,11 @@ class FoldPlan {
 // Throws std::invalid_argument if the shapes disagree.
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
                   std::span<const double> path_exponent, machine::AlignedVector& folded);
+
+// The same for the signal with tones: a pass over all samples of the span, unless there are none.
+void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
+                  std::span<const double> path_exponent, const Tones& tones,
+                  machine::AlignedVector& folded);
 
 // Mean square of the signal over the span, (m/s^2)^2, from the folded squares of one gearbox.
 double mean_square(std::span<const double> folded, const SpanLayout& layout);

@@ -4,15 +4,17 @@
 #include <vector>
 
 #include "signals/tile_signals.hpp"
+#include "signals/tones.hpp"
 #include "signals/transmission_path.hpp"
 
 namespace gearpod::signals {
 
 // Noise-free sensor signal of one gearbox, m/s^2, [k * P + p] for meshes first..first + count - 1
-// of the span (k counted from `first`). The arithmetic is that of fold_squares: folding this signal
-// gives its values. Throws std::invalid_argument if the shapes disagree.
+// of the span (k counted from `first`), with the tones that its lane has. The arithmetic is that of
+// fold_squares: folding this signal gives its values. Throws std::invalid_argument if the shapes
+// disagree.
 std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
-                               int first_mesh, int mesh_count);
+                               int first_mesh, int mesh_count, const Tones& tones = {});
 
 }  // namespace gearpod::signals

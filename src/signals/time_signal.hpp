@@ -1,6 +1,7 @@
 // The kernels behind synthesize; see sensor.hpp.
 #pragma once
 
+#include "signals/tones.hpp"
 #include "signals/transmission_path.hpp"
 
 namespace gearpod::signals {
@@ -12,5 +13,8 @@ void all_path_weights(const PathGrid& path, double exponent, double* whole_steps
 // signal[p] of one mesh period at carrier index c from accel[p][channel] of one gearbox.
 void mesh_signal(const PathGrid& path, const double* weight, int c, const double* accel,
                  double* signal);
+
+// Adds the tones of one gearbox to the samples of the table's mesh i out of `meshes`.
+void add_tones(const ToneTable& table, int i, int meshes, int phases, double* signal);
 
 }  // namespace gearpod::signals

@@ -2,6 +2,7 @@
 #include "signals/planet_count.hpp"
 #include "signals/resultant.hpp"
 #include "signals/time_signal.hpp"
+#include "signals/tone_sample.hpp"
 
 namespace gearpod::signals {
 namespace {
@@ -41,6 +42,18 @@ GEARPOD_INLINE void signal_for(const PathGrid& path, const double* weight, int c
         });
 }
 
+GEARPOD_INLINE void tones_of_mesh(const ToneTable& table, long i, long meshes, long phases,
+                                  double* signal) {
+    const long tones = table.tones();
+    for (long p = 0; p < phases; ++p) {
+        for (long t = 0; t < tones; ++t) {
+            signal[p] = plus_tone(
+                signal[p], table.mesh_sine()[t * meshes + i], table.mesh_cosine()[t * meshes + i],
+                table.phase_sine()[p * tones + t], table.phase_cosine()[p * tones + t]);
+        }
+    }
+}
+
 }  // namespace
 
 GEARPOD_KERNEL(all_path_weights,
@@ -51,5 +64,8 @@ GEARPOD_KERNEL(mesh_signal,
                (const PathGrid& path, const double* weight, int c, const double* accel,
                 double* signal),
                (path, weight, c, accel, signal), signal_for(path, weight, c, accel, signal))
+
+GEARPOD_KERNEL(add_tones, (const ToneTable& table, int i, int meshes, int phases, double* signal),
+               (table, i, meshes, phases, signal), tones_of_mesh(table, i, meshes, phases, signal))
 
 }  // namespace gearpod::signals

@@ -1,22 +1,15 @@
 // Liang's planetary gearbox (2016): what its published figures show.
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <kissfft/kissfft.hh>
-
-#include "signals/sensor.hpp"
-#include "study_file.hpp"
+#include "liang_signals.hpp"
 
 using namespace gearpod;
+using test::kNothing;
+using test::largest_off_multiples_of_4;
+using test::run_one;
+using test::sensor_signal;
 using test::shipped_study;
+using test::spectrum;
 
 namespace {
-
-mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false) {
-    const mc::GearboxId id{mc::Group::graded, 0};
-    return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1, with_motion);
-}
 
 // The study with one gearbox and no scatter; a crack of the given depth on the given member.
 mc::Study with_crack(mc::Member member, double depth_m,
@@ -29,36 +22,6 @@ mc::Study with_crack(mc::Member member, double depth_m,
     }
     study.fault.depth_m = depth_m;
     return study;
-}
-
-// Amplitudes of the sensor signal over `meshes` mesh periods; line i lies at i f_m / meshes.
-std::vector<double> spectrum(const mc::Scene& scene, int meshes) {
-    const auto tile = run_one(scene);
-    const auto signal =
-        signals::synthesize(tile.views, 0, tile.march.content, mc::span_layout(scene),
-                            mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
-    std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
-    kissfft<double> fft(signal.size(), false);
-    fft.transform(in.data(), out.data());
-    std::vector<double> amplitudes;
-    for (std::size_t i = 0; i < out.size() / 2; ++i) {
-        amplitudes.push_back(2.0 * std::abs(out[i]) / static_cast<double>(out.size()));
-    }
-    return amplitudes;
-}
-
-// Lines that must vanish do so to the tolerance at which orbit and decay count as reached (1e-10 of
-// the displacement, which is more of the acceleration).
-constexpr double kNothing = 1e-7;
-
-double largest_off_multiples_of_4(const std::vector<double>& amplitudes) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-        if (i % 4 != 0) {
-            largest = std::max(largest, amplitudes[i]);
-        }
-    }
-    return largest;
 }
 
 }  // namespace
@@ -145,50 +108,12 @@ TEST_CASE("A cracked planet tooth repeats every Z_p meshes and the healthy lines
     CHECK(off > 1e-2 * after[top]);
 }
 
-TEST_CASE("Inertial terms do not show at 8.87 rpm and do at 950 rpm") {
-    // Fig. 4.8: vertical displacement of the sun with a crack of 2.34 mm in a sun tooth.
-    const auto sun_y = [](double rpm, bool inertial) {
-        mc::Study study = with_crack(mc::Member::sun, 2.34e-3);
-        study.operation.carrier_speed_rad_s = rpm * 2 * 3.14159265358979 / 60;
-        study.effects.inertial_terms = inertial;
-        study.sensor.sampling_Hz = 60000;
-        study.sensor.low_pass_Hz = 20000;
-        study.sensor.encoder_sampling_Hz = 60000;
-        study.numerics.max_meshes = 20000;
-        const mc::Scene scene(study);
-        const auto tile = run_one(scene, true);
-        REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
-        std::vector<double> y;
-        for (const int id : tile.march.content) {
-            const auto& motion = tile.march.records[static_cast<std::size_t>(id)].motion;
-            for (std::size_t i = 7; i < motion.size(); i += 21) {
-                y.push_back(motion[i]);
-            }
-        }
-        return y;
-    };
-    const auto difference = [&](double rpm) {
-        const auto with = sun_y(rpm, true), without = sun_y(rpm, false);
-        double d = 0.0, s = 0.0;
-        for (std::size_t i = 0; i < with.size(); ++i) {
-            d += (with[i] - without[i]) * (with[i] - without[i]);
-            s += without[i] * without[i];
-        }
-        return std::sqrt(d / s);
-    };
-    CHECK(difference(8.87) < 0.005);
-    CHECK(difference(950.0) > 0.05);
-}
-
 TEST_CASE("The raw acceleration is large; the 800 Hz sensor shows the thesis' few m/s^2") {
     // Sections 4.4 and 5.2: about 5 m/s^2 healthy and 10 m/s^2 with a 4.3 mm crack; hundreds of
     // m/s^2 before the low-pass (PHYSICS of the bandwidth).
     const auto peak = [](double depth_m) {
         const mc::Scene scene(with_crack(mc::Member::planet, depth_m));
-        const auto tile = run_one(scene);
-        const auto signal = signals::synthesize(
-            tile.views, 0, tile.march.content, mc::span_layout(scene), mc::path_grid(scene),
-            tile.inputs[0].path_exponent, 0, scene.span_meshes());
+        const auto signal = sensor_signal(scene, scene.span_meshes());
         return std::abs(*std::max_element(signal.begin(), signal.end(), [](double a, double b) {
             return std::abs(a) < std::abs(b);
         }));

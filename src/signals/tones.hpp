@@ -1,0 +1,49 @@
+// Interfering tones: what the rest of the machine adds to the accelerometer. Liang (2016), Table
+// 5.1, lists those of his two-stage rig (drive motor 20 Hz, bevel mesh 360 Hz, first stage's sun 5
+// Hz, planet 1.9 Hz, mesh 118.2 Hz, and their harmonics). To the sample of mesh k at phase p/P is
+// added
+//
+//     sum over the tones of A sin(2 pi f (k + p/P) T_m + phi),
+//
+// with A as the sensor delivers it: after its low-pass.
+//
+// A tone does not repeat with the meshes, so its folded squares need every sample of the span. The
+// angle splits into one part for the mesh and one for the phase, whose phasors are tabulated: a
+// sample costs two fused multiply-adds a tone, and a gearbox without tones nothing.
+#pragma once
+
+#include "machine/lanes.hpp"
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::signals {
+
+// The tones of a tile's gearboxes. Every lane has the same number of them.
+struct Tones {
+    machine::AlignedVector mesh_period_s;   // [lane]
+    machine::AlignedVector frequency_Hz;    // [tone][lane]
+    machine::AlignedVector amplitude_m_s2;  // [tone][lane]
+    machine::AlignedVector phase_rad;       // [tone][lane], at the span's start
+
+    bool empty() const { return frequency_Hz.empty(); }
+};
+
+// Phasors of a tile's tones over the meshes and the phases of a span.
+class ToneTable {
+  public:
+    // Throws std::invalid_argument unless the arrays have the shapes above for that many lanes.
+    ToneTable(const Tones& tones, int lanes, int first_mesh, int meshes, int phases);
+
+    int tones() const { return tones_; }
+    // [tone][mesh][lane]: sin and cos of 2 pi f k T_m.
+    const double* mesh_sine() const { return mesh_sine_.data(); }
+    const double* mesh_cosine() const { return mesh_cosine_.data(); }
+    // [p][tone][lane]: A sin and A cos of 2 pi f (p/P) T_m + phi.
+    const double* phase_sine() const { return phase_sine_.data(); }
+    const double* phase_cosine() const { return phase_cosine_.data(); }
+
+  private:
+    int tones_;
+    machine::AlignedVector mesh_sine_, mesh_cosine_, phase_sine_, phase_cosine_;
+};
+
+}  // namespace gearpod::signals

@@ -1,0 +1,50 @@
+// Golden curves: what the built program prints or writes for a study, kept as a table under curves/
+// so that a change of any curve shows. README of tests/ has the commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gearpod::golden {
+
+// Columns of equal length under their names.
+struct Curves {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+};
+
+// Where the program leaves the numbers.
+enum class Source {
+    csv,     // standard output, as CSV with a header
+    json,    // standard output, arrays of a JSON object
+    results  // datasets of the HDF5 file that --out names (added to the command)
+};
+
+struct Golden {
+    std::string name;     // curves/<name>.csv
+    std::string command;  // arguments of gearpod, from the project's top folder
+    Source source = Source::csv;
+    // Columns, JSON keys or dataset paths to keep; all columns of a CSV if empty. A dataset's
+    // values follow each other row by row.
+    std::vector<std::string> columns;
+    int stride = 1;  // every so many values
+    // Allowed difference, as a share of the column's spread (largest minus smallest value).
+    double tolerance = 0;
+};
+
+// The table of golden curves (table.cpp).
+const std::vector<Golden>& goldens();
+
+// Runs the program. Throws std::runtime_error if it fails or a column is missing.
+Curves compute(const Golden& golden);
+
+std::string curves_path(const Golden& golden);
+// The kept curves. Throws std::runtime_error if the file cannot be read.
+Curves read_curves(const Golden& golden);
+void write_curves(const Golden& golden, const Curves& curves);
+
+// What differs by more than the tolerance, a line a column; empty if nothing does. Values that are
+// not numbers agree with each other only.
+std::string differences(const Curves& kept, const Curves& now, double tolerance);
+
+}  // namespace gearpod::golden

@@ -1,0 +1,58 @@
+// Signals and spectra of one gearbox of a study, for the tests of Liang's published results.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <kissfft/kissfft.hh>
+#include <vector>
+
+#include "signals/sensor.hpp"
+#include "study_file.hpp"
+
+namespace gearpod::test {
+
+// The graded gearbox of that number, alone.
+inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
+                               std::uint64_t number = 0) {
+    const mc::GearboxId id{mc::Group::graded, number};
+    return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
+                             std::span(&id, 1), 1, with_motion);
+}
+
+// Its sensor signal over the first `meshes` mesh periods, m/s^2.
+inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
+                                         std::uint64_t number = 0) {
+    const auto tile = run_one(scene, false, number);
+    return signals::synthesize(tile.views, 0, tile.march.content, mc::span_layout(scene),
+                               mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
+}
+
+// Amplitudes of that signal; line i lies at i f_m / meshes.
+inline std::vector<double> spectrum(const mc::Scene& scene, int meshes, std::uint64_t number = 0) {
+    const auto signal = sensor_signal(scene, meshes, number);
+    std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
+    kissfft<double> fft(signal.size(), false);
+    fft.transform(in.data(), out.data());
+    std::vector<double> amplitudes;
+    for (std::size_t i = 0; i < out.size() / 2; ++i) {
+        amplitudes.push_back(2.0 * std::abs(out[i]) / static_cast<double>(out.size()));
+    }
+    return amplitudes;
+}
+
+// Lines that must vanish do so to the tolerance at which orbit and decay count as reached (1e-10 of
+// the displacement, which is more of the acceleration).
+inline constexpr double kNothing = 1e-7;
+
+inline double largest_off_multiples_of_4(const std::vector<double>& amplitudes) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+        if (i % 4 != 0) {
+            largest = std::max(largest, amplitudes[i]);
+        }
+    }
+    return largest;
+}
+
+}  // namespace gearpod::test
