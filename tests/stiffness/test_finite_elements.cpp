@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "gear_pairs.hpp"
-#include "stiffness/cracked_pair.hpp"
-#include "stiffness/pair_stiffness.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -48,17 +48,16 @@ struct AluminiumPair {
     gears::Gear gear{23, false, 6e-3, test_pairs::kPressureAngle};
     gears::MeshGeometry geometry{gear, gear};
     Material material{69e9, 0.33, 0.015};
-    PairStiffness healthy{geometry, material, Profile::root_circle};
-    CrackedToothCurve cracked =
-        CrackedPairFamily(geometry, material, Profile::root_circle, 1, test_pairs::kCrackAngle)
-            .at(4.7e-3);
+    AdditiveMesh healthy{geometry, material, Profile::root_circle};
+    ToothCrack crack{geometry, material, Profile::root_circle, 1, test_pairs::kCrackAngle};
+    ToothPairCurve cracked = healthy.faulty_pair(*crack.at(4.7e-3));
 
-    double mesh(const Row& row) const { return healthy.mesh(row.phase); }
+    double mesh(const Row& row) const { return total_at(healthy, row.phase); }
     double crack_entering(const Row& row) const {
-        return mesh(row) - healthy.tooth_pair(row.phase) + cracked.tooth_pair(row.phase);
+        return mesh(row) - healthy.tooth_pair(row.phase) + cracked(row.phase);
     }
     double crack_leaving(const Row& row) const {
-        return mesh(row) - healthy.tooth_pair(row.phase + 1) + cracked.tooth_pair(row.phase + 1);
+        return mesh(row) - healthy.tooth_pair(row.phase + 1) + cracked(row.phase + 1);
     }
 };
 
