@@ -16,10 +16,10 @@ namespace {
 constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
-    if (sample.values.size() != sample.fault_size_m.size() * levels) {
+    if (sample.values.size() != sample.fault_size.size() * levels) {
         throw std::invalid_argument(
             fmt::format("detection: {} {} values for {} gearboxes at {} noise levels",
-                        sample.values.size(), which, sample.fault_size_m.size(), levels));
+                        sample.values.size(), which, sample.fault_size.size(), levels));
     }
 }
 
@@ -29,7 +29,7 @@ void check_request(const DetectionRequest& request) {
     }
     for (std::size_t g = 0; g < request.groups.size(); ++g) {
         const SizeGroup& group = request.groups[g];
-        if (group.high_m < group.low_m || (g > 0 && group.low_m < request.groups[g - 1].high_m)) {
+        if (group.high < group.low || (g > 0 && group.low < request.groups[g - 1].high)) {
             throw std::invalid_argument("detection: the size groups must ascend");
         }
     }
@@ -37,27 +37,27 @@ void check_request(const DetectionRequest& request) {
 
 // A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
 // edge and leaves the upper one to the next group, unless no group begins there.
-std::size_t group_of(double size_m, const std::vector<SizeGroup>& groups) {
+std::size_t group_of(double size, const std::vector<SizeGroup>& groups) {
     constexpr double kSameSize = 1e-9;
     std::size_t found = kNoGroup;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const double slack = kSameSize * std::abs(groups[g].high_m);
-        const bool level = groups[g].low_m == groups[g].high_m;
-        const double low = level ? groups[g].low_m - slack : groups[g].low_m;
-        const double high = level ? groups[g].high_m + slack : groups[g].high_m;
-        if (size_m >= low && size_m <= high) {
+        const double slack = kSameSize * std::abs(groups[g].high);
+        const bool level = groups[g].low == groups[g].high;
+        const double low = level ? groups[g].low - slack : groups[g].low;
+        const double high = level ? groups[g].high + slack : groups[g].high;
+        if (size >= low && size <= high) {
             found = g;
         }
     }
     return found;
 }
 
-std::vector<std::size_t> groups_of(std::span<const double> sizes_m,
+std::vector<std::size_t> groups_of(std::span<const double> sizes,
                                    const std::vector<SizeGroup>& groups) {
     std::vector<std::size_t> out;
-    out.reserve(sizes_m.size());
-    for (const double size_m : sizes_m) {
-        out.push_back(group_of(size_m, groups));
+    out.reserve(sizes.size());
+    for (const double size : sizes) {
+        out.push_back(group_of(size, groups));
     }
     return out;
 }
@@ -85,8 +85,8 @@ void rate(DetectionCell& cell, bool has_threshold, double confidence) {
 
 std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
     std::vector<double> values;
-    values.reserve(sample.fault_size_m.size());
-    for (std::size_t i = 0; i < sample.fault_size_m.size(); ++i) {
+    values.reserve(sample.fault_size.size());
+    for (std::size_t i = 0; i < sample.fault_size.size(); ++i) {
         values.push_back(sample.values[i * levels + level]);
     }
     return values;
@@ -120,7 +120,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     FeatureDetection result;
     result.feature = feature;
     result.alarm = alarm;
-    const std::vector<std::size_t> group = groups_of(graded.fault_size_m, request.groups);
+    const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);
     for (std::size_t n = 0; n < levels; ++n) {
         LevelDetection level;
         level.noise_level = request.noise_levels[n];
@@ -141,7 +141,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         for (DetectionCell& cell : level.cells) {
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
-        warn(level, healthy.fault_size_m.size(), request.false_alarm_rate, result.warnings);
+        warn(level, healthy.fault_size.size(), request.false_alarm_rate, result.warnings);
         result.levels.push_back(std::move(level));
     }
     if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {

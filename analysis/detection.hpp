@@ -11,11 +11,11 @@ namespace gearpod::analysis {
 // Which side of the threshold raises the alarm.
 enum class Alarm { high, low };
 
-// One group of gearboxes whose fault sizes lie in [low_m, high_m]; both are equal for a fixed
-// level.
+// One group of gearboxes whose fault sizes lie in [low, high], in the request's size_unit; both are
+// equal for a fixed level.
 struct SizeGroup {
-    double low_m = 0.0;
-    double high_m = 0.0;
+    double low = 0.0;
+    double high = 0.0;
 };
 
 // Detections in one size group at one noise level.
@@ -49,17 +49,19 @@ struct DetectionRequest {
     double false_alarm_rate = 0.05;
     double confidence = 0.95;
     std::vector<double> noise_levels;
-    std::vector<SizeGroup> groups;  // ascending; from levels or from edges
+    std::vector<SizeGroup> groups;         // ascending; from levels or from edges
+    std::string size_name = "fault_size";  // the parameter that holds a gearbox's fault size
+    std::string size_unit = "m";           // of the sizes: "m", or "1" for a pure number
 };
 
 // Values of one feature for one set of gearboxes, row-major: values[i * levels + level].
 // NaN marks a gearbox that failed.
 struct FeatureSample {
-    std::span<const double> fault_size_m;  // one per gearbox
-    std::span<const double> values;        // gearboxes x noise levels
+    std::span<const double> fault_size;  // one per gearbox
+    std::span<const double> values;      // gearboxes x noise levels
 };
 
-// Thresholds from `healthy` (all of them, whatever their fault_size_m), rates from `graded`.
+// Thresholds from `healthy` (all of them, whatever their fault_size), rates from `graded`.
 // Throws std::invalid_argument if the shapes disagree.
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
                         const FeatureSample& graded, const DetectionRequest& request);

@@ -15,10 +15,9 @@ nlohmann::json number(double value) {
 }
 
 nlohmann::json to_json(const DetectionCell& cell) {
-    return {{"size_low_m", cell.size.low_m}, {"size_high_m", cell.size.high_m},
-            {"tested", cell.tested},         {"detected", cell.detected},
-            {"failed", cell.failed},         {"pd", number(cell.pd)},
-            {"lower", number(cell.lower)},   {"upper", number(cell.upper)}};
+    return {{"size_low", cell.size.low},   {"size_high", cell.size.high}, {"tested", cell.tested},
+            {"detected", cell.detected},   {"failed", cell.failed},       {"pd", number(cell.pd)},
+            {"lower", number(cell.lower)}, {"upper", number(cell.upper)}};
 }
 
 nlohmann::json to_json(const LevelDetection& level) {
@@ -28,13 +27,13 @@ nlohmann::json to_json(const LevelDetection& level) {
     }
     nlohmann::json reliable(nullptr);
     if (const auto size = reliable_size(level, kReliablePd)) {
-        reliable = {size->low_m, size->high_m};
+        reliable = {size->low, size->high};
     }
     return {{"noise_level", level.noise_level},
             {"threshold", number(level.threshold)},
             {"threshold_sample", level.threshold_sample},
             {"threshold_alarms", level.threshold_alarms},
-            {"reliable_size_m", reliable},
+            {"reliable_size", reliable},
             {"sizes", sizes}};
 }
 
@@ -55,6 +54,7 @@ nlohmann::json detection_json(std::span<const FeatureDetection> features,
     }
     return {{"false_alarm_rate", request.false_alarm_rate},
             {"confidence", request.confidence},
+            {"size", {{"name", request.size_name}, {"unit", request.size_unit}}},
             {"features", list}};
 }
 

@@ -9,10 +9,10 @@
 
 namespace gearpod::analysis {
 
-// {"false_alarm_rate", "confidence", "features": [{"name", "alarm", "warnings": [...],
-//   "levels": [{"noise_level", "threshold", "threshold_sample", "threshold_alarms",
-//     "reliable_size_m": [low, high] or null, "sizes": [{"size_low_m", "size_high_m", "tested",
-//     "detected", "failed", "pd", "lower", "upper"}]}]}]}; lengths in metres.
+// {"false_alarm_rate", "confidence", "size": {"name", "unit"}, "features": [{"name", "alarm",
+//   "warnings": [...], "levels": [{"noise_level", "threshold", "threshold_sample",
+//     "threshold_alarms", "reliable_size": [low, high] or null, "sizes": [{"size_low", "size_high",
+//     "tested", "detected", "failed", "pd", "lower", "upper"}]}]}]}; sizes in their unit.
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request);
 

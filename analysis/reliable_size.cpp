@@ -5,7 +5,7 @@ namespace gearpod::analysis {
 std::optional<SizeGroup> reliable_size(const LevelDetection& level, double pd) {
     std::optional<SizeGroup> size;
     for (auto cell = level.cells.rbegin(); cell != level.cells.rend(); ++cell) {
-        if (cell->size.high_m <= 0.0 || !(cell->lower >= pd)) {
+        if (cell->size.high <= 0.0 || !(cell->lower >= pd)) {
             break;
         }
         size = cell->size;

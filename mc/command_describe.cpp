@@ -5,101 +5,62 @@
 
 #include "machine/dispatch.hpp"
 #include "mc/command_support.hpp"
+#include "mc/describe_effects.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/schema.hpp"
+#include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-void heading(const char* text) {
-    fmt::print("\n{}\n", text);
+std::string joined(const std::vector<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, " "));
 }
 
-void entry(const char* name, const std::string& value) {
-    fmt::print("  {:<26}{}\n", name, value);
+void print_planetary(const PlanetaryDrive& drive) {
+    const auto& train = drive.train();
+    print_entry("teeth (sun/planet/ring)",
+                fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
+                            train.ring_teeth, train.planets));
+    std::vector<std::string> sun, ring;
+    for (int n = 0; n < train.planets; ++n) {
+        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
+        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
+    }
+    print_entry("mesh phases, sun", joined(sun));
+    print_entry("mesh phases, ring",
+                fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
+}
+
+void print_fixed_shaft(const Study& study) {
+    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", *study.fixed_shaft.pinion_teeth,
+                                                   *study.fixed_shaft.gear_teeth));
+    const InstanceInputs nominal = Sampler(study).nominal();
+    const double balanced =
+        nominal.torque_N_m * *study.fixed_shaft.gear_teeth / *study.fixed_shaft.pinion_teeth;
+    const double load = nominal.fixed_shaft.load_torque_N_m;
+    if (std::abs(load - balanced) > 1e-6 * balanced) {
+        print_entry("torques out of balance",
+                    fmt::format("the load takes {:g} N m, {:.4g} N m would balance the motor; the "
+                                "speed is kept, only the vibration feels the difference",
+                                load, balanced));
+    }
 }
 
 void print_gearbox(const Scene& scene) {
-    const auto& train = scene.train();
-    heading("gearbox");
-    entry("teeth (sun/planet/ring)",
-          fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth, train.ring_teeth,
-                      train.planets));
-    std::string sun, ring;
-    for (int n = 0; n < train.planets; ++n) {
-        sun += fmt::format(" {:.4g}", gears::sun_mesh_phase(train, n, scene.planet_sense()));
-        ring += fmt::format(" {:.4g}", gears::ring_mesh_phase(train, n, scene.planet_sense()));
+    print_heading("gearbox");
+    if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
+        print_planetary(*planetary);
+    } else {
+        print_fixed_shaft(scene.study());
     }
-    entry("mesh phases, sun", sun.substr(1));
-    entry("mesh phases, ring",
-          ring.substr(1) + fmt::format("; ring to sun {:g}", gears::ring_to_sun_phase(train)));
-    const auto mesh = [&](const char* name, const stiffness::MeshStiffness& pair) {
-        entry(name, fmt::format("contact ratio {:.4f}, mean {:.4g} N/m", pair.contact_ratio(),
-                                mean_total(pair)));
-    };
-    mesh("sun-planet mesh", scene.sun_planet());
-    mesh("ring-planet mesh", scene.ring_planet());
-    entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
-}
-
-void print_effects(const Scene& scene) {
-    const Study& study = scene.study();
-    const Effects& e = study.effects;
-    const bool torsional = e.motion == Motion::torsional;
-    heading("simulated");
-    entry("motion", torsional ? "rotations only (rigid bearings)" : "x, y and rotation");
-    const char* damping[] = {"ratio of critical", "proportional to stiffness", "constant"};
-    entry("mesh damping", damping[static_cast<int>(e.mesh_damping)]);
-    const char* path[] = {"hamming", "hann", "rectangular"};
-    entry("transmission path",
-          fmt::format("{} window, exponent {:g}", path[static_cast<int>(e.path)],
-                      study.sensor.path_exponent));
-    entry("sensor low-pass",
-          fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
-    if (e.inertial_terms && !torsional) {
-        entry("inertial terms", "Coriolis and centrifugal, rigid rotation removed every mesh");
+    for (const SceneMesh& mesh : scene.meshes()) {
+        print_entry((mesh_name(mesh.members) + " mesh").c_str(),
+                    fmt::format("contact ratio {:.4f}, mean {:.4g} N/m",
+                                mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness)));
     }
-    if (study.fault.kind == FaultKind::crack) {
-        const char* member[] = {"sun", "planet", "ring", "carrier"};
-        std::string where = member[static_cast<int>(*study.fault.member)];
-        if (study.fault.side) {
-            where += fmt::format(" {}, {} side", study.fault.planet,
-                                 member[static_cast<int>(*study.fault.side)]);
-        }
-        entry("fault", "tooth crack on the " + where);
-    }
-    const bool sensor_noise =
-        study.sensor.noise_m_s2 > 0.0 || study.find_random("sensor.noise_m_s2") != nullptr;
-    const bool encoder_noise = study.sensor.encoder_noise_rad > 0.0 ||
-                               study.find_random("sensor.encoder_noise_arcsec") != nullptr;
-    if (sensor_noise) {
-        entry("sensor noise",
-              fmt::format("{:g} m/s^2 rms times the noise level", study.sensor.noise_m_s2));
-    }
-    if (encoder_noise) {
-        entry("encoder noise",
-              fmt::format("{:.4g} rad rms times the noise level", study.sensor.encoder_noise_rad));
-    }
-    heading("left out");
-    if (torsional) {
-        entry("x and y motion", "effects.motion = \"torsional\"");
-        entry("inertial terms", "rotations feel none");
-    } else if (!e.inertial_terms) {
-        entry("inertial terms", "effects.inertial_terms = false");
-    }
-    if (study.fault.kind == FaultKind::none) {
-        entry("fault", "fault.kind = \"none\"");
-    }
-    if (!sensor_noise) {
-        entry("sensor noise", "sensor.noise_m_s2 is 0");
-    }
-    if (!encoder_noise) {
-        entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
-    }
-    if (!std::isfinite(scene.decay_meshes())) {
-        fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
-    }
-    entry("tooth separation", "the meshes are linear springs under steady load");
+    print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
 }
 
 // Mesh periods a tile marches: the approach to the orbit and the passages of the fault.
@@ -107,6 +68,9 @@ double marched_meshes(const Scene& scene) {
     const Study& study = scene.study();
     if (study.numerics.horizon == Horizon::march) {
         return scene.span_meshes();
+    }
+    if (study.effects.quasi_static()) {
+        return 1.0 + 3.0 * static_cast<double>(scene.pattern().passages.size());
     }
     const double settle =
         std::min(1.0 + scene.decay_meshes() * -std::log(study.numerics.settle_tolerance),
@@ -123,21 +87,28 @@ double marched_meshes(const Scene& scene) {
 void print_cost(const Scene& scene) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
-    heading("cost");
-    entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
-    entry("samples a mesh period",
-          fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
-                      scene.te_samples_per_mesh()));
-    entry("sampling rate",
-          fmt::format("{:.1f} Hz", scene.samples_per_mesh() * scene.nominal_mesh_frequency_Hz()));
-    entry("steps a mesh period",
-          fmt::format("{} (at least {})", plan.grid.steps.size(), scene.least_steps()));
-    entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
-                                              marched_meshes(scene), scene.span_meshes()));
+    print_heading("cost");
+    print_entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
+    print_entry("samples a mesh period",
+                study.effects.quasi_static()
+                    ? fmt::format("{} (encoders)", scene.te_samples_per_mesh())
+                    : fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
+                                  scene.te_samples_per_mesh()));
+    print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
+                                                              scene.nominal_mesh_frequency_Hz()));
+    if (!study.effects.quasi_static()) {
+        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+        print_entry("steps a mesh period",
+                    fmt::format("{} (at least {}), {}", plan.grid.steps.size(), scene.least_steps(),
+                                kIntegrators[static_cast<int>(plan.integrator)]));
+    }
+    print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
+                                                    marched_meshes(scene), scene.span_meshes()));
     const long rows = study.ensemble.instances + study.ensemble.threshold_instances;
-    entry("gearboxes", fmt::format("{} graded and {} for the thresholds, {} noise levels",
-                                   study.ensemble.instances, study.ensemble.threshold_instances,
-                                   study.sensor.noise_levels.size()));
+    print_entry("gearboxes",
+                fmt::format("{} graded and {} for the thresholds, {} noise levels",
+                            study.ensemble.instances, study.ensemble.threshold_instances,
+                            study.sensor.noise_levels.size()));
     // Per step and gearbox in a full tile, measured with an AVX-512 core near 3 GHz for N = 4;
     // proportional to the degrees of freedom. One lane costs as much as eight.
     const double step_s =
@@ -145,16 +116,17 @@ void print_cost(const Scene& scene) {
     const double seconds = static_cast<double>(rows) * marched_meshes(scene) *
                            static_cast<double>(plan.grid.steps.size()) * step_s * 1.3 /
                            thread_count(study);
-    entry("estimated time",
-          fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),
-                      thread_count(study), machine::name(machine::active_instruction_set())));
-    const double mesh_bytes =
-        8.0 * scene.samples_per_mesh() * study.numerics.lanes * (2.0 * scene.train().planets + 1.0);
+    print_entry(
+        "estimated time",
+        fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),
+                    thread_count(study), machine::name(machine::active_instruction_set())));
+    const double mesh_bytes = 8.0 * scene.samples_per_mesh() * study.numerics.lanes *
+                              (2.0 * dynamics::sources(plan.layout) + 1.0);
     const double rows_bytes =
         8.0 * static_cast<double>(rows) *
         static_cast<double>(used_features(study).size() * study.sensor.noise_levels.size() +
                             study.random.size() + 3);
-    entry(
+    print_entry(
         "estimated memory",
         fmt::format(
             "{:.0f} MB",
@@ -163,17 +135,21 @@ void print_cost(const Scene& scene) {
 
 }  // namespace
 
-int describe_command(const StudyOptions& options) {
-    const auto study = load_study(options);
+int describe_command(const DescribeOptions& options) {
+    if (options.keys) {
+        fmt::print("{}", schema_help());
+        return kDone;
+    }
+    const auto study = load_study(options.study);
     if (!study) {
         return kBadInput;
     }
     fmt::print("# the resolved study\n{}", resolved_text(*study));
-    if (!study->gearbox.has_teeth() || !study->gearbox.module_m) {
+    if (!has_gears(*study)) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
-    const auto scene = load_scene(options);
+    const auto scene = load_scene(options.study);
     if (!scene) {
         return kBadInput;
     }

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/command_support.hpp"
+#include "mc/scene_body.hpp"
+#include "mc/scene_meshes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -12,13 +14,27 @@ namespace {
 constexpr double kSameMode = 1e-6;
 
 std::vector<double> mean_stiffness(const Study& study) {
-    const Gearbox& g = study.gearbox;
-    if (g.tooth_profile == ToothProfile::constant) {
-        std::vector<double> k(static_cast<std::size_t>(g.planets), *g.sun_planet_stiffness_N_m);
-        k.resize(2 * k.size(), *g.ring_planet_stiffness_N_m);
-        return k;
+    return study.gearbox.tooth_profile == ToothProfile::constant ? constant_pairs(study)
+                                                                 : Scene(study).mean_pairs();
+}
+
+// Natural frequencies are those of the standing gearbox.
+dynamics::GearboxLayout layout_at_rest(const Study& study) {
+    dynamics::GearboxLayout layout = gearbox_layout(study);
+    if (auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&layout)) {
+        planetary->inertial_terms = false;
     }
-    return Scene(study).mean_pairs();
+    return layout;
+}
+
+// Without masses there is nothing to vibrate.
+bool has_masses(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    const FixedShaft& f = study.fixed_shaft;
+    return g.kind == GearboxKind::planetary
+               ? g.sun_mass_kg && g.planet_mass_kg && g.ring_mass_kg && g.carrier_mass_kg
+               : f.pinion_mass_kg && f.gear_mass_kg && f.motor_inertia_kg_m2 &&
+                     f.load_inertia_kg_m2;
 }
 
 }  // namespace
@@ -28,11 +44,20 @@ int modes_command(const ModesOptions& options) {
     if (!study) {
         return kBadInput;
     }
-    const auto inputs = body_inputs(Sampler(*study).nominal());
-    dynamics::PlanetaryLayout at_rest = layout(*study);
-    at_rest.inertial_terms = false;  // natural frequencies are those of the standing gearbox
-    const std::vector<double> frequencies = dynamics::natural_frequencies_Hz(
-        dynamics::assemble(at_rest, inputs, mean_stiffness(*study)));
+    if (!has_masses(*study)) {
+        print_problems({{options.study.path, 0, "gearbox", "no masses (modes need them)",
+                         "add the masses and inertias to [gearbox]"}});
+        return kBadInput;
+    }
+    const auto inputs = body_inputs(*study, Sampler(*study).nominal());
+    std::vector<double> frequencies;
+    try {
+        frequencies = dynamics::natural_frequencies_Hz(
+            dynamics::assemble(layout_at_rest(*study), inputs, mean_stiffness(*study)));
+    } catch (const SceneError& error) {
+        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        return kBadInput;
+    }
 
     if (!options.json.empty()) {
         const nlohmann::json json{{"frequencies_Hz", frequencies}};

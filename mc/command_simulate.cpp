@@ -73,8 +73,9 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
                 const InstanceFeatures& features, const GearboxId& id, std::size_t rows,
                 Simulation& out) {
     const InstanceInputs& inputs = tile.inputs[0];
-    const auto clean = signals::synthesize(tile.views, 0, tile.march.content, span_layout(scene),
-                                           path, inputs.path_exponent, 0, scene.span_meshes());
+    const auto clean =
+        signals::synthesize(tile.views, 0, tile.march.content, span_layout(scene), path,
+                            inputs.path_exponent, 0, scene.span_meshes(), tile.tones);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
@@ -108,14 +109,20 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
     Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
         angle{"carrier_angle", "rad", {}};
+    const double period_s = dynamics::mesh_period_s(inputs);
     for (std::size_t i = 0; i < rows; ++i) {
         const double mesh = static_cast<double>(i) / samples;
         phase.values.push_back(mesh);
-        time.values.push_back(mesh * inputs.mesh_period_s);
-        angle.values.push_back(mesh * inputs.mesh_period_s * inputs.carrier_speed_rad_s);
+        time.values.push_back(mesh * period_s);
+        angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
-    out.columns = {time, phase, angle};
-    add_sensor(scene, tile, path, features, id, rows, out);
+    out.columns = {time, phase};
+    if (scene.study().gearbox.kind == GearboxKind::planetary) {
+        out.columns.push_back(angle);
+    }
+    if (!scene.study().effects.quasi_static()) {
+        add_sensor(scene, tile, path, features, id, rows, out);
+    }
     add_motion(scene, tile, meshes, out);
     return out;
 }
@@ -196,7 +203,7 @@ int simulate_command(const SimulateOptions& options) {
     }
     const Study& study = scene->study();
     const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
-    const long meshes = options.meshes > 0 ? options.meshes : scene->train().planet_teeth;
+    const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
     if (options.instance < 0 || options.instance >= rows || meshes > scene->span_meshes()) {
         fmt::print(stderr, "--instance is a row of the results, 0 to {}; --meshes is at most {}\n",
                    rows - 1, scene->span_meshes());

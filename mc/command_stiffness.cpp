@@ -10,40 +10,52 @@
 namespace gearpod::mc {
 namespace {
 
-std::string pair_name(const Scene& scene, int pair) {
-    const int n = scene.train().planets;
-    return pair < n ? fmt::format("sp{}", pair + 1) : fmt::format("rp{}", pair - n + 1);
-}
-
-// Columns of the faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
+// Columns of a faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
 struct FaultColumn {
     std::string name;
+    int pair = 0;
     int period = 0;  // after the one in which the tooth engages
     std::shared_ptr<const stiffness::FaultyMesh> mesh;
 };
 
+// "3mm", or "0.1" for a pure number.
+std::string size_name(const Study& study, double size) {
+    const Unit& unit = fault_size_key(study).unit;
+    return fmt::format("{:g}{}", size / unit.to_si, unit.suffix);
+}
+
+// The first pair that the faulty tooth meets with each of its curves.
+std::vector<int> faulty_pairs(const Scene& scene) {
+    std::vector<int> pairs(static_cast<std::size_t>(scene.fault().curves()), -1);
+    for (const lockstep::FaultPassage& passage : scene.pattern().passages) {
+        int& pair = pairs[static_cast<std::size_t>(passage.curve)];
+        pair = pair < 0 ? passage.pair : pair;
+    }
+    return pairs;
+}
+
 std::vector<FaultColumn> fault_columns(const Scene& scene) {
     std::vector<FaultColumn> columns;
-    const int pair = scene.faulty_pair();
-    if (pair < 0) {
-        return columns;
-    }
-    const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
-    const int periods =
-        static_cast<int>(std::ceil(start + scene.pairs().curve(pair).contact_ratio()));
-    for (const double depth : fault_depths_m(scene.study())) {
-        for (int period = 0; period < periods; ++period) {
-            columns.push_back({fmt::format("{}_crack_{:g}mm_period{}", pair_name(scene, pair),
-                                           1e3 * depth, period + 1),
-                               period, scene.faulty_mesh(depth)});
+    const std::vector<int> pairs = faulty_pairs(scene);
+    for (int curve = 0; curve < scene.fault().curves(); ++curve) {
+        const int pair = pairs[static_cast<std::size_t>(curve)];
+        const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
+        for (const double size : fault_sizes(scene.study())) {
+            const auto mesh = scene.fault().mesh(curve, size);
+            const int periods = static_cast<int>(std::ceil(start + mesh->duration()));
+            for (int period = 0; period < periods; ++period) {
+                columns.push_back({fmt::format("{}_{}_{}_period{}", scene.drive().pair_name(pair),
+                                               choice_text(scene.study(), "fault", "kind"),
+                                               size_name(scene.study(), size), period + 1),
+                                   pair, period, mesh});
+            }
         }
     }
     return columns;
 }
 
 // The faulty pair's stiffness so many mesh periods after its faulty tooth engaged.
-double faulty_total(const Scene& scene, const stiffness::FaultyMesh& mesh, double since) {
-    const int pair = scene.faulty_pair();
+double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since) {
     const lockstep::PairSet& pairs = scene.pairs();
     if (since < 0.0 || since >= mesh.duration()) {
         return pairs.total(pair, pairs.start[static_cast<std::size_t>(pair)] + since);
@@ -57,13 +69,12 @@ std::string csv_text(const Scene& scene, int points) {
     const auto columns = fault_columns(scene);
     std::string text = "phase";
     for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-        text += fmt::format(",{}", pair_name(scene, pair));
+        text += fmt::format(",{}", scene.drive().pair_name(pair));
     }
     for (const FaultColumn& column : columns) {
         text += fmt::format(",{}", column.name);
     }
     text += "\n";
-    const auto faulty = static_cast<std::size_t>(std::max(scene.faulty_pair(), 0));
     for (int i = 0; i < points; ++i) {
         const double phase = static_cast<double>(i) / points;
         text += fmt::format("{:.9g}", phase);
@@ -71,8 +82,9 @@ std::string csv_text(const Scene& scene, int points) {
             text += fmt::format(",{:.9g}", scene.pairs().total(pair, phase));
         }
         for (const FaultColumn& column : columns) {
-            const double since = phase + column.period - scene.pairs().start[faulty];
-            text += fmt::format(",{:.9g}", faulty_total(scene, *column.mesh, since));
+            const double since =
+                phase + column.period - scene.pairs().start[static_cast<std::size_t>(column.pair)];
+            text += fmt::format(",{:.9g}", faulty_total(scene, column.pair, *column.mesh, since));
         }
         text += "\n";
     }
@@ -80,17 +92,23 @@ std::string csv_text(const Scene& scene, int points) {
 }
 
 void print_summary(const Scene& scene) {
-    const auto show = [](const char* name, const stiffness::MeshStiffness& curve) {
+    for (const SceneMesh& mesh : scene.meshes()) {
         fmt::print(
-            "{}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
+            "{:<11}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
             "engagement\n",
-            name, curve.contact_ratio(), mean_total(curve), curve.pitch_position());
-    };
-    show("sun-planet ", scene.sun_planet());
-    show("ring-planet", scene.ring_planet());
-    if (scene.faulty_pair() >= 0) {
-        fmt::print("faulty tooth on pair {}; it breaks off at a crack of {:.3f} mm\n",
-                   pair_name(scene, scene.faulty_pair()), 1e3 * max_fault_depth_m(scene.study()));
+            mesh_name(mesh.members), mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness),
+            mesh.stiffness->pitch_position());
+    }
+    const std::vector<int> pairs = faulty_pairs(scene);
+    if (!pairs.empty()) {
+        const Unit& unit = fault_size_key(scene.study()).unit;
+        std::string names;
+        for (const int pair : pairs) {
+            names += (names.empty() ? "" : " and ") + scene.drive().pair_name(pair);
+        }
+        fmt::print("faulty tooth on pair {}; its largest {} is {:.3f}{}\n", names,
+                   fault_size_key(scene.study()).stem(), scene.fault().largest_size() / unit.to_si,
+                   unit.suffix.empty() ? "" : " " + std::string(unit.name));
     }
     fmt::print("curves: --csv FILE, or --csv - for standard output\n");
 }

@@ -7,6 +7,7 @@
 
 #include "machine/dispatch.hpp"
 #include "mc/atomic_file.hpp"
+#include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -44,7 +45,7 @@ std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
     if (!study) {
         return nullptr;
     }
-    if (!study->gearbox.has_teeth() || !study->gearbox.module_m) {
+    if (!has_gears(*study)) {
         print_problems({{options.path, 0, "gearbox.sun_teeth",
                          "no tooth numbers or no module (only modes and describe do without)",
                          "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});

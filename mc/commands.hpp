@@ -30,7 +30,11 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
-int describe_command(const StudyOptions& options);
+struct DescribeOptions {
+    StudyOptions study;
+    bool keys = false;  // print all keys of study files instead
+};
+int describe_command(const DescribeOptions& options);
 
 struct StiffnessOptions {
     StudyOptions study;

@@ -191,15 +191,16 @@ int thread_count(const Study& study) {
 }
 
 std::vector<analysis::FeatureDetection> detect_all(const Results& results) {
-    const auto depth = std::find_if(results.parameters.begin(), results.parameters.end(),
-                                    [](const auto& p) { return p.name == "fault_depth_m"; });
+    const auto size =
+        std::find_if(results.parameters.begin(), results.parameters.end(),
+                     [&](const auto& p) { return p.name == results.request.size_name; });
     std::vector<double> healthy_size, graded_size;
     std::vector<std::size_t> healthy_rows, graded_rows;
     for (std::size_t row = 0; row < results.group.size(); ++row) {
         const bool threshold = results.group[row] == static_cast<int>(Group::threshold);
         (threshold ? healthy_rows : graded_rows).push_back(row);
         (threshold ? healthy_size : graded_size)
-            .push_back(depth == results.parameters.end() ? 0.0 : depth->values[row]);
+            .push_back(size == results.parameters.end() ? 0.0 : size->values[row]);
     }
     const std::size_t levels = results.noise_levels.size();
     const auto rows_of = [&](const FeatureResult& feature, const std::vector<std::size_t>& rows) {

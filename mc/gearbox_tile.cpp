@@ -2,7 +2,9 @@
 
 #include <chrono>
 
-#include "mc/instance_features.hpp"
+#include "lockstep/quasi_static.hpp"
+#include "mc/schema.hpp"
+#include "mc/tile_draws.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
 #include "signals/path_window.hpp"
@@ -20,48 +22,54 @@ double lap(Clock::time_point& start) {
     return seconds;
 }
 
-std::string_view window_name(PathWindow window) {
-    switch (window) {
-        case PathWindow::hann:
-            return "hann";
-        case PathWindow::rectangular:
-            return "rectangular";
-        case PathWindow::hamming:
-            break;
-    }
-    return "hamming";
-}
-
 lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
     settings.tolerance = n.settle_tolerance;
     settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.span_meshes() : 0;
+    settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
     settings.with_motion = with_motion;
     return settings;
 }
 
 template <int W>
-void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
+void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
+           GearboxTile& tile) {
     auto start = Clock::now();
     std::vector<dynamics::GearboxInputs> inputs;
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {{}}};
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));
-        faults.curve[0].push_back(scene.faulty_mesh(instance.fault_depth_m));
+        for (int c = 0; c < scene.fault().curves(); ++c) {
+            faults.curve[static_cast<std::size_t>(c)].push_back(
+                scene.fault().mesh(c, instance.fault_size));
+        }
     }
+    const auto tooth_errors = draw_tooth_errors(scene, ids, tile.inputs);
+    faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
-    tile.march =
-        lockstep::run_tile<W>(scene.plan(), inputs, faults, tile_settings(scene, with_motion));
+    const auto settings = tile_settings(scene, with_motion);
+    tile.march = scene.study().effects.quasi_static()
+                     ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
+                     : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     tile.march_s = lap(start);
 }
 
 }  // namespace
 
 signals::PathGrid path_grid(const Scene& scene) {
-    return {signals::path_window(window_name(scene.study().effects.path)), scene.train().planets,
-            scene.samples_per_mesh(), span_layout(scene)};
+    const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
+    if (planetary == nullptr || scene.study().effects.path == PathWindow::none) {
+        // One sensor that weighs the same whatever turns.
+        return {signals::path_window("rectangular"), 1, scene.samples_per_mesh(), scene.span()};
+    }
+    const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
+                                                            : signals::CarrierSense::positive;
+    return {signals::path_window(choice_text(scene.study(), "effects", "path")),
+            gears::planet_places(planetary->train()), scene.samples_per_mesh(), scene.span(),
+            sense};
 }
 
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
@@ -74,25 +82,28 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
     tile.sampling_s = lap(start);
     if (lanes == 1) {
-        march<1>(scene, with_motion, tile);
+        march<1>(scene, ids, with_motion, tile);
     } else {
-        march<8>(scene, with_motion, tile);
+        march<8>(scene, ids, with_motion, tile);
     }
 
     start = Clock::now();
-    tile.views = {lanes, scene.train().planets, scene.samples_per_mesh(), {}, {}};
+    tile.views = {lanes, dynamics::sources(scene.plan().layout), scene.samples_per_mesh(), {}, {}};
     for (const lockstep::MeshRecord& record : tile.march.records) {
         tile.views.accel.push_back(record.acceleration.data());
         tile.views.te.push_back(record.te.data());
     }
-    std::vector<double> exponents;
-    for (const InstanceInputs& instance : tile.inputs) {
-        exponents.push_back(instance.path_exponent);
+    // A gearbox without inertia shakes no sensor.
+    if (!scene.study().effects.quasi_static()) {
+        std::vector<double> exponents;
+        for (const InstanceInputs& instance : tile.inputs) {
+            exponents.push_back(instance.path_exponent);
+        }
+        tile.tones = draw_tones(scene, ids, tile.inputs);
+        const signals::FoldPlan plan(tile.march.content, scene.span());
+        signals::fold_squares(tile.views, plan, path, exponents, tile.tones, tile.folded);
     }
-    const signals::SpanLayout layout = span_layout(scene);
-    const signals::FoldPlan plan(tile.march.content, layout);
-    signals::fold_squares(tile.views, plan, path, exponents, tile.folded);
-    signals::average_te(tile.views, tile.march.content, layout, scene.te_samples_per_mesh(),
+    signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
                         tile.te_turn);
     tile.signals_s = lap(start);
     return tile;

@@ -8,22 +8,18 @@
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
 #include "signals/tile_signals.hpp"
+#include "signals/tones.hpp"
 #include "signals/transmission_path.hpp"
 
 namespace gearpod::mc {
-
-// Which gearbox: row `index` of its group.
-struct GearboxId {
-    Group group = Group::graded;
-    std::uint64_t index = 0;
-};
 
 // A tile's results; `march.records` owns what `views` shows.
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
     lockstep::TileResult march;
     signals::TileSignals views;
-    machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2
+    signals::Tones tones;            // interfering; empty without
+    machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;

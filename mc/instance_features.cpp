@@ -28,7 +28,7 @@ Philox noise_direction_stream(const Study& study, Group group, std::uint64_t ins
 }
 
 signals::SpanLayout span_layout(const Scene& scene) {
-    return {scene.train().planet_teeth, scene.train().ring_teeth, scene.path_meshes()};
+    return scene.span();
 }
 
 std::vector<const features::Feature*> used_features(const Study& study) {
@@ -46,11 +46,11 @@ std::vector<const features::Feature*> used_features(const Study& study) {
 InstanceFeatures::InstanceFeatures(const Scene& scene)
     : scene_(scene),
       features_(used_features(scene.study())),
-      sensor_noise_(scene.train().ring_teeth),
+      sensor_noise_(scene.span().ring_teeth),
       windowing_(span_layout(scene), scene.samples_per_mesh(), scene.study().features.tukey_taper),
-      spectrum_(scene.train().planet_teeth * scene.te_samples_per_mesh()),
+      spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
-      tooth_rms_(static_cast<std::size_t>(scene.train().planet_teeth)) {}
+      tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
 std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
                                               std::span<const double> te_turn,
@@ -58,33 +58,37 @@ std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
                                               std::uint64_t instance) {
     const Study& study = scene_.study();
     const auto& levels = study.sensor.noise_levels;
-    Philox sensor = sensor_noise_stream(study, group, instance);
-    sensor_noise_.draw(sensor, folded.size(), noise_.sensor);
+    const bool sensed = !folded.empty();  // a quasi-static gearbox has no sensor
+    if (sensed) {
+        Philox sensor = sensor_noise_stream(study, group, instance);
+        sensor_noise_.draw(sensor, folded.size(), noise_.sensor);
+    }
     Philox encoder = encoder_noise_stream(study, group, instance);
     noise_.encoder.resize(te_turn.size());
-    signals::draw_encoder_noise(encoder, scene_.train().ring_teeth, noise_.encoder);
+    signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
     spectrum_.load(te_turn, noise_.encoder);
     folded_.resize(folded.size());
     te_.resize(te_turn.size());
 
     std::vector<double> values(features_.size() * levels.size());
     for (std::size_t level = 0; level < levels.size(); ++level) {
-        signals::add_sensor_noise(folded, noise_.sensor, levels[level] * inputs.noise_m_s2,
-                                  folded_);
         const double te_noise = levels[level] * inputs.encoder_noise_rad;
         for (std::size_t i = 0; i < te_.size(); ++i) {
             te_[i] = te_turn[i] + te_noise * noise_.encoder[i];
         }
         spectrum_.amplitudes(te_noise, amplitude_);
-        windowing_.search(folded_, tooth_rms_);
-
         features::FeatureInput input;
+        if (sensed) {
+            signals::add_sensor_noise(folded, noise_.sensor, levels[level] * inputs.noise_m_s2,
+                                      folded_);
+            windowing_.search(folded_, tooth_rms_);
+            input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
+        }
         input.te_turn = te_;
         input.te_amplitude = amplitude_;
-        input.planet_teeth = scene_.train().planet_teeth;
+        input.planet_teeth = scene_.span().planet_teeth;
         input.te_harmonics = study.features.te_harmonics;
         input.tooth_rms = tooth_rms_;
-        input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
         for (std::size_t f = 0; f < features_.size(); ++f) {
             values[f * levels.size() + level] = features_[f]->compute(input);
         }

@@ -11,12 +11,12 @@ namespace {
 
 using namespace gearpod::mc;
 
-void add_study(CLI::App& command, StudyOptions& options) {
-    command.add_option("study", options.path, "study file (TOML)")->required();
+CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
     command
         .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
+    return command.add_option("study", options.path, "study file (TOML)")->required();
 }
 
 // --instances N and --seed S are short for keys of the study.
@@ -68,11 +68,17 @@ int run_program(int argc, char** argv) {
     report_app->add_option("--json", report.json, "write JSON to a file, or to - for the terminal");
     report_app->callback([&] { code = report_command(report); });
 
-    StudyOptions describe;
+    DescribeOptions describe;
     auto* describe_app =
         app.add_subcommand("describe", "what a study would simulate and cost; nothing runs");
-    add_study(*describe_app, describe);
-    describe_app->callback([&] { code = describe_command(describe); });
+    add_study(*describe_app, describe.study)->required(false);
+    describe_app->add_flag("--keys", describe.keys, "all keys of study files, without a study");
+    describe_app->callback([&] {
+        if (describe.study.path.empty() && !describe.keys) {
+            throw CLI::RequiredError("study");
+        }
+        code = describe_command(describe);
+    });
 
     StiffnessOptions stiffness;
     auto* stiffness_app = app.add_subcommand("stiffness", "mesh stiffness over one mesh period");

@@ -6,9 +6,9 @@
 //   /features/<feature>    gearboxes x noise levels, attributes `unit` and `alarm`
 //   /noise_levels          factors on the sensor and encoder noise
 //   /status                one value a gearbox, attribute `meanings`
-//   /detection             attributes false_alarm_rate, confidence
-//   /detection/<feature>/  size_low_m, size_high_m (sizes), noise_level, threshold,
-//   threshold_sample,
+//   /detection             attributes false_alarm_rate, confidence, size_name (the parameter that
+//                          holds a gearbox's fault size), size_unit
+//   /detection/<feature>/  size_low, size_high (sizes), noise_level, threshold, threshold_sample,
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /timing/<name>         seconds
@@ -26,7 +26,7 @@
 namespace gearpod::mc {
 
 // Raised when a reader of the current version would misread the file.
-inline constexpr int kResultsFormatVersion = 1;
+inline constexpr int kResultsFormatVersion = 2;
 
 enum class Status { ok = 0, diverged = 1, not_settled = 2 };
 

@@ -102,6 +102,8 @@ class Reader {
         const Hdf5Handle group = open_group(root_, "detection");
         results_.request.false_alarm_rate = read_number(group.get(), ".", "false_alarm_rate");
         results_.request.confidence = read_number(group.get(), ".", "confidence");
+        results_.request.size_name = read_text(group.get(), ".", "size_name");
+        results_.request.size_unit = read_text(group.get(), ".", "size_unit");
         results_.request.noise_levels = results_.noise_levels;
         for (const std::string& name : link_names(group.get())) {
             const Hdf5Handle feature = open_group(group.get(), name);
@@ -124,9 +126,9 @@ class Reader {
     }
 
     std::vector<analysis::SizeGroup> sizes(hid_t group) {
-        const auto low = numbers(group, "size_low_m");
-        const auto high = numbers(group, "size_high_m");
-        require_count(high.size(), low.size(), "size_high_m");
+        const auto low = numbers(group, "size_low");
+        const auto high = numbers(group, "size_high");
+        require_count(high.size(), low.size(), "size_high");
         std::vector<analysis::SizeGroup> result;
         for (std::size_t i = 0; i < low.size(); ++i) {
             result.push_back({low[i], high[i]});

@@ -63,11 +63,11 @@ void write_features(hid_t root, const Results& results) {
 void write_sizes(hid_t group, const std::vector<analysis::SizeGroup>& sizes) {
     std::vector<double> low, high;
     for (const analysis::SizeGroup& size : sizes) {
-        low.push_back(size.low_m);
-        high.push_back(size.high_m);
+        low.push_back(size.low);
+        high.push_back(size.high);
     }
-    write_numbers(group, "size_low_m", {sizes.size()}, low);
-    write_numbers(group, "size_high_m", {sizes.size()}, high);
+    write_numbers(group, "size_low", {sizes.size()}, low);
+    write_numbers(group, "size_high", {sizes.size()}, high);
 }
 
 // One member of every cell (levels x sizes) or of every level.
@@ -128,6 +128,8 @@ void write_detection(hid_t root, const Results& results) {
     const Hdf5Handle group = create_group(root, "detection");
     write_number(group.get(), ".", "false_alarm_rate", results.request.false_alarm_rate);
     write_number(group.get(), ".", "confidence", results.request.confidence);
+    write_text(group.get(), ".", "size_name", results.request.size_name);
+    write_text(group.get(), ".", "size_unit", results.request.size_unit);
     for (const analysis::FeatureDetection& detection : results.detection) {
         write_feature_detection(group.get(), detection, results.request.groups);
     }

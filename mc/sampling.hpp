@@ -10,6 +10,18 @@
 
 namespace gearpod::mc {
 
+// Of a fixed-shaft gearbox; all 0 in a planetary one.
+struct FixedShaftInstance {
+    double pinion_mass_kg, gear_mass_kg;
+    double pinion_inertia_kg_m2, gear_inertia_kg_m2;  // resolved
+    double motor_inertia_kg_m2, load_inertia_kg_m2;
+    double pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;  // 0 if left out
+    double pinion_bearing_damping_N_s_m, gear_bearing_damping_N_s_m;
+    double motor_coupling_stiffness_N_m_rad, load_coupling_stiffness_N_m_rad;
+    double motor_coupling_damping_N_m_s_rad, load_coupling_damping_N_m_s_rad;
+    double load_torque_N_m;  // resolved
+};
+
 // All inputs that may differ between gearboxes, SI. Names as in Study.
 struct InstanceInputs {
     double sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
@@ -23,16 +35,25 @@ struct InstanceInputs {
         carrier_bearing_damping_N_s_m;
     double support_stiffness_N_m, support_damping_N_s_m;
     double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
+    FixedShaftInstance fixed_shaft;
+    double backlash_m;     // 2b
+    double pitch_error_m;  // rms
     double torque_N_m;
     double speed_rad_s;  // of Sampler::speed_member()
     double path_exponent;
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms
-    double fault_depth_m;      // 0 in the threshold group and without a fault
+    double fault_size;         // 0 in the threshold group and without a fault
+};
+
+// Which gearbox: row `index` of its group.
+struct GearboxId {
+    Group group = Group::graded;
+    std::uint64_t index = 0;
 };
 
 struct ParameterColumn {
-    std::string name;  // "planet_bearing_stiffness_N_m", "fault_depth_m"
+    std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
     std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
 };
 
@@ -40,21 +61,21 @@ struct ParameterColumn {
 //
 // `levels` and `grid` inputs take their values in turn, all combinations of them: instance i has
 // the digits of i in a mixed radix whose bases are the numbers of values. The lowest digit is
-// fault.depth_mm, so that each depth gets equally many gearboxes, then come the others in the order
-// of the schema. n gearboxes hold all combinations alike if n is a multiple of their number.
+// the fault's size, so that each size gets equally many gearboxes, then come the others in the
+// order of the schema. n gearboxes hold all combinations alike if n is a multiple of their number.
 class Sampler {
   public:
     explicit Sampler(const Study& study);
 
     // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
     InstanceInputs sample(Group group, std::uint64_t index) const;
-    // Nominal values; fault_depth_m is the nominal depth.
+    // Nominal values; fault_size is the nominal size.
     InstanceInputs nominal() const;
 
-    // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier.
+    // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier, or the pinion.
     Member speed_member() const;
 
-    // Every random input, and fault_depth_m last: what /instances holds.
+    // Every random input, and the fault's size last: what /instances holds.
     std::vector<ParameterColumn> columns() const;
     // The values of one instance in that order, SI.
     std::vector<double> row(Group group, std::uint64_t index) const;

@@ -1,107 +1,82 @@
-// What all gearboxes of a study share, made once: gears, stiffness curves, phase grid, fault
-// pattern.
+// What all gearboxes of a study share, made once: drive, stiffness curves, fault pattern, phase
+// grid.
 #pragma once
 
 #include <memory>
-#include <stdexcept>
-#include <string>
-#include <utility>
+#include <optional>
 #include <vector>
 
-#include "gears/planetary.hpp"
-#include "lockstep/tile.hpp"
+#include "lockstep/march.hpp"
+#include "lockstep/tooth_errors.hpp"
+#include "lockstep/transmission_error.hpp"
+#include "mc/drive.hpp"
 #include "mc/sampling.hpp"
+#include "mc/scene_error.hpp"
+#include "mc/scene_faults.hpp"
+#include "mc/scene_meshes.hpp"
+#include "mc/scene_numerics.hpp"
 #include "mc/study.hpp"
-#include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::mc {
 
-// What is wrong with a study that only building its scene shows: numbers of steps or samples.
-class SceneError : public std::runtime_error {
-  public:
-    SceneError(std::string key, const std::string& what, std::string remedy)
-        : std::runtime_error(what), key_(std::move(key)), remedy_(std::move(remedy)) {}
-    const std::string& key() const { return key_; }
-    const std::string& remedy() const { return remedy_; }
-
-  private:
-    std::string key_, remedy_;
-};
-
 class Scene {
   public:
-    // The study must have tooth numbers (Study::gearbox.has_teeth()). Throws SceneError.
+    // The study must have gears (has_gears). Throws SceneError.
     explicit Scene(const Study& study);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
     const Study& study() const { return study_; }
-    const gears::PlanetaryTrain& train() const { return train_; }
-    const stiffness::MeshStiffness& sun_planet() const { return *sun_planet_; }
-    const stiffness::MeshStiffness& ring_planet() const { return *ring_planet_; }
+    const Drive& drive() const { return *drive_; }
+    const std::vector<SceneMesh>& meshes() const { return meshes_; }
     const lockstep::PairSet& pairs() const { return pairs_; }
+    const SceneFault& fault() const { return *fault_; }
     const lockstep::MarchPlan& plan() const { return plan_; }
-    const lockstep::FaultPattern& pattern() const { return pattern_; }
+    const lockstep::FaultPattern& pattern() const { return fault_->pattern(); }
     // The pair that the first passage of the faulty tooth weakens, or -1.
-    int faulty_pair() const { return pattern_.passages.empty() ? -1 : pattern_.passages[0].pair; }
+    int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
+    // Of the pitch errors of single teeth; null without them.
+    const lockstep::LoadShares* load_shares() const { return load_shares_.get(); }
 
-    // Z_p Z_r: the meshes after which every planet tooth has met every ring tooth.
-    int span_meshes() const { return train_.planet_teeth * train_.ring_teeth; }
-    // Meshes after which the path to the sensor repeats; 1 if the carrier stands still.
-    int path_meshes() const;
+    const signals::SpanLayout& span() const { return span_; }
+    // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
+    int span_meshes() const { return span_.meshes(); }
+    // Meshes after which the path to the sensor repeats; 1 if none turns.
+    int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
     int samples_per_mesh() const { return plan_.grid.samples; }
     int te_samples_per_mesh() const { return te_samples_; }
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
-    // Steps a mesh period below which the integrator is unstable for some gearbox of a pilot sample
-    // or the sensor's low-pass is inaccurate; mesh periods that a disturbance of the nominal
-    // gearbox takes to decay by 1/e (infinite without damping); mesh periods in which a gearbox
-    // must settle.
-    int least_steps() const { return least_steps_; }
-    double decay_meshes() const { return decay_meshes_; }
+    // See Stepping.
+    int least_steps() const { return stepping_.least; }
+    double decay_meshes() const { return stepping_.decay_meshes; }
+    // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
-    // Sense of the planets' turn past the carrier; it orders the mesh phases.
-    gears::PlanetSense planet_sense() const { return sense_; }
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
 
-    dynamics::PlanetaryInputs inputs(const InstanceInputs& instance) const;
-    // The faulty pair of one gearbox; none if the fault's size is 0.
-    std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const;
+    dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
+        return gearbox_inputs(study_, *drive_, instance);
+    }
 
   private:
-    gears::Speeds speeds(double given) const;
-    void build_pairs();
-    void build_pattern();
     void build_plan();
-    void set_te_weights();
-    int sampling(double frequency_Hz, const char* key) const;
-    int choose_steps();
-    int choose_max_meshes() const;
+    void add_errors();
+    std::vector<double> transitions() const;
 
     Study study_;
-    Member speed_member_;
-    gears::PlanetaryTrain train_;
-    double sun_radius_ = 0.0, ring_radius_ = 0.0;  // of the base circles, m
-    std::unique_ptr<const stiffness::MeshStiffness> sun_planet_, ring_planet_;
-    std::unique_ptr<const stiffness::ToothFaultFamily> fault_;
+    std::unique_ptr<const Drive> drive_;
+    signals::SpanLayout span_;
+    std::vector<SceneMesh> meshes_;
     lockstep::PairSet pairs_;
-    lockstep::FaultPattern pattern_;
-    dynamics::PlanetaryLayout layout_;
+    std::optional<const SceneFault> fault_;
     lockstep::MarchPlan plan_;
+    std::unique_ptr<const lockstep::LoadShares> load_shares_;
+    Stepping stepping_;
     int te_samples_ = 0;
-    int least_steps_ = 0;
-    int max_meshes_ = 0;
-    gears::PlanetSense sense_ = gears::PlanetSense::clockwise;
-    double decay_meshes_ = 0.0;
+    int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };
-
-// The dynamic model's choices, also for gearboxes without teeth (modes).
-dynamics::PlanetaryLayout layout(const Study& study);
-
-// Masses, bearings, supports and damping of one gearbox; speed and load are left at zero.
-dynamics::PlanetaryInputs body_inputs(const InstanceInputs& instance);
 
 }  // namespace gearpod::mc

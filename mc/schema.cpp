@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mc/schema_table.hpp"
+
 namespace gearpod::mc {
 
 std::string Key::path() const {
@@ -13,6 +15,17 @@ std::string Key::path() const {
 
 std::string_view Key::stem() const {
     return unit.suffix.empty() ? name : name.substr(0, name.size() - unit.suffix.size() - 1);
+}
+
+std::span<const Key> schema() {
+    static const std::vector<Key> keys = [] {
+        std::vector<Key> all;
+        for (const auto table : {gearbox_keys(), operation_keys(), fault_keys(), run_keys()}) {
+            all.insert(all.end(), table.begin(), table.end());
+        }
+        return all;
+    }();
+    return keys;
 }
 
 std::span<const std::string_view> section_names() {
@@ -30,14 +43,30 @@ const Key* find_key(std::string_view section, std::string_view name) {
     return found == keys.end() ? nullptr : &*found;
 }
 
+std::string_view choice_text(const Study& study, std::string_view section, std::string_view name) {
+    const auto& access = std::get<ChoiceAccess>(find_key(section, name)->access);
+    const auto value = access.get(study);
+    for (const ChoiceName& choice : access.names) {
+        if (value == choice.value) {
+            return choice.text;
+        }
+    }
+    return "";
+}
+
 namespace {
 
 struct KindText {
     std::string operator()(const NumberAccess&) const { return "number"; }
     std::string operator()(const IntegerAccess&) const { return "integer"; }
     std::string operator()(const BooleanAccess&) const { return "true or false"; }
-    std::string operator()(const NumbersAccess&) const { return "list of numbers"; }
+    std::string operator()(const NumbersAccess& list) const {
+        return list.ascending ? "ascending list of numbers" : "list of numbers";
+    }
     std::string operator()(const TextsAccess&) const { return "list of strings"; }
+    std::string operator()(const TonesAccess&) const {
+        return "list of { frequency_Hz, amplitude_m_s2 }";
+    }
     std::string operator()(const ChoiceAccess& choice) const {
         std::vector<std::string> names;
         for (const ChoiceName& name : choice.names) {

@@ -2,6 +2,7 @@
 // spelling, help and the resolved text all come from it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -46,18 +47,23 @@ struct ChoiceAccess {
     void (*set)(Study&, int);
     std::span<const ChoiceName> names;
 };
-using NumbersAccess = Access<std::vector<double>, std::vector<double>>;
+struct NumbersAccess {
+    std::vector<double> (*get)(const Study&);
+    void (*set)(Study&, std::vector<double>);
+    bool ascending = false;  // whether each must be above the one before it
+};
 using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
+using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
 using AnyAccess = std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess,
-                               NumbersAccess, TextsAccess>;
+                               NumbersAccess, TextsAccess, TonesAccess>;
 
-// Whether a key must, may or must not be given, and why; decided by the key `governor` ("" if by
+// Whether a key must, may or must not be given, and why; decided by the keys `governors` ("" for
 // none).
 enum class Need { required, optional, forbidden };
 struct Presence {
     Need need;
     std::string_view why;
-    std::string_view governor;
+    std::array<std::string_view, 2> governors{};
 };
 using PresenceRule = Presence (*)(const Study&);
 
@@ -86,6 +92,9 @@ std::span<const std::string_view> section_names();
 
 // The key of that section and name, or nullptr.
 const Key* find_key(std::string_view section, std::string_view name);
+
+// The text of a choice, as a study file would say it.
+std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);
 
 // A reference of all keys with unit, range, default and meaning, for help.
 std::string schema_help();

@@ -8,8 +8,8 @@ namespace gearpod::mc {
 
 template <class AnyStudy>
 auto parts(AnyStudy& s) {
-    return std::tie(s.gearbox, s.operation, s.effects, s.fault, s.sensor, s.features, s.detection,
-                    s.numerics, s.ensemble);
+    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.operation, s.effects, s.fault, s.sensor,
+                    s.features, s.detection, s.numerics, s.ensemble);
 }
 template <class Part>
 Part& part_of(Study& s) {
@@ -60,9 +60,21 @@ template <auto Member>
 constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
     return {get_member<Member, int>, set_member<Member, int>, names};
 }
-template <auto Member, class List>
-constexpr Access<List, List> list{
-    [](const Study& s) -> List { return part_of<PartOf<Member>>(s).*Member; },
-    [](Study& s, List value) { part_of<PartOf<Member>>(s).*Member = std::move(value); }};
+
+template <auto Member>
+MemberType<Member> get_list(const Study& s) {
+    return part_of<PartOf<Member>>(s).*Member;
+}
+template <auto Member>
+void set_list(Study& s, MemberType<Member> value) {
+    part_of<PartOf<Member>>(s).*Member = std::move(value);
+}
+// Strings or tones.
+template <auto Member>
+constexpr Access<MemberType<Member>, MemberType<Member>> list{get_list<Member>, set_list<Member>};
+template <auto Member>
+constexpr NumbersAccess numbers{get_list<Member>, set_list<Member>, false};
+template <auto Member>
+constexpr NumbersAccess ascending{get_list<Member>, set_list<Member>, true};
 
 }  // namespace gearpod::mc

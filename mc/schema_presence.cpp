@@ -1,66 +1,197 @@
 #include "mc/schema_presence.hpp"
 
+#include "mc/study_gears.hpp"
+#include "mc/study_sizes.hpp"
+
 namespace gearpod::mc {
 namespace {
 
-bool constant_profile(const Study& s) {
-    return s.gearbox.tooth_profile == ToothProfile::constant;
+constexpr Presence kOptional{Need::optional, "", {}};
+constexpr std::string_view kProfile = "gearbox.tooth_profile";
+constexpr std::string_view kMotion = "effects.motion";
+
+bool is(const Study& s, ToothProfile profile) {
+    return s.gearbox.tooth_profile == profile;
 }
 
-bool planet_crack(const Study& s) {
-    return s.fault.kind == FaultKind::crack && s.fault.member == Member::planet;
+bool planet_fault(const Study& s) {
+    return s.fault.kind != FaultKind::none && s.fault.member == Member::planet;
 }
 
 Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
-    constexpr std::string_view governor = "effects.mesh_damping";
-    return s.effects.mesh_damping == kind ? Presence{Need::required, why, governor}
-                                          : Presence{Need::forbidden, why, governor};
+    if (s.effects.quasi_static()) {
+        return kOptional;
+    }
+    const Need need = s.effects.mesh_damping == kind ? Need::required : Need::forbidden;
+    return {need, why, {"effects.mesh_damping", kMotion}};
+}
+
+struct FaultWords {
+    FaultKind kind;
+    std::string_view only, because;
+};
+constexpr FaultWords kFaultWords[] = {
+    {FaultKind::crack, "only for fault.kind = \"crack\"", "fault.kind is \"crack\""},
+    {FaultKind::spatial_crack, "only for fault.kind = \"spatial-crack\"",
+     "fault.kind is \"spatial-crack\""},
+    {FaultKind::chip, "only for fault.kind = \"chip\"", "fault.kind is \"chip\""},
+    {FaultKind::pitting, "only for fault.kind = \"pitting\"", "fault.kind is \"pitting\""},
+    {FaultKind::broken, "only for fault.kind = \"broken\"", "fault.kind is \"broken\""},
+    {FaultKind::reduction, "only for fault.kind = \"reduction\"", "fault.kind is \"reduction\""},
+};
+
+const FaultWords& words_of(FaultKind kind) {
+    for (const FaultWords& words : kFaultWords) {
+        if (words.kind == kind) {
+            return words;
+        }
+    }
+    return kFaultWords[0];
 }
 
 }  // namespace
 
 Presence always(const Study&) {
-    return {Need::required, "", ""};
+    return {Need::required, "", {}};
 }
 Presence may(const Study&) {
-    return {Need::optional, "", ""};
+    return kOptional;
 }
 
-Presence tooth_geometry(const Study& s) {
-    return constant_profile(s)
-               ? Presence{Need::optional, "", ""}
-               : Presence{Need::required, "gearbox.tooth_profile is not \"constant\"",
-                          "gearbox.tooth_profile"};
+Presence of_kind(const Study& s, GearboxKind kind, PresenceRule rule) {
+    if (s.gearbox.kind != kind) {
+        return {Need::forbidden,
+                kind == GearboxKind::planetary ? "only for gearbox.kind = \"planetary\""
+                                               : "only for gearbox.kind = \"fixed-shaft\"",
+                {"gearbox.kind"}};
+    }
+    Presence presence = rule(s);
+    if (presence.governors[0].empty()) {
+        presence.governors[0] = "gearbox.kind";
+    } else if (presence.governors[1].empty()) {
+        presence.governors[1] = "gearbox.kind";
+    }
+    return presence;
+}
+
+Presence tooth_numbers(const Study& s) {
+    return is(s, ToothProfile::constant)
+               ? kOptional
+               : Presence{Need::required, "gearbox.tooth_profile is not \"constant\"", {kProfile}};
+}
+
+Presence tooth_module(const Study& s) {
+    return s.gearbox.kind == GearboxKind::fixed_shaft
+               ? Presence{Need::required, "gearbox.kind is \"fixed-shaft\"", {"gearbox.kind"}}
+               : tooth_numbers(s);
+}
+
+Presence tooth_body(const Study& s) {
+    return stiffness_given(s)
+               ? kOptional
+               : Presence{Need::required,
+                          "gearbox.tooth_profile is neither \"constant\" nor \"square-wave\"",
+                          {kProfile}};
+}
+
+Presence tooth_model(const Study& s) {
+    return stiffness_given(s) ? Presence{Need::forbidden,
+                                         "the stiffness is given, not computed from the teeth: "
+                                         "gearbox.tooth_profile",
+                                         {kProfile}}
+                              : kOptional;
+}
+
+Presence helix(const Study& s) {
+    return stiffness_given(s)
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for gearbox.tooth_profile = \"constant\" or \"square-wave\": "
+                          "the tooth profiles are those of spur gears",
+                          {kProfile}};
 }
 
 Presence constant_stiffness(const Study& s) {
-    return constant_profile(s)
-               ? Presence{Need::required, "gearbox.tooth_profile is \"constant\"",
-                          "gearbox.tooth_profile"}
+    return is(s, ToothProfile::constant)
+               ? Presence{Need::required, "gearbox.tooth_profile is \"constant\"", {kProfile}}
                : Presence{Need::forbidden,
                           "only for gearbox.tooth_profile = \"constant\": the teeth give it",
-                          "gearbox.tooth_profile"};
+                          {kProfile}};
+}
+
+Presence square_wave(const Study& s) {
+    return is(s, ToothProfile::square_wave)
+               ? Presence{Need::required, "gearbox.tooth_profile is \"square-wave\"", {kProfile}}
+               : Presence{Need::forbidden,
+                          "only for gearbox.tooth_profile = \"square-wave\"",
+                          {kProfile}};
+}
+
+Presence foundation(const Study& s) {
+    return s.effects.foundation == Foundation::none || stiffness_given(s)
+               ? kOptional
+               : Presence{
+                     Need::required, "effects.foundation is not \"none\"", {"effects.foundation"}};
+}
+
+Presence ring_foundation(const Study& s) {
+    // Sainsot's formula is fitted to external gears.
+    return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
+               ? Presence{Need::required,
+                          "effects.foundation is \"elastic-ring\"",
+                          {"effects.foundation"}}
+               : kOptional;
+}
+
+Presence backlash(const Study& s) {
+    return s.effects.separation == Separation::two_sided
+               ? Presence{Need::required,
+                          "effects.separation is \"two-sided\"",
+                          {"effects.separation"}}
+               : Presence{Need::forbidden,
+                          "only for effects.separation = \"two-sided\"",
+                          {"effects.separation"}};
+}
+
+Presence pitch_error(const Study& s) {
+    return s.numerics.horizon == Horizon::march
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for numerics.horizon = \"march\": every tooth differs, so that "
+                          "no mesh repeats",
+                          {"numerics.horizon"}};
+}
+
+Presence mass(const Study& s) {
+    return s.effects.quasi_static() ? kOptional : Presence{Need::required, "", {kMotion}};
 }
 
 Presence inertia(const Study& s) {
     return s.gearbox.has_teeth() && s.gearbox.module_m
-               ? Presence{Need::optional, "", ""}
-               : Presence{Need::forbidden, "its radius is unknown without tooth numbers and module",
-                          "gearbox.tooth_profile"};
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "its radius is unknown without tooth numbers and module",
+                          {kProfile}};
 }
 
 Presence inertia_over_r2(const Study& s) {
-    return constant_profile(s) && !s.gearbox.has_teeth()
-               ? Presence{Need::required, "without tooth numbers no disc can be assumed",
-                          "gearbox.tooth_profile"}
-               : Presence{Need::optional, "", ""};
+    const bool no_disc = is(s, ToothProfile::constant) && !s.gearbox.has_teeth();
+    return no_disc && !s.effects.quasi_static()
+               ? Presence{Need::required,
+                          "without tooth numbers no disc can be assumed",
+                          {kProfile, kMotion}}
+               : kOptional;
 }
 
 Presence bearing(const Study& s) {
-    return s.effects.motion == Motion::torsional
-               ? Presence{Need::optional, "", ""}
-               : Presence{Need::required, "effects.motion is \"translational-torsional\"",
-                          "effects.motion"};
+    switch (s.effects.motion) {
+        case Motion::translational_torsional:
+            return {Need::required, "effects.motion is \"translational-torsional\"", {kMotion}};
+        case Motion::quasi_static:
+            return {Need::required, "effects.motion is \"quasi-static\"", {kMotion}};
+        default:
+            return kOptional;
+    }
 }
 
 Presence damping_ratio(const Study& s) {
@@ -74,23 +205,78 @@ Presence damping_constant(const Study& s) {
     return damping(s, MeshDamping::constant, "effects.mesh_damping = \"constant\" goes with it");
 }
 
-Presence crack(const Study& s) {
-    return s.fault.kind == FaultKind::crack
-               ? Presence{Need::required, "fault.kind is \"crack\"", "fault.kind"}
-               : Presence{Need::optional, "", ""};
+Presence acceleration_detail(const Study& s) {
+    return s.effects.quasi_static()
+               ? Presence{Need::forbidden,
+                          "a quasi-static gearbox has no accelerations: effects.motion",
+                          {kMotion}}
+               : kOptional;
+}
+
+Presence acceleration(const Study& s) {
+    const Presence detail = acceleration_detail(s);
+    return detail.need == Need::forbidden ? detail : Presence{Need::required, "", {kMotion}};
+}
+
+Presence integration(const Study& s) {
+    return s.effects.quasi_static()
+               ? Presence{Need::forbidden,
+                          "a quasi-static gearbox is not integrated in time: effects.motion",
+                          {kMotion}}
+               : kOptional;
+}
+
+Presence faulty_member(const Study& s) {
+    return s.fault.kind == FaultKind::none
+               ? kOptional
+               : Presence{Need::required, words_of(s.fault.kind).because, {"fault.kind"}};
 }
 
 Presence planet_side(const Study& s) {
-    if (planet_crack(s)) {
-        return {Need::required, "fault.member is \"planet\"", "fault.member"};
-    }
-    return planet_number(s);
+    return planet_fault(s)
+               ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}
+               : planet_number(s);
 }
 
 Presence planet_number(const Study& s) {
-    return s.fault.kind == FaultKind::none || planet_crack(s)
-               ? Presence{Need::optional, "", ""}
-               : Presence{Need::forbidden, "only for fault.member = \"planet\"", "fault.member"};
+    return s.fault.kind == FaultKind::none || planet_fault(s)
+               ? kOptional
+               : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
+}
+
+Presence crack_angle(const Study& s) {
+    const FaultKind kind = s.fault.kind;
+    return kind == FaultKind::none || kind == FaultKind::crack || kind == FaultKind::spatial_crack
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for fault.kind = \"crack\" or \"spatial-crack\"",
+                          {"fault.kind"}};
+}
+
+Presence of_fault(const Study& s, FaultKind kind, Need need) {
+    if (s.fault.kind == FaultKind::none) {
+        return kOptional;
+    }
+    if (s.fault.kind != kind) {
+        return {Need::forbidden, words_of(kind).only, {"fault.kind"}};
+    }
+    return {need, words_of(kind).because, {"fault.kind"}};
+}
+
+Presence length_edges(const Study& s) {
+    return s.fault.kind == FaultKind::none || !fault_size_key(s).unit.suffix.empty()
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "the fault's size is a pure number: size_edges groups it",
+                          {"fault.kind"}};
+}
+
+Presence number_edges(const Study& s) {
+    return s.fault.kind == FaultKind::none || fault_size_key(s).unit.suffix.empty()
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "the fault's size is a length: size_edges_mm groups it",
+                          {"fault.kind"}};
 }
 
 }  // namespace gearpod::mc

@@ -7,36 +7,55 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/effects/mesh_damping.hpp"
 #include "mc/distribution.hpp"
 #include "mc/problems.hpp"
+#include "stiffness/contact/hertz_contact.hpp"
+#include "stiffness/foundation/fillet_foundation.hpp"
 
 namespace gearpod::mc {
 
-enum class GearboxKind { planetary };
-enum class ToothProfile { root_circle, base_circle, constant };
-enum class Member { sun, planet, ring, carrier };
-enum class Motion { translational_torsional, torsional };
-enum class MeshDamping { ratio, proportional, constant };
-enum class PathWindow { hamming, hann, rectangular };
-enum class FaultKind { none, crack };
+enum class GearboxKind { planetary, fixed_shaft };
+enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
+enum class Member { sun, planet, ring, carrier, pinion, gear };
+enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
+enum class Separation { none, one_sided, two_sided };
+using Foundation = stiffness::FoundationModel;
+using dynamics::MeshDamping;
+using stiffness::Contact;
+enum class PathWindow { hamming, hann, rectangular, none };
+enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
+enum class FaultSide { ring, sun, both };
+enum class Integrator { automatic, rk4, newmark, sdirk3 };
 enum class Horizon { reuse, march };
 enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
 
 // Inputs that may be random hold their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
+// What both kinds of gearbox have, and the planetary one's own.
 struct Gearbox {
     GearboxKind kind = GearboxKind::planetary;
     int planets = 0;
-    // All three or none; without them only the modes of a constant-stiffness gearbox are defined.
+    // Planetary: all three or none; without them only the modes of a constant-stiffness gearbox are
+    // defined.
     std::optional<int> sun_teeth, planet_teeth, ring_teeth;
+    std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
     std::optional<double> module_m;
     double pressure_angle_rad = 0.0;
+    double helix_angle_rad = 0.0;
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
     double addendum_coefficient = 1.0;
     double dedendum_coefficient = 1.25;
     ToothProfile tooth_profile = ToothProfile::root_circle;
+    std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     std::optional<double> sun_planet_stiffness_N_m, ring_planet_stiffness_N_m;  // constant profile
-    double sun_mass_kg = 0.0, planet_mass_kg = 0.0, ring_mass_kg = 0.0, carrier_mass_kg = 0.0;
+    // Square-wave profile.
+    std::optional<double> sun_planet_low_stiffness_N_m, sun_planet_high_stiffness_N_m,
+        ring_planet_low_stiffness_N_m, ring_planet_high_stiffness_N_m, sun_planet_contact_ratio,
+        ring_planet_contact_ratio;
+    // Of the foundations: diameters of the bores, and of the ring's outer rim.
+    std::optional<double> sun_bore_m, planet_bore_m, ring_outer_m;
+    std::optional<double> sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
     // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
     std::optional<double> sun_inertia_kg_m2, planet_inertia_kg_m2, ring_inertia_kg_m2,
         carrier_inertia_kg_m2;
@@ -49,45 +68,122 @@ struct Gearbox {
     double support_stiffness_N_m = 0.0;  // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;
     std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
+    std::optional<double> backlash_m;  // 2b along the line of action
 
     bool has_teeth() const { return sun_teeth && planet_teeth && ring_teeth; }
     bool operator==(const Gearbox&) const = default;
 };
 
+// A fixed-shaft gearbox's own: motor, coupling, pinion, gear, coupling, load. Tian (2004), Table
+// 4.1.
+struct FixedShaft {
+    std::optional<int> pinion_teeth, gear_teeth;
+    std::optional<double> mesh_stiffness_N_m;  // constant profile
+    std::optional<double> mesh_low_stiffness_N_m, mesh_high_stiffness_N_m,
+        mesh_contact_ratio;                            // square-wave profile
+    std::optional<double> pinion_bore_m, gear_bore_m;  // diameters
+    std::optional<double> pinion_mass_kg, gear_mass_kg;
+    std::optional<double> pinion_inertia_kg_m2, gear_inertia_kg_m2;  // by default solid discs
+    std::optional<double> motor_inertia_kg_m2, load_inertia_kg_m2;
+    std::optional<double> pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;
+    double pinion_bearing_damping_N_s_m = 0.0, gear_bearing_damping_N_s_m = 0.0;
+    double motor_coupling_stiffness_N_m_rad = 0.0, load_coupling_stiffness_N_m_rad = 0.0;
+    double motor_coupling_damping_N_m_s_rad = 0.0, load_coupling_damping_N_m_s_rad = 0.0;
+
+    bool operator==(const FixedShaft&) const = default;
+};
+
+// Static transmission errors along the line of action. Element i of a list is mesh harmonic i + 1;
+// phases are empty (all 0) or as many as the amplitudes.
+struct MeshErrors {
+    std::vector<double> sun_planet_m, sun_planet_phase_rad, ring_planet_m, ring_planet_phase_rad;
+    std::vector<double> mesh_m, mesh_phase_rad;  // fixed-shaft
+    double pitch_error_m = 0.0;                  // rms of a tooth's own pitch error
+
+    bool operator==(const MeshErrors&) const = default;
+};
+
 struct Operation {
+    // Planetary.
     Member fixed = Member::ring;
-    Member input = Member::sun;  // in a file by default the ring if the sun is fixed
-    double torque_N_m = 0.0;     // >= 0; on the sun; on the ring if the sun is fixed
+    Member input = Member::sun;      // in a file by default the ring if the sun is fixed
+    Member torque_on = Member::sun;  // in a file by default the ring if the sun is fixed
+    double torque_N_m = 0.0;         // >= 0; on torque_on, or the motor's
     std::optional<double> sun_speed_rad_s, ring_speed_rad_s, carrier_speed_rad_s;  // exactly one
+    // Fixed-shaft.
+    std::optional<double> load_torque_N_m;  // by default in balance with the motor's
+    std::optional<double> pinion_speed_rad_s;
 
     bool operator==(const Operation&) const = default;
 };
 
 struct Effects {
     Motion motion = Motion::translational_torsional;
+    Foundation foundation = Foundation::none;
+    Contact contact = Contact::linear;
+    bool shear = true;  // shear energy of the teeth
+    Separation separation = Separation::none;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
-    PathWindow path = PathWindow::hamming;
+    PathWindow path = PathWindow::hamming;  // in a file by default none where no path leads
 
+    bool quasi_static() const {
+        return motion == Motion::quasi_static || motion == Motion::quasi_static_torsional;
+    }
+    // Rotations only.
+    bool torsional() const {
+        return motion == Motion::torsional || motion == Motion::quasi_static_torsional;
+    }
     bool operator==(const Effects&) const = default;
 };
 
+// Every kind has one size: depth, stage, chip, pit width, broken or reduction.
 struct Fault {
     FaultKind kind = FaultKind::none;
-    std::optional<Member> member;            // sun, planet or ring
-    std::optional<Member> side;              // of a planet tooth: ring or sun
-    int planet = 1;                          // 1..planets
-    std::optional<double> depth_m;           // along the crack
+    std::optional<Member> member;   // of the gearbox's toothed members
+    std::optional<FaultSide> side;  // of a planet tooth
+    int planet = 1;                 // 1..planets
+
+    std::optional<double> depth_m;           // crack: along it
     double angle_rad = 0.78539816339744828;  // 45 degrees, Liang (2016), section 3.1
 
+    // Spatial crack, Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
+    std::optional<double> stage;  // 0: healthy; between entries linear
+    std::vector<double> growth_depth_m, growth_end_depth_m, growth_length_m, growth_height_m,
+        growth_end_height_m;
+    std::optional<double> end_angle_rad;  // by default angle_rad
+    double height_wave = 0.0;
+    double height_waves = 0.0;
+    int slices = 16;
+
+    std::optional<double> chip_m;         // along the face width, at the tip
+    std::optional<double> chip_height_m;  // along the tooth
+
+    std::optional<double> pit_width_m;  // along the face width
+    std::optional<double> pit_depth_m, pit_length_m,
+        pit_radius_m;  // along the profile, centre of the band
+    int teeth = 1;     // neighbouring pitted teeth
+
+    std::optional<double> broken, reduction;  // share of the pair's stiffness that is lost, 0..1
+
     bool operator==(const Fault&) const = default;
+};
+
+// An interfering tone on the sensor.
+struct Tone {
+    double frequency_Hz = 0.0;
+    double amplitude_m_s2 = 0.0;
+
+    bool operator==(const Tone&) const = default;
 };
 
 struct Sensor {
     double sampling_Hz = 0.0;
     double low_pass_Hz = 0.0;
+    Member position = Member::pinion;  // fixed-shaft: the bearing it sits on
     double path_exponent = 0.1;
     double noise_m_s2 = 0.0;  // rms
+    std::vector<Tone> tones;
     double encoder_sampling_Hz = 0.0;
     double encoder_noise_rad = 0.0;         // rms
     std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
@@ -106,12 +202,14 @@ struct Features {
 struct Detection {
     double false_alarm_rate = 0.05;
     double confidence = 0.95;
-    std::vector<double> size_edges_m;  // ascending; only for a continuous fault depth
+    // Ascending; one of them, and only for a continuous fault size: a length, or a pure number.
+    std::vector<double> size_edges_m, size_edges;
 
     bool operator==(const Detection&) const = default;
 };
 
 struct Numerics {
+    Integrator integrator = Integrator::automatic;
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
@@ -143,6 +241,8 @@ struct RandomInput {
 struct Study {
     std::string title;
     Gearbox gearbox;
+    FixedShaft fixed_shaft;
+    MeshErrors errors;
     Operation operation;
     Effects effects;
     Fault fault;

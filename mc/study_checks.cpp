@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "features/feature.hpp"
-#include "gears/mesh_geometry.hpp"
-#include "gears/planetary.hpp"
 #include "mc/study_draft.hpp"
 #include "mc/study_gears.hpp"
 #include "mc/study_spelling.hpp"
@@ -13,148 +10,134 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::string_view kMemberNames[] = {"sun", "planet", "ring", "carrier"};
-
-std::string_view member_name(Member member) {
-    return kMemberNames[static_cast<int>(member)];
-}
-
-bool all_usable(const StudyDraft& draft, const std::vector<std::string>& paths) {
-    return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
-        return draft.usable(path) && draft.usable(path.substr(0, path.find('.')));
-    });
-}
-
-void reject(StudyDraft& draft, const std::string& path, std::string what, std::string remedy) {
-    draft.reject(draft.position(path), path, std::move(what), std::move(remedy));
-}
-
-void check_teeth(StudyDraft& draft) {
-    const Gearbox& g = draft.study.gearbox;
-    if (!all_usable(draft, {"gearbox.sun_teeth", "gearbox.planet_teeth", "gearbox.ring_teeth"})) {
-        return;
-    }
-    const int given = int{g.sun_teeth.has_value()} + int{g.planet_teeth.has_value()} +
-                      int{g.ring_teeth.has_value()};
-    if (given == 1 || given == 2) {
-        reject(draft, "gearbox", "some tooth numbers are missing",
-               "give sun_teeth, planet_teeth and ring_teeth, or none of them");
-    }
-    if (given != 3 || !all_usable(draft, {"gearbox.planets", "gearbox.addendum_coefficient"}) ||
-        g.planets < 1) {
-        return;
-    }
-    const gears::PlanetaryTrain train{*g.sun_teeth, *g.planet_teeth, *g.ring_teeth, g.planets};
-    for (const std::string& what : gears::assembly_problems(train, g.addendum_coefficient)) {
-        reject(draft, "gearbox.ring_teeth", "the gears cannot be assembled (" + what + ")", "");
-    }
-}
-
-// Two gears, each of them possible, that do not mesh. Below the standard pressure angle it is
-// named, else the smaller gear's teeth.
-void check_mesh(StudyDraft& draft, Member driver, Member driven) {
-    const gears::Gear gear_1 = gear_of(draft.study.gearbox, driver);
-    const gears::Gear gear_2 = gear_of(draft.study.gearbox, driven);
-    if (!gears::gear_problems(gear_1).empty() || !gears::gear_problems(gear_2).empty()) {
-        return;
-    }
-    constexpr double kStandardAngle = 20.0 * std::numbers::pi / 180.0;
-    const Member smaller = gear_2.teeth < gear_1.teeth ? driven : driver;
-    const std::string key = gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12)
-                                ? "gearbox.pressure_angle_deg"
-                                : fmt::format("gearbox.{}_teeth", member_name(smaller));
-    for (const std::string& what : gears::mesh_problems(gear_1, gear_2)) {
-        reject(draft, key,
-               fmt::format("{} and {} do not mesh ({})", member_name(driver), member_name(driven),
-                           what),
-               "");
-    }
-}
-
-void check_gear_shapes(StudyDraft& draft) {
-    const Gearbox& g = draft.study.gearbox;
-    const std::string module = "gearbox.module_mm";
-    const bool usable =
-        all_usable(draft, {"gearbox.sun_teeth", "gearbox.planet_teeth", "gearbox.ring_teeth",
-                           module, "gearbox.pressure_angle_deg", "gearbox.addendum_coefficient",
-                           "gearbox.dedendum_coefficient", "gearbox.tooth_profile"});
-    if (!usable || !g.has_teeth() || !g.module_m || g.tooth_profile == ToothProfile::constant) {
-        return;
-    }
-    for (const Member member : {Member::sun, Member::planet, Member::ring}) {
-        for (const std::string& what : gears::gear_problems(gear_of(g, member))) {
-            reject(draft, fmt::format("gearbox.{}_teeth", member_name(member)),
-                   "the gear is not possible (" + what + ")", "");
+// "sun" or "carrier": the central members that turn.
+std::string turning_members(Member fixed) {
+    std::string names;
+    for (const Member member : {Member::sun, Member::ring, Member::carrier}) {
+        if (member != fixed) {
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", member_name(member));
         }
     }
-    check_mesh(draft, Member::sun, Member::planet);
-    check_mesh(draft, Member::planet, Member::ring);
+    return names;
 }
 
 void check_operation(StudyDraft& draft) {
     const Operation& o = draft.study.operation;
-    if (!all_usable(draft, {"operation.fixed", "operation.input"})) {
+    if (draft.study.gearbox.kind != GearboxKind::planetary ||
+        !draft.all_usable({"gearbox.kind", "operation.fixed"})) {
         return;
     }
     const std::string_view fixed = member_name(o.fixed);
-    const std::string_view remedy = o.fixed == Member::ring  ? "use \"sun\""
-                                    : o.fixed == Member::sun ? "use \"ring\""
-                                                             : "use \"sun\" or \"ring\"";
-    if (o.input == o.fixed) {
-        reject(draft, "operation.input",
-               fmt::format("is \"{}\", which stands still (operation.fixed)", fixed),
-               std::string(remedy));
-    } else if (o.input == Member::carrier) {
-        reject(
-            draft, "operation.input",
-            "is \"carrier\" (driving the carrier loads the other flanks of the teeth, which this "
-            "model does not have)",
-            std::string(remedy));
-    }
+    const auto check_turns = [&](const std::string& key, Member member) {
+        if (draft.all_usable({key}) && member == o.fixed) {
+            draft.reject(key, fmt::format("is \"{}\", which stands still (operation.fixed)", fixed),
+                         "use " + turning_members(o.fixed));
+        }
+    };
+    check_turns("operation.input", o.input);
+    check_turns("operation.torque_on", o.torque_on);
     const std::string speed = fmt::format("operation.{}_speed_rpm", fixed);
     if (draft.is_given(speed)) {
-        reject(draft, speed, fmt::format("the {} stands still (operation.fixed)", fixed),
-               "give the speed of another member");
+        draft.reject(speed, fmt::format("the {} stands still (operation.fixed)", fixed),
+                     "give the speed of another member");
+    }
+}
+
+void check_path(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!draft.all_usable({"gearbox.kind", "effects.motion", "effects.path"})) {
+        return;
+    }
+    const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
+    const bool none = s.effects.path == PathWindow::none;
+    if (s.effects.quasi_static() && !none) {
+        draft.reject("effects.path",
+                     "leads nothing to a sensor (a quasi-static gearbox has no accelerations: "
+                     "effects.motion)",
+                     "use path = \"none\", or leave the key out");
+    } else if (fixed_shaft && !none) {
+        draft.reject("effects.path",
+                     "has nothing to weigh (the sensor of a fixed-shaft gearbox sits on a bearing, "
+                     "which does not move past it)",
+                     "use path = \"none\", or leave the key out");
+    } else if (!fixed_shaft && !s.effects.quasi_static() && none) {
+        draft.reject("effects.path",
+                     "is \"none\" (a planetary gearbox's planets move past the sensor)",
+                     "use path = \"rectangular\" to weigh them all alike");
+    }
+}
+
+// Tian's model has no other degrees of freedom.
+void check_fixed_shaft_motion(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
+        draft.all_usable({"gearbox.kind", "effects.motion"})) {
+        draft.reject("effects.motion",
+                     "has rotations only (a fixed-shaft gearbox's gears move on their bearings, "
+                     "too)",
+                     "use motion = \"translational-torsional\" or \"quasi-static\"");
     }
 }
 
 void check_sampling(StudyDraft& draft) {
     const Sensor& s = draft.study.sensor;
-    if (!all_usable(draft, {"sensor.sampling_Hz"}) || s.sampling_Hz <= 0.0) {
+    if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
+        s.sampling_Hz <= 0.0) {
         return;
     }
-    if (all_usable(draft, {"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
-        reject(
-            draft, "sensor.low_pass_Hz",
+    if (draft.all_usable({"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
+        draft.reject(
+            "sensor.low_pass_Hz",
             fmt::format("{} Hz is not below half of sampling_Hz, {} Hz (frequencies above it fold "
                         "back)",
                         s.low_pass_Hz, 0.5 * s.sampling_Hz),
             "lower low_pass_Hz or raise sampling_Hz");
     }
-    if (all_usable(draft, {"sensor.encoder_sampling_Hz"}) &&
-        s.encoder_sampling_Hz > s.sampling_Hz) {
-        reject(draft, "sensor.encoder_sampling_Hz",
-               fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders use a part of the "
-                           "sensor's samples)",
-                           s.encoder_sampling_Hz, s.sampling_Hz),
-               "lower encoder_sampling_Hz or raise sampling_Hz");
+    if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
+        draft.reject(
+            "sensor.encoder_sampling_Hz",
+            fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders use a part of the "
+                        "sensor's samples)",
+                        s.encoder_sampling_Hz, s.sampling_Hz),
+            "lower encoder_sampling_Hz or raise sampling_Hz");
+    }
+    for (std::size_t i = 0; i < s.tones.size() && draft.all_usable({"sensor.tones"}); ++i) {
+        if (s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
+            draft.reject("sensor.tones",
+                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
+                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
+                         "lower its frequency or raise sampling_Hz");
+        }
+    }
+}
+
+void check_feature(StudyDraft& draft, const std::string& name) {
+    const features::Feature* feature = features::find_feature(name);
+    if (feature == nullptr) {
+        std::vector<std::string_view> known;
+        for (const features::Feature& other : features::all_features()) {
+            known.push_back(other.name);
+        }
+        draft.reject("features.use", fmt::format("unknown feature \"{}\"", name),
+                     suggest(name, known));
+    } else if (feature->from_sensor && draft.study.effects.quasi_static() &&
+               draft.usable("effects.motion")) {
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs the sensor (a quasi-static gearbox has no "
+                                 "accelerations: effects.motion)",
+                                 name),
+                     "use features of the transmission error");
     }
 }
 
 void check_features(StudyDraft& draft) {
-    const auto all = features::all_features();
-    std::vector<std::string_view> known;
-    for (const features::Feature& feature : all) {
-        known.push_back(feature.name);
-    }
-    const std::vector<std::string>& use = draft.study.features.use;
+    const std::vector<std::string> use = draft.study.features.use;
     for (auto name = use.begin(); name != use.end(); ++name) {
-        if (std::find(known.begin(), known.end(), *name) == known.end()) {
-            reject(draft, "features.use", fmt::format("unknown feature \"{}\"", *name),
-                   suggest(*name, known));
-        } else if (std::find(use.begin(), name, *name) != name) {
-            reject(draft, "features.use", fmt::format("names \"{}\" twice", *name),
-                   "remove one of them");
+        if (std::find(use.begin(), name, *name) != name) {
+            draft.reject("features.use", fmt::format("names \"{}\" twice", *name),
+                         "remove one of them");
+        } else {
+            check_feature(draft, *name);
         }
     }
 }
@@ -162,17 +145,17 @@ void check_features(StudyDraft& draft) {
 void check_lanes(StudyDraft& draft) {
     const int lanes = draft.study.numerics.lanes;
     if (lanes != 1 && lanes != 8) {
-        reject(draft, "numerics.lanes", fmt::format("must be 8 or 1, but is {}", lanes),
-               "8 is fast, 1 is for comparison");
+        draft.reject("numerics.lanes", fmt::format("must be 8 or 1, but is {}", lanes),
+                     "8 is fast, 1 is for comparison");
     }
 }
 
 }  // namespace
 
 void check_consistency(StudyDraft& draft) {
-    check_teeth(draft);
-    check_gear_shapes(draft);
     check_operation(draft);
+    check_path(draft);
+    check_fixed_shaft_motion(draft);
     check_sampling(draft);
     check_features(draft);
     check_lanes(draft);

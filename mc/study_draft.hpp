@@ -23,11 +23,15 @@ struct StudyDraft {
     }
     // Neither missing nor bad: safe to use in further checks.
     bool usable(const std::string& path) const { return !bad.contains(path); }
+    // All of these keys, and their sections.
+    bool all_usable(const std::vector<std::string>& paths) const;
     // Where a key was written (its section if it was not, else the file), to report a problem with
     // it.
     Position position(const std::string& path) const;
     // Appends a problem with a key and marks it bad.
     void reject(const Position& at, const std::string& path, std::string what, std::string remedy);
+    // The same where the key was written.
+    void reject(const std::string& path, std::string what, std::string remedy);
 };
 
 // study_values.cpp: one value of a section into the study, type and range checked.
@@ -39,7 +43,10 @@ void read_random(StudyDraft& draft, const Value& section);
 // study_presence.cpp: what is missing, or given where it has no place.
 void check_presence(StudyDraft& draft);
 
-// study_checks.cpp: what no key can know alone.
+// study_gear_checks.cpp: the gears among themselves.
+void check_gears(StudyDraft& draft);
+
+// study_checks.cpp: what else no key can know alone.
 void check_consistency(StudyDraft& draft);
 
 // study_fault_checks.cpp: the fault against the tooth that carries it, and the size groups.

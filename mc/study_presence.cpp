@@ -28,8 +28,13 @@ void reject_second(StudyDraft& draft, const std::vector<std::string>& given,
 void check_key(StudyDraft& draft, const Key& key) {
     const Presence presence = key.presence(draft.study);
     const std::string path = key.path();
-    if (!draft.usable(path) || !draft.usable(std::string(presence.governor))) {
+    if (!draft.usable(path)) {
         return;
+    }
+    for (const std::string_view governor : presence.governors) {
+        if (!draft.usable(std::string(governor))) {
+            return;
+        }
     }
     const std::string because = presence.why.empty() ? "" : fmt::format(" ({})", presence.why);
     if (presence.need == Need::required && !draft.is_given(path)) {
@@ -47,6 +52,9 @@ void check_exclusive_keys(StudyDraft& draft) {
                       given_of(draft, {fmt::format("gearbox.{}_inertia_kg_m2", member),
                                        fmt::format("gearbox.{}_inertia_over_r2_kg", member)}),
                       "both say the moment of inertia");
+    }
+    if (draft.study.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.kind")) {
+        return;
     }
     const auto speeds = given_of(draft, {"operation.sun_speed_rpm", "operation.ring_speed_rpm",
                                          "operation.carrier_speed_rpm"});

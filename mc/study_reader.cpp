@@ -30,6 +30,16 @@ void StudyDraft::reject(const Position& at, const std::string& path, std::string
     }
 }
 
+void StudyDraft::reject(const std::string& path, std::string what, std::string remedy) {
+    reject(position(path), path, std::move(what), std::move(remedy));
+}
+
+bool StudyDraft::all_usable(const std::vector<std::string>& paths) const {
+    return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
+        return usable(path) && usable(path.substr(0, path.find('.')));
+    });
+}
+
 namespace {
 
 struct Guess {
@@ -151,19 +161,35 @@ void read_sections(StudyDraft& draft, const Value& document) {
     }
 }
 
+// All that the motion has signals for.
 void fill_features(Study& study) {
     if (study.features.use.empty()) {
         for (const features::Feature& feature : features::all_features()) {
-            study.features.use.emplace_back(feature.name);
+            if (!feature.from_sensor || !study.effects.quasi_static()) {
+                study.features.use.emplace_back(feature.name);
+            }
         }
     }
 }
 
-// Of a held sun's gearbox the ring is driven, else the sun.
-void fill_input(StudyDraft& draft) {
+// Of a held sun's gearbox the ring is driven and has the torque, else the sun.
+void fill_operation(StudyDraft& draft) {
     Operation& o = draft.study.operation;
+    const Member usual = o.fixed == Member::sun ? Member::ring : Member::sun;
     if (!draft.is_given("operation.input")) {
-        o.input = o.fixed == Member::sun ? Member::ring : Member::sun;
+        o.input = usual;
+    }
+    if (!draft.is_given("operation.torque_on")) {
+        o.torque_on = usual;
+    }
+}
+
+// No path leads to a sensor that sits on a bearing, or that has nothing to measure.
+void fill_path(StudyDraft& draft) {
+    Study& study = draft.study;
+    if (!draft.is_given("effects.path") &&
+        (study.gearbox.kind == GearboxKind::fixed_shaft || study.effects.quasi_static())) {
+        study.effects.path = PathWindow::none;
     }
 }
 
@@ -174,7 +200,9 @@ StudyReading read_document(const Value& document, Problems problems) {
     read_sections(draft, document);
     check_presence(draft);
     fill_features(draft.study);
-    fill_input(draft);
+    fill_operation(draft);
+    fill_path(draft);
+    check_gears(draft);
     check_consistency(draft);
     check_fault(draft);
     sort_problems(draft.problems);

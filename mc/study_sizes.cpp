@@ -10,57 +10,99 @@ void sort_distinct(std::vector<double>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-bool continuous(const Study& study) {
-    return !study.detection.size_edges_m.empty();
-}
-
-std::vector<double> single_depths_m(const Study& study) {
+std::vector<double> single_sizes(const Study& study) {
     if (study.fault.kind == FaultKind::none) {
         return {0.0};
     }
-    const RandomInput* random = study.find_random("fault.depth_mm");
+    const RandomInput* random = study.find_random(fault_size_key(study).path());
     if (random == nullptr) {
-        return {study.fault.depth_m.value_or(0.0)};
+        return {fault_size(study)};
     }
-    std::vector<double> depths;
+    std::vector<double> sizes;
     for (const double level : random->distribution.levels()) {
-        depths.push_back(level * random->to_si);
+        sizes.push_back(level * random->to_si);
     }
-    sort_distinct(depths);
-    return depths;
+    sort_distinct(sizes);
+    return sizes;
 }
 
 }  // namespace
 
+const Key& fault_size_key(FaultKind kind) {
+    switch (kind) {
+        case FaultKind::spatial_crack:
+            return *find_key("fault", "stage");
+        case FaultKind::chip:
+            return *find_key("fault", "chip_mm");
+        case FaultKind::pitting:
+            return *find_key("fault", "pit_width_mm");
+        case FaultKind::broken:
+            return *find_key("fault", "broken");
+        case FaultKind::reduction:
+            return *find_key("fault", "reduction");
+        case FaultKind::none:
+        case FaultKind::crack:
+            break;
+    }
+    return *find_key("fault", "depth_mm");
+}
+
+const Key& fault_size_key(const Study& study) {
+    return fault_size_key(study.fault.kind);
+}
+
+double fault_size(const Study& study) {
+    return study.fault.kind == FaultKind::none
+               ? 0.0
+               : std::get<NumberAccess>(fault_size_key(study).access).get(study).value_or(0.0);
+}
+
+std::string fault_size_column(const Study& study) {
+    const Key& key = fault_size_key(study);
+    const std::string unit(key.unit.si_suffix);
+    return "fault_" + std::string(key.stem()) + (unit.empty() ? "" : "_" + unit);
+}
+
+const std::vector<double>& size_edges(const Study& study) {
+    const bool length = !fault_size_key(study).unit.suffix.empty();
+    return length ? study.detection.size_edges_m : study.detection.size_edges;
+}
+
+std::string size_edges_key(const Study& study) {
+    const bool length = !fault_size_key(study).unit.suffix.empty();
+    return length ? "detection.size_edges_mm" : "detection.size_edges";
+}
+
 std::vector<analysis::SizeGroup> size_groups(const Study& study) {
     std::vector<analysis::SizeGroup> groups;
-    if (continuous(study) && study.fault.kind == FaultKind::crack) {
-        const std::vector<double>& edges = study.detection.size_edges_m;
+    const std::vector<double>& edges = size_edges(study);
+    if (!edges.empty() && study.fault.kind != FaultKind::none) {
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             groups.push_back({edges[i], edges[i + 1]});
         }
         return groups;
     }
-    for (const double depth : single_depths_m(study)) {
-        groups.push_back({depth, depth});
+    for (const double size : single_sizes(study)) {
+        groups.push_back({size, size});
     }
     return groups;
 }
 
 analysis::DetectionRequest detection_request(const Study& study) {
-    return {study.detection.false_alarm_rate, study.detection.confidence, study.sensor.noise_levels,
-            size_groups(study)};
+    return {study.detection.false_alarm_rate, study.detection.confidence,
+            study.sensor.noise_levels,        size_groups(study),
+            fault_size_column(study),         std::string(fault_size_key(study).unit.si_name)};
 }
 
-std::vector<double> fault_depths_m(const Study& study) {
-    std::vector<double> depths;
+std::vector<double> fault_sizes(const Study& study) {
+    std::vector<double> sizes;
     for (const analysis::SizeGroup& group : size_groups(study)) {
-        depths.push_back(group.low_m);
-        depths.push_back(group.high_m);
+        sizes.push_back(group.low);
+        sizes.push_back(group.high);
     }
-    sort_distinct(depths);
-    std::erase(depths, 0.0);
-    return depths;
+    sort_distinct(sizes);
+    std::erase(sizes, 0.0);
+    return sizes;
 }
 
 }  // namespace gearpod::mc

@@ -61,14 +61,9 @@ class ValueText {
         const auto value = access.get(study_);
         return value ? fmt::format("{}", *value) : "";
     }
-    std::string operator()(const ChoiceAccess& access) const {
-        const auto value = access.get(study_);
-        for (const ChoiceName& name : access.names) {
-            if (value == name.value) {
-                return quoted(std::string(name.text));
-            }
-        }
-        return "";
+    std::string operator()(const ChoiceAccess&) const {
+        const std::string_view text = choice_text(study_, key_.section, key_.name);
+        return text.empty() ? "" : quoted(std::string(text));
     }
     std::string operator()(const NumbersAccess& access) const {
         std::vector<std::string> texts;
@@ -81,6 +76,15 @@ class ValueText {
         std::vector<std::string> texts;
         for (const std::string& value : access.get(study_)) {
             texts.push_back(quoted(value));
+        }
+        return in_brackets(texts);
+    }
+
+    std::string operator()(const TonesAccess& access) const {
+        std::vector<std::string> texts;
+        for (const Tone& tone : access.get(study_)) {
+            texts.push_back(fmt::format("{{ frequency_Hz = {}, amplitude_m_s2 = {} }}",
+                                        tone.frequency_Hz, tone.amplitude_m_s2));
         }
         return in_brackets(texts);
     }

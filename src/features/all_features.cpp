@@ -18,12 +18,12 @@ constexpr std::array kFeatures{
             "peak-to-peak over the sum of the mesh harmonics' amplitudes; Park (2016), Table II",
             &te_fm0},
     Feature{"sensor_rms", "m/s^2", AlarmSide::high, "rms of the sensor signal over the span",
-            &sensor_rms},
+            &sensor_rms, true},
     Feature{"window_ratio", "1", AlarmSide::high,
             "largest tooth rms over the median tooth rms; after Liang (2016), Fig. 5.8",
-            &window_ratio},
+            &window_ratio, true},
     Feature{"window_z", "1", AlarmSide::high,
-            "worst tooth's rms against the other teeth, robust standard score", &window_z},
+            "worst tooth's rms against the other teeth, robust standard score", &window_z, true},
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ struct Feature {
     std::string_view doc;
     // NaN where the definition divides by zero (a signal that is exactly constant, say).
     double (*compute)(const FeatureInput& input) = nullptr;
+    bool from_sensor = false;  // whether it needs the sensor's signal
 };
 
 std::span<const Feature> all_features();

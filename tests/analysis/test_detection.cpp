@@ -155,11 +155,11 @@ TEST_CASE("The reliable size needs all larger sizes above it and is never the he
     LevelDetection level;
     level.cells = {cell(0.0, 0.0), cell(1e-3, 0.95), cell(2e-3, 0.85), cell(3e-3, 0.92),
                    cell(4e-3, 0.99)};
-    CHECK(reliable_size(level, 0.9)->high_m == 3e-3);
+    CHECK(reliable_size(level, 0.9)->high == 3e-3);
     level.cells.back().lower = 0.5;
     CHECK(!reliable_size(level, 0.9));
     level.cells = {cell(0.0, 0.99), cell(1e-3, 0.95)};
-    CHECK(reliable_size(level, 0.9)->high_m == 1e-3);
+    CHECK(reliable_size(level, 0.9)->high == 1e-3);
     level.cells.back().lower = kNan;
     CHECK(!reliable_size(level, 0.9));
 }

@@ -88,6 +88,17 @@ TEST_CASE("The table closes with the reliable sizes or says that they were not r
     CHECK_THAT(closing, Catch::Contains("x 4"));
 }
 
+TEST_CASE("Sizes that are pure numbers are shown as they are, without a unit") {
+    DetectionRequest shares = request();
+    shares.size_unit = "1";
+    const std::string text = detection_text(examples(), shares);
+    CHECK_THAT(text, !Catch::Contains("mm"));
+    CHECK_THAT(text, Catch::Contains("\n0.0043 "));
+    const auto json = nlohmann::json::parse(detection_json(examples(), shares).dump());
+    CHECK(json["size"]["unit"] == "1");
+    CHECK(json["features"][0]["levels"][0]["sizes"][3]["size_high"] == 4.3e-3);
+}
+
 TEST_CASE("A table without a threshold or without features says so") {
     auto features = examples();
     features.resize(1);
@@ -112,10 +123,10 @@ TEST_CASE("The JSON holds every number of the detection and null where there is 
     CHECK(fc["levels"][1]["threshold"].is_null());
     CHECK(fc["levels"][1]["sizes"][3]["pd"].is_null());
     CHECK(fc["levels"][0]["threshold_sample"] == 400);
-    CHECK(fc["levels"][0]["sizes"][3]["size_high_m"] == 4.3e-3);
+    CHECK(fc["levels"][0]["sizes"][3]["size_high"] == 4.3e-3);
     CHECK(fc["levels"][0]["sizes"][3]["failed"] == 2);
-    CHECK(json["features"][6]["levels"][0]["reliable_size_m"] == std::vector{2e-3, 2e-3});
-    CHECK(json["features"][0]["levels"][1]["reliable_size_m"].is_null());
+    CHECK(json["features"][6]["levels"][0]["reliable_size"] == std::vector{2e-3, 2e-3});
+    CHECK(json["features"][0]["levels"][1]["reliable_size"].is_null());
 }
 
 }  // namespace

@@ -125,14 +125,11 @@ const BadFile kBadFiles[] = {
     {"[operation]", "sun_planet_stiffness_N_m = 1e8\n[operation]", "sun_planet_stiffness",
      "gearbox.sun_planet_stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
     {"[operation]", "[operation]\ninput = \"ring\"", "input", "operation.input",
-     "is \"ring\", which stands still (operation.fixed); use \"sun\""},
-    {"[operation]", "[operation]\ninput = \"carrier\"", "input", "operation.input",
-     "driving the carrier loads the other flanks of the teeth, which this model does not have); "
-     "use \"sun\""},
+     "is \"ring\", which stands still (operation.fixed); use \"sun\" or \"carrier\""},
+    {"[operation]", "[operation]\ntorque_on = \"ring\"", "torque_on", "operation.torque_on",
+     "is \"ring\", which stands still (operation.fixed); use \"sun\" or \"carrier\""},
     {"carrier_speed_rpm", "fixed = \"sun\"\ninput = \"sun\"\ncarrier_speed_rpm", "input",
-     "operation.input", "which stands still (operation.fixed); use \"ring\""},
-    {"carrier_speed_rpm", "fixed = \"sun\"\ninput = \"carrier\"\ncarrier_speed_rpm", "input",
-     "operation.input", "; use \"ring\""},
+     "operation.input", "which stands still (operation.fixed); use \"ring\" or \"carrier\""},
     {"carrier_speed_rpm", "fixed = \"carrier\"\ninput = \"carrier\"\nsun_speed_rpm", "input",
      "operation.input", "which stands still (operation.fixed); use \"sun\" or \"ring\""},
     {"carrier_speed_rpm", "ring_speed_rpm", "ring_speed", "operation.ring_speed_rpm",
@@ -229,7 +226,7 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     reading = read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 3]\n", "bad.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].line == line_of(text, "seed") + 2);
-    CHECK(mentions(reading.problems[0], "does not cover all depths, 0 to 4 mm"));
+    CHECK(mentions(reading.problems[0], "does not cover all sizes, 0 to 4 mm"));
 
     CHECK(read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 4]\n", "good.toml").study);
 }

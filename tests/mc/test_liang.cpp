@@ -128,6 +128,7 @@ TEST_CASE("With the sun held the carrier's turn repeats after each planet as wel
     mc::Study study = with_crack(mc::Member::planet, 0.0);
     study.operation.fixed = mc::Member::sun;
     study.operation.input = mc::Member::ring;
+    study.operation.torque_on = mc::Member::ring;
     // The rigid rotation that the turning frame feeds is removed at whole mesh periods, which the
     // planets meet at different phases: with inertial terms other orders reach 3e-7 of the largest.
     study.effects.inertial_terms = false;

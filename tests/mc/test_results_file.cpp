@@ -52,7 +52,9 @@ Results example() {
     r.noise_levels = {0.0, 1.0};
     r.features = {{"te_rms", "rad", analysis::Alarm::high, {1, 2, 3, 4, kNaN, kNaN}},
                   {"te_fc", "order", analysis::Alarm::low, {6, 5, 4, 3, 2, 1}}};
-    r.request = {0.05, 0.95, r.noise_levels, {{0.0, 0.0}, {0.001, 0.001}, {0.002, 0.003}}};
+    r.request = {
+        0.05, 0.95, r.noise_levels, {{0.0, 0.0}, {0.001, 0.001}, {0.002, 0.003}}, "fault_depth_m",
+        "m"};
     for (const FeatureResult& feature : r.features) {
         analysis::FeatureDetection detection;
         detection.feature = feature.name;
@@ -116,15 +118,17 @@ TEST_CASE("Results read back as they were written") {
     CHECK(back.features[1].alarm == analysis::Alarm::low);
     CHECK(std::isnan(back.features[0].values[4]));
     REQUIRE(back.request.groups.size() == 3);
-    CHECK(back.request.groups[2].high_m == 0.003);
+    CHECK(back.request.groups[2].high == 0.003);
     CHECK(back.request.confidence == 0.95);
+    CHECK(back.request.size_name == "fault_depth_m");
+    CHECK(back.request.size_unit == "m");
     REQUIRE(back.detection.size() == 2);
     CHECK(back.detection[0].feature == "te_rms");
     CHECK(back.detection[1].warnings == r.detection[1].warnings);
     const analysis::LevelDetection& level = back.detection[1].levels[1];
     CHECK(level.threshold == 1.5);
     CHECK(level.threshold_sample == 10);
-    CHECK(level.cells[2].size.low_m == 0.002);
+    CHECK(level.cells[2].size.low == 0.002);
     CHECK(level.cells[2].pd == 0.75);
     CHECK(level.cells[2].detected == 5);
     REQUIRE(back.timing.size() == 2);
@@ -160,8 +164,10 @@ TEST_CASE("h5dump sees the documented layout") {
                              "/status",
                              "/status/meanings",
                              "/noise_levels",
-                             "/detection/te_fc/size_low_m",
-                             "/detection/te_fc/size_high_m",
+                             "/detection/size_name",
+                             "/detection/size_unit",
+                             "/detection/te_fc/size_low",
+                             "/detection/te_fc/size_high",
                              "/detection/te_fc/noise_level",
                              "/detection/te_fc/threshold",
                              "/detection/te_fc/threshold_sample",
@@ -209,7 +215,7 @@ TEST_CASE("A results file that is missing, foreign, damaged or newer is refused 
         write_file(bad, file_bytes(newer));
     }
     CHECK(contains(reason_of(bad), "version 99"));
-    CHECK(contains(reason_of(bad), "version 1"));
+    CHECK(contains(reason_of(bad), "version 2"));
 }
 
 TEST_CASE("Every damaged byte of a results file is noticed") {

@@ -11,10 +11,11 @@
 
 #include "mc/sampling.hpp"
 #include "mc/study_document.hpp"
+#include "scene_examples.hpp"
 #include "study_example.hpp"
 
 using namespace gearpod::mc;
-using gearpod::tests::kExampleStudy;
+using namespace gearpod::tests;
 
 namespace {
 
@@ -69,7 +70,7 @@ double mean_of(const std::vector<double>& values) {
 
 bool same(const InstanceInputs& a, const InstanceInputs& b) {
     return a.planet_bearing_stiffness_N_m == b.planet_bearing_stiffness_N_m &&
-           a.path_exponent == b.path_exponent && a.fault_depth_m == b.fault_depth_m;
+           a.path_exponent == b.path_exponent && a.fault_size == b.fault_size;
 }
 
 }  // namespace
@@ -190,8 +191,8 @@ TEST_CASE(
     const Sampler sampler(study_with({}));
     const double depths_mm[] = {0, 1, 2, 3, 4.3};
     for (std::uint64_t i = 0; i < 12; ++i) {
-        CHECK(sampler.sample(Group::graded, i).fault_depth_m == Approx(depths_mm[i % 5] * 1e-3));
-        CHECK(sampler.sample(Group::threshold, i).fault_depth_m == 0.0);
+        CHECK(sampler.sample(Group::graded, i).fault_size == Approx(depths_mm[i % 5] * 1e-3));
+        CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
     }
     const auto grid = draws_of("{distribution='grid', low=0, high=1, count=3}", 4);
     CHECK(grid == std::vector<double>{0.0, 0.5, 1.0, 0.0});
@@ -211,9 +212,9 @@ TEST_CASE("Levels and grids of several inputs take all combinations, each equall
         std::set<std::tuple<double, double, double>> combinations;
         for (std::uint64_t i = 0; i < 64; ++i) {
             const InstanceInputs x = sampler.sample(group, i);
-            combinations.insert({x.fault_depth_m, x.sun_mass_kg, x.noise_m_s2});
+            combinations.insert({x.fault_size, x.sun_mass_kg, x.noise_m_s2});
             if (group == Group::graded) {
-                CHECK(x.fault_depth_m == Approx(1e-3 * static_cast<double>(i % 4)));
+                CHECK(x.fault_size == Approx(1e-3 * static_cast<double>(i % 4)));
             }
             const InstanceInputs y = more.sample(group, i);
             CHECK(y.ring_mass_kg == 3.0);
@@ -293,6 +294,52 @@ TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") 
     CHECK(given.sun_inertia_over_r2_kg == 0.39);
 }
 
+TEST_CASE("A fixed-shaft gearbox's inputs are drawn like any other's") {
+    const std::vector<std::string> overrides{
+        "random.gearbox.motor_coupling_stiffness_N_m_rad={distribution='lognormal', median=4.4e4, "
+        "cv=0.2}",
+        "random.operation.load_torque_N_m={distribution='uniform', low=28, high=31}",
+        "random.fault.chip_mm={distribution='levels', values=[0, 4, 8]}"};
+    const auto sampler = [&] {
+        const auto reading = read_study_text(kFixedShaftStudy, "study.toml", overrides);
+        INFO(format(reading.problems));
+        REQUIRE(reading.study);
+        return Sampler(*reading.study);
+    }();
+    CHECK(sampler.speed_member() == Member::pinion);
+    const auto columns = sampler.columns();
+    REQUIRE(columns.size() == 3);
+    CHECK(columns[0].name == "motor_coupling_stiffness_N_m_rad");
+    CHECK(columns[0].unit == "N m/rad");
+    CHECK(columns[2].name == "fault_chip_m");
+    std::set<double> stiffnesses;
+    for (std::uint64_t i = 0; i < 6; ++i) {
+        const InstanceInputs x = sampler.sample(Group::graded, i);
+        CHECK(x.fault_size == Approx(4e-3 * static_cast<double>(i % 3)));
+        CHECK(x.fixed_shaft.load_torque_N_m >= 28.0);
+        CHECK(x.fixed_shaft.load_torque_N_m <= 31.0);
+        CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
+        stiffnesses.insert(x.fixed_shaft.motor_coupling_stiffness_N_m_rad);
+        CHECK(sampler.row(Group::graded, i) ==
+              std::vector<double>{x.fixed_shaft.motor_coupling_stiffness_N_m_rad,
+                                  x.fixed_shaft.load_torque_N_m, x.fault_size});
+    }
+    CHECK(stiffnesses.size() == 6);
+}
+
+TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears") {
+    // Tian (2004), Table 4.1: the inertias are discs of the pitch radii.
+    std::string text = replaced(kFixedShaftStudy, "pinion_inertia_kg_m2 = 4.3659e-4\n", "");
+    text = replaced(replaced(text, "gear_inertia_kg_m2 = 8.3602e-3\n", ""),
+                    "load_torque_N_m = 48.8\n", "");
+    const auto reading = read_study_text(text, "study.toml");
+    REQUIRE(reading.study);
+    const FixedShaftInstance shaft = Sampler(*reading.study).nominal().fixed_shaft;
+    CHECK(shaft.pinion_inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
+    CHECK(shaft.gear_inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
+    CHECK(shaft.load_torque_N_m == Approx(11.9 * 48 / 19));
+}
+
 TEST_CASE("Rows of the results hold the sampled values in SI under their names") {
     const Sampler sampler(
         study_with({"random.operation.carrier_speed_rpm={distribution='uniform', low=8, high=9}"}));
@@ -310,6 +357,6 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
         const auto row = sampler.row(group, 3);
         const InstanceInputs inputs = sampler.sample(group, 3);
         CHECK(row == std::vector<double>{inputs.planet_bearing_stiffness_N_m, inputs.speed_rad_s,
-                                         inputs.path_exponent, inputs.fault_depth_m});
+                                         inputs.path_exponent, inputs.fault_size});
     }
 }

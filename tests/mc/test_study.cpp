@@ -1,4 +1,5 @@
 // A study file read, converted to SI, overridden and written back.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -6,11 +7,11 @@
 #include "mc/study.hpp"
 #include "mc/study_sizes.hpp"
 #include "mc/study_spelling.hpp"
+#include "scene_examples.hpp"
 #include "study_example.hpp"
 
 using namespace gearpod::mc;
-using gearpod::tests::example_with;
-using gearpod::tests::kExampleStudy;
+using namespace gearpod::tests;
 
 namespace {
 
@@ -94,7 +95,7 @@ TEST_CASE("Overrides replace what the file says and may leave strings unquoted")
          "random.fault.depth_mm={distribution=\"grid\", low=0, high=4, count=3}",
          "random.gearbox.planet_bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
     CHECK(study.ensemble.seed == 12);
-    CHECK(study.fault.side == Member::sun);
+    CHECK(study.fault.side == FaultSide::sun);
     CHECK(study.effects.motion == Motion::torsional);
     CHECK(study.find_random("fault.depth_mm")->distribution.levels() ==
           std::vector<double>{0.0, 2.0, 4.0});
@@ -155,6 +156,20 @@ TEST_CASE("Zero settling periods stand for a choice by the program and are the d
 
 TEST_CASE("The resolved text reads back to the same study, bit for bit") {
     std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
+    for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
+        studies.push_back(study_of(text));
+    }
+    studies.push_back(
+        study_of(kFixedShaftStudy,
+                 {"sensor.tones=[{frequency_Hz=0.1, amplitude_m_s2=0.7}, {frequency_Hz=50, "
+                  "amplitude_m_s2=3}]",
+                  "sensor.position=gear",
+                  "random.gearbox.gear_bearing_damping_N_s_m={distribution="
+                  "'lognormal', median=1.8e5, cv=0.3}",
+                  "numerics.integrator=sdirk3", "effects.shear=false"}));
+    studies.push_back(study_of(kQuasiStaticStudy,
+                               {"random.fault.reduction={distribution='uniform', low=0, high=0.3}",
+                                "detection.size_edges=[0, 0.1, 0.3]"}));
     studies.push_back(study_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",
                                             "\"triangular\", low = 0.1, mode = 0.7, high = 3.3"),
                                {"detection.size_edges_mm=[0.1, 0.7, 1.1, 3.3]",
@@ -175,11 +190,15 @@ TEST_CASE("The resolved text reads back to the same study, bit for bit") {
 
 TEST_CASE("The resolved text spells out every key that may be given") {
     const std::string text = resolved_text(study_of(kExampleStudy));
+    // Those that mean something by not being given.
+    const std::vector<std::string_view> without_default{
+        "inertia", "speed", "size_edges_mm", "planet_positions", "ring_to_sun_phase", "bore",
+        "outer",   "error", "tones"};
     for (const Key& key : schema()) {
         const bool optional_here =
             key.presence(study_of(kExampleStudy)).need == Need::optional &&
-            (key.name.find("inertia") != std::string_view::npos ||
-             key.name.find("speed") != std::string_view::npos || key.name == "size_edges_mm");
+            std::any_of(without_default.begin(), without_default.end(),
+                        [&](auto part) { return key.name.find(part) != std::string_view::npos; });
         const bool forbidden = key.presence(study_of(kExampleStudy)).need == Need::forbidden;
         INFO(key.path());
         CHECK((optional_here || forbidden ||
@@ -200,19 +219,63 @@ TEST_CASE("Size groups are the levels in ascending order, or lie between the edg
     const Study levels = study_of(kExampleStudy, {"random.fault.depth_mm.values=[3, 0, 3, 1]"});
     const auto groups = size_groups(levels);
     REQUIRE(groups.size() == 3);
-    CHECK(groups[0].low_m == 0.0);
-    CHECK(groups[2].low_m == 3 * 1e-3);
-    CHECK(groups[2].high_m == groups[2].low_m);
-    CHECK(fault_depths_m(levels) == std::vector<double>{1e-3, 3 * 1e-3});
+    CHECK(groups[0].low == 0.0);
+    CHECK(groups[2].low == 3 * 1e-3);
+    CHECK(groups[2].high == groups[2].low);
+    CHECK(fault_sizes(levels) == std::vector<double>{1e-3, 3 * 1e-3});
 
     const Study edges = study_of(
         example_with("\"levels\", values = [0, 1, 2, 3, 4.3]", "\"uniform\", low = 0, high = 4"),
         {"detection.size_edges_mm=[0, 1, 4]"});
     REQUIRE(size_groups(edges).size() == 2);
-    CHECK(size_groups(edges)[1].low_m == 1e-3);
-    CHECK(size_groups(edges)[1].high_m == 4 * 1e-3);
+    CHECK(size_groups(edges)[1].low == 1e-3);
+    CHECK(size_groups(edges)[1].high == 4 * 1e-3);
     CHECK(detection_request(edges).noise_levels == edges.sensor.noise_levels);
     CHECK(size_groups(study_of(kExampleStudy, {"fault.kind='none'"})).size() == 1);
+}
+
+TEST_CASE("Each kind of fault has one size, with its unit") {
+    const std::pair<FaultKind, const char*> columns[] = {
+        {FaultKind::none, "fault_depth_m"},        {FaultKind::crack, "fault_depth_m"},
+        {FaultKind::spatial_crack, "fault_stage"}, {FaultKind::chip, "fault_chip_m"},
+        {FaultKind::pitting, "fault_pit_width_m"}, {FaultKind::broken, "fault_broken"},
+        {FaultKind::reduction, "fault_reduction"}};
+    for (const auto& [kind, column] : columns) {
+        Study study;
+        study.fault.kind = kind;
+        CHECK(fault_size_column(study) == column);
+        CHECK(fault_size_key(study).may_be_random());
+        CHECK(detection_request(study).size_name == column);
+        const bool length = std::string_view(column).ends_with("_m");
+        CHECK(detection_request(study).size_unit == (length ? "m" : "1"));
+    }
+    const Study edges = study_of(
+        kQuasiStaticStudy, {"random.fault.reduction={distribution='uniform', low=0, high=0.3}",
+                            "detection.size_edges=[0, 0.1, 0.3]"});
+    REQUIRE(size_groups(edges).size() == 2);
+    CHECK(size_groups(edges)[1].low == 0.1);
+    CHECK(size_groups(study_of(kSpatialCrackStudy)).front().high == 5.0);
+    CHECK(size_groups(study_of(kFixedShaftStudy)).front().high == 8 * 1e-3);
+}
+
+TEST_CASE("What a motion and a gearbox leave no room for is off by default") {
+    const Study quasi = study_of(kQuasiStaticStudy), shaft = study_of(kFixedShaftStudy);
+    CHECK(quasi.effects.path == PathWindow::none);
+    CHECK(shaft.effects.path == PathWindow::none);
+    CHECK(study_of(kExampleStudy).effects.path == PathWindow::hamming);
+    CHECK(quasi.features.use ==
+          std::vector<std::string>{"te_rms", "te_kurtosis", "te_fc", "te_fm0"});
+    CHECK(shaft.features.use.size() == 7);
+    CHECK(quasi.operation.torque_on == Member::carrier);
+    CHECK(study_of(kExampleStudy, {"operation.input=carrier"}).operation.torque_on == Member::sun);
+}
+
+TEST_CASE("Lists of errors keep their order and come in SI units") {
+    const Study study = study_of(kSpatialCrackStudy);
+    CHECK(study.errors.sun_planet_m == std::vector<double>{10 * 1e-6, 2 * 1e-6});
+    CHECK(study.errors.sun_planet_phase_rad[1] == Approx(M_PI / 2));
+    CHECK(study.errors.ring_planet_phase_rad.empty());
+    CHECK(study.gearbox.backlash_m == 0.1 * 1e-3);
 }
 
 TEST_CASE("Edit distances are those of the literature") {

@@ -12,7 +12,7 @@ class ChipOfOneLength : public ToothFault {
     ChipOfOneLength(const ToothChip& family, double length_m)
         : family_(family),
           length_(std::min(length_m, family.largest_size())),
-          depth_(ToothChip::kDepthOverLength * length_) {}
+          depth_(family.depth(length_)) {}
 
     int gear() const override { return family_.which_; }
     bool changes_contact() const override { return true; }
@@ -38,10 +38,12 @@ class ChipOfOneLength : public ToothFault {
     double length_, depth_;
 };
 
-ToothChip::ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which)
+ToothChip::ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which,
+                     std::optional<double> depth_m)
     : profile_(geometry.gear(which), Profile::root_circle),
       face_width_m_(face_width_m),
       which_(which),
+      depth_m_(depth_m),
       contact_ratio_(geometry.contact_ratio()),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which))),
@@ -65,7 +67,7 @@ std::unique_ptr<const ToothFault> ToothChip::at(double length_m) const {
 }
 
 double ToothChip::largest_size() const {
-    return std::min(face_width_m_, height_ / kDepthOverLength);
+    return depth_m_ ? face_width_m_ : std::min(face_width_m_, height_ / kDepthOverLength);
 }
 
 std::vector<std::string> ToothChip::problems(double length_m) const {
@@ -73,11 +75,11 @@ std::vector<std::string> ToothChip::problems(double length_m) const {
     if (length_m > face_width_m_)
         all.push_back(fmt::format("a chip of {:g} mm is longer than the face, {:g} mm",
                                   1e3 * length_m, 1e3 * face_width_m_));
-    if (kDepthOverLength * length_m > height_)
+    if (depth(length_m) > height_)
         all.push_back(fmt::format(
-            "a chip of {:g} mm is {:g} mm deep (a quarter of its length), deeper than the tooth's "
-            "flank, {:.3g} mm",
-            1e3 * length_m, 1e3 * kDepthOverLength * length_m, 1e3 * height_));
+            "a chip of {:g} mm is {:g} mm deep{}, deeper than the tooth's flank, {:.3g} mm",
+            1e3 * length_m, 1e3 * depth(length_m), depth_m_ ? "" : " (a quarter of its length)",
+            1e3 * height_));
     return all;
 }
 

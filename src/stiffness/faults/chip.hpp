@@ -13,9 +13,11 @@
 // section to section 22.96, and the whole tooth's height leaves nothing to touch the chip).
 // Contacts beyond d_h, on the last tenth of a millimetre in his case, count as d_h.
 //
-// Size: the chip's length z along the face, m. Its depth is a quarter of that, as in Tian's case (z
-// = 8 mm, b = 2 mm).
+// Size: the chip's length z along the face, m. Its depth b is given, or grows with it as a quarter,
+// as in Tian's case (z = 8 mm, b = 2 mm).
 #pragma once
+
+#include <optional>
 
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/tooth_fault.hpp"
@@ -27,8 +29,9 @@ class ToothChip : public ToothFaultFamily {
   public:
     static constexpr double kDepthOverLength = 0.25;
 
-    // which: the gear whose tooth is chipped (1 or 2 of the geometry).
-    ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which);
+    // which: the gear whose tooth is chipped (1 or 2 of the geometry). depth_m: b of all lengths.
+    ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which,
+              std::optional<double> depth_m = {});
 
     std::unique_ptr<const ToothFault> at(double length_m) const override;
     // The face width, or the length at which the chip is as deep as the tooth is high.
@@ -39,12 +42,16 @@ class ToothChip : public ToothFaultFamily {
 
   private:
     friend class ChipOfOneLength;
+    double depth(double length_m) const {
+        return depth_m_ ? *depth_m_ : kDepthOverLength * length_m;
+    }
     double distance(double tau) const;         // d_c
     double position(double distance_m) const;  // tau of a d_c
 
     ToothProfile profile_;  // root circle: its involute begins where d_c is 0
     double face_width_m_;
     int which_;
+    std::optional<double> depth_m_;
     double contact_ratio_;
     double contact_start_, contact_rate_;  // involute angle of the contact: start + rate tau
     double foot_axial_ = 0, height_ = 0;

@@ -1,0 +1,186 @@
+#include "mc/describe_effects.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mc/schema.hpp"
+#include "mc/study_gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string choice(const Study& study, const char* section, const char* name) {
+    return std::string(choice_text(study, section, name));
+}
+
+bool random(const Study& study, const char* key) {
+    return study.find_random(key) != nullptr;
+}
+
+bool pitch_errors(const Study& study) {
+    return study.errors.pitch_error_m > 0.0 || random(study, "gearbox.pitch_error_um");
+}
+
+bool static_errors(const Study& study) {
+    const MeshErrors& e = study.errors;
+    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
+}
+
+void print_motion(const Study& study) {
+    const Effects& e = study.effects;
+    std::string text = e.torsional() ? "rotations only (rigid bearings)" : "x, y and rotation";
+    if (e.quasi_static()) {
+        text += ", without inertia: static equilibrium at every sample";
+    }
+    print_entry("motion", text);
+    if (!e.quasi_static()) {
+        constexpr const char* kDamping[] = {"ratio of critical", "proportional to stiffness",
+                                            "constant"};
+        print_entry("mesh damping", kDamping[static_cast<int>(e.mesh_damping)]);
+    }
+    if (study.gearbox.kind == GearboxKind::planetary && e.inertial_terms && !e.torsional()) {
+        print_entry("inertial terms", e.quasi_static()
+                                          ? "centrifugal pull"
+                                          : "Coriolis and centrifugal, rigid rotation removed "
+                                            "every mesh");
+    }
+}
+
+void print_meshes(const Study& study) {
+    const Effects& e = study.effects;
+    if (!stiffness_given(study)) {
+        print_entry("teeth", fmt::format("{} profile{}", choice(study, "gearbox", "tooth_profile"),
+                                         e.shear ? "" : ", without shear energy"));
+        if (e.foundation != Foundation::none) {
+            print_entry("foundation", choice(study, "effects", "foundation"));
+        }
+        if (e.contact == Contact::load_dependent) {
+            print_entry("contact", "stiffens with the force it carries at the nominal torque");
+        }
+    }
+    if (e.separation != Separation::none) {
+        print_entry("tooth separation",
+                    e.separation == Separation::one_sided
+                        ? "one-sided: the back flanks never touch"
+                        : fmt::format("two-sided, backlash {:g} mm",
+                                      1e3 * study.gearbox.backlash_m.value_or(0.0)));
+    }
+    if (static_errors(study)) {
+        print_entry("transmission error", "harmonics of the mesh period");
+    }
+    if (pitch_errors(study)) {
+        print_entry("pitch errors", fmt::format("{:g} um rms a tooth, every mesh marched",
+                                                1e6 * study.errors.pitch_error_m));
+    }
+}
+
+void print_fault(const Study& study) {
+    if (study.fault.kind == FaultKind::none) {
+        return;
+    }
+    std::string where(member_name(*study.fault.member));
+    if (study.fault.side) {
+        where += fmt::format(" {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
+                             study.fault.side == FaultSide::both ? "s" : "");
+    }
+    print_entry("fault",
+                fmt::format("{} on the {}",
+                            study.fault.kind == FaultKind::crack ? "tooth crack"
+                                                                 : choice(study, "fault", "kind"),
+                            where));
+}
+
+void print_sensor(const Study& study) {
+    if (study.effects.path != PathWindow::none) {
+        print_entry("transmission path",
+                    fmt::format("{} window, exponent {:g}", choice(study, "effects", "path"),
+                                study.sensor.path_exponent));
+    } else {
+        print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",
+                                          member_name(study.sensor.position)));
+    }
+    print_entry("sensor low-pass",
+                fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    if (!study.sensor.tones.empty()) {
+        print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
+    }
+}
+
+bool sensor_noise(const Study& study) {
+    return study.sensor.noise_m_s2 > 0.0 || random(study, "sensor.noise_m_s2");
+}
+bool encoder_noise(const Study& study) {
+    return study.sensor.encoder_noise_rad > 0.0 || random(study, "sensor.encoder_noise_arcsec");
+}
+
+void print_left_out(const Scene& scene) {
+    const Study& study = scene.study();
+    const Effects& e = study.effects;
+    print_heading("left out");
+    if (e.quasi_static()) {
+        print_entry("inertia and damping",
+                    fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
+        print_entry("sensor", "nothing accelerates");
+    }
+    if (e.torsional()) {
+        print_entry("x and y motion",
+                    fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
+        print_entry("inertial terms", "rotations feel none");
+    } else if (study.gearbox.kind == GearboxKind::planetary && !e.inertial_terms) {
+        print_entry("inertial terms", "effects.inertial_terms = false");
+    }
+    if (!stiffness_given(study) && e.foundation == Foundation::none) {
+        print_entry("gear bodies", "effects.foundation = \"none\"");
+    }
+    if (study.fault.kind == FaultKind::none) {
+        print_entry("fault", "fault.kind = \"none\"");
+    }
+    if (!e.quasi_static() && !sensor_noise(study)) {
+        print_entry("sensor noise", "sensor.noise_m_s2 is 0");
+    }
+    if (!encoder_noise(study)) {
+        print_entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
+    }
+    if (!std::isfinite(scene.decay_meshes())) {
+        fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
+    }
+    if (!static_errors(study) && !pitch_errors(study)) {
+        print_entry("transmission error", "perfect flanks");
+    }
+    if (e.separation == Separation::none) {
+        print_entry("tooth separation", "the meshes are springs that always touch");
+    }
+}
+
+}  // namespace
+
+void print_heading(const char* text) {
+    fmt::print("\n{}\n", text);
+}
+
+void print_entry(const char* name, const std::string& value) {
+    fmt::print("  {:<26}{}\n", name, value);
+}
+
+void print_effects(const Scene& scene) {
+    const Study& study = scene.study();
+    print_heading("simulated");
+    print_motion(study);
+    print_meshes(study);
+    print_fault(study);
+    if (!study.effects.quasi_static()) {
+        print_sensor(study);
+        if (sensor_noise(study)) {
+            print_entry("sensor noise", fmt::format("{:g} m/s^2 rms times the noise level",
+                                                    study.sensor.noise_m_s2));
+        }
+    }
+    if (encoder_noise(study)) {
+        print_entry("encoder noise", fmt::format("{:.4g} rad rms times the noise level",
+                                                 study.sensor.encoder_noise_rad));
+    }
+    print_left_out(scene);
+}
+
+}  // namespace gearpod::mc

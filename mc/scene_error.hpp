@@ -1,0 +1,22 @@
+// What is wrong with a study that only building its scene shows: numbers of steps or samples,
+// bodies that no model covers.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace gearpod::mc {
+
+class SceneError : public std::runtime_error {
+  public:
+    SceneError(std::string key, const std::string& what, std::string remedy)
+        : std::runtime_error(what), key_(std::move(key)), remedy_(std::move(remedy)) {}
+    const std::string& key() const { return key_; }
+    const std::string& remedy() const { return remedy_; }
+
+  private:
+    std::string key_, remedy_;
+};
+
+}  // namespace gearpod::mc

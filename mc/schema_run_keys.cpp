@@ -1,0 +1,58 @@
+// Keys of [sensor], [features], [detection], [numerics] and [ensemble].
+#include "mc/schema_table.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
+constexpr ChoiceName kIntegrators[] = {
+    name("auto", Integrator::automatic), name("rk4", Integrator::rk4),
+    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3)};
+constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
+constexpr ChoiceName kInstructionSets[] = {
+    name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
+    name("x86-64-v3", InstructionSet::x86_64_v3), name("x86-64-v4", InstructionSet::x86_64_v4)};
+
+// clang-format off
+const Key kKeys[] = {
+    {"sensor", "sampling_Hz", number<&Sensor::sampling_Hz>, kHz, kFrequency, acceleration, kSampling, "sampling rate of the accelerometer"},
+    {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, acceleration, kSampling, "anti-alias low-pass"},
+    {"sensor", "position", choice<&Sensor::position>(kPositions), kNone, kAny, fixed_shaft<acceleration_detail>, kShared, "bearing on which the sensor sits"},
+    {"sensor", "path_exponent", number<&Sensor::path_exponent>, kNone, from_to(-1, 1), planetary<acceleration_detail>, kRandom, "exponent of the transmission path"},
+    {"sensor", "noise_m_s2", number<&Sensor::noise_m_s2>, kMPerS2, kNotNegative, acceleration_detail, kRandom, "rms noise of the accelerometer"},
+    {"sensor", "tones", list<&Sensor::tones>, kNone, kAny, acceleration_detail, kShared, "interfering tones from elsewhere"},
+    {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
+    {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
+    {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on both noises, ascending"},
+
+    {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; all by default"},
+    {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the mesh window"},
+    {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "mesh harmonics in te_fm0"},
+
+    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, inside(0, 1), may, kShared, "share of healthy gearboxes that may alarm"},
+    {"detection", "confidence", number<&Detection::confidence>, kNone, inside(0, 1), may, kShared, "confidence of the intervals"},
+    {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
+    {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
+
+    {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
+    {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
+    {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
+    {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
+    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
+    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 8), may, kShared, "gearboxes in lockstep: 8 or 1"},
+    {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for all"},
+    {"numerics", "instruction_set", choice<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
+
+    {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "gearboxes over all fault sizes"},
+    {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "further healthy gearboxes that set the thresholds"},
+    {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> run_keys() {
+    return kKeys;
+}
+
+}  // namespace gearpod::mc
