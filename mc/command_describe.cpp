@@ -33,9 +33,9 @@ void print_gearbox(const Scene& scene) {
     entry("mesh phases, sun", sun.substr(1));
     entry("mesh phases, ring",
           ring.substr(1) + fmt::format("; ring to sun {:g}", gears::ring_to_sun_phase(train)));
-    const auto mesh = [&](const char* name, const stiffness::PairStiffness& pair) {
+    const auto mesh = [&](const char* name, const stiffness::MeshStiffness& pair) {
         entry(name, fmt::format("contact ratio {:.4f}, mean {:.4g} N/m", pair.contact_ratio(),
-                                pair.mean()));
+                                mean_total(pair)));
     };
     mesh("sun-planet mesh", scene.sun_planet());
     mesh("ring-planet mesh", scene.ring_planet());

@@ -19,7 +19,7 @@ std::string pair_name(const Scene& scene, int pair) {
 struct FaultColumn {
     std::string name;
     int period = 0;  // after the one in which the tooth engages
-    stiffness::CrackedToothCurve curve;
+    std::shared_ptr<const stiffness::FaultyMesh> mesh;
 };
 
 std::vector<FaultColumn> fault_columns(const Scene& scene) {
@@ -35,10 +35,22 @@ std::vector<FaultColumn> fault_columns(const Scene& scene) {
         for (int period = 0; period < periods; ++period) {
             columns.push_back({fmt::format("{}_crack_{:g}mm_period{}", pair_name(scene, pair),
                                            1e3 * depth, period + 1),
-                               period, *scene.cracked_tooth(depth)});
+                               period, scene.faulty_mesh(depth)});
         }
     }
     return columns;
+}
+
+// The faulty pair's stiffness so many mesh periods after its faulty tooth engaged.
+double faulty_total(const Scene& scene, const stiffness::FaultyMesh& mesh, double since) {
+    const int pair = scene.faulty_pair();
+    const lockstep::PairSet& pairs = scene.pairs();
+    if (since < 0.0 || since >= mesh.duration()) {
+        return pairs.total(pair, pairs.start[static_cast<std::size_t>(pair)] + since);
+    }
+    const double tau = pairs.reversed ? mesh.duration() - since : since;
+    const auto limit = pairs.reversed ? stiffness::Limit::from_below : stiffness::Limit::from_above;
+    return total_at(mesh, pairs.curve(pair).transitions(), tau, limit);
 }
 
 std::string csv_text(const Scene& scene, int points) {
@@ -51,21 +63,16 @@ std::string csv_text(const Scene& scene, int points) {
         text += fmt::format(",{}", column.name);
     }
     text += "\n";
-    const int faulty = scene.faulty_pair();
+    const auto faulty = static_cast<std::size_t>(std::max(scene.faulty_pair(), 0));
     for (int i = 0; i < points; ++i) {
         const double phase = static_cast<double>(i) / points;
         text += fmt::format("{:.9g}", phase);
         for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
-            text += fmt::format(",{:.9g}", scene.pairs().mesh(pair, phase));
+            text += fmt::format(",{:.9g}", scene.pairs().total(pair, phase));
         }
         for (const FaultColumn& column : columns) {
-            const auto& healthy = scene.pairs().curve(faulty);
-            const double start = scene.pairs().start[static_cast<std::size_t>(faulty)];
-            const double since = phase + column.period - start;
-            const double tau = scene.pairs().reversed ? healthy.contact_ratio() - since : since;
-            const double k = scene.pairs().mesh(faulty, phase) - healthy.tooth_pair(tau) +
-                             column.curve.tooth_pair(tau);
-            text += fmt::format(",{:.9g}", std::max(k, 0.0));
+            const double since = phase + column.period - scene.pairs().start[faulty];
+            text += fmt::format(",{:.9g}", faulty_total(scene, *column.mesh, since));
         }
         text += "\n";
     }
@@ -73,11 +80,11 @@ std::string csv_text(const Scene& scene, int points) {
 }
 
 void print_summary(const Scene& scene) {
-    const auto show = [](const char* name, const stiffness::PairStiffness& curve) {
+    const auto show = [](const char* name, const stiffness::MeshStiffness& curve) {
         fmt::print(
             "{}: contact ratio {:.4f}, mean {:.4e} N/m, pitch point {:.4f} mesh periods after "
             "engagement\n",
-            name, curve.contact_ratio(), curve.mean(), curve.pitch_position());
+            name, curve.contact_ratio(), mean_total(curve), curve.pitch_position());
     };
     show("sun-planet ", scene.sun_planet());
     show("ring-planet", scene.ring_planet());

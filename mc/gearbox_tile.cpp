@@ -46,10 +46,10 @@ template <int W>
 void march(const Scene& scene, bool with_motion, GearboxTile& tile) {
     auto start = Clock::now();
     std::vector<dynamics::PlanetaryInputs> inputs;
-    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {{}}};
     for (const InstanceInputs& instance : tile.inputs) {
         inputs.push_back(scene.inputs(instance));
-        faults.cracked.push_back(scene.cracked_tooth(instance.fault_depth_m));
+        faults.curve[0].push_back(scene.faulty_mesh(instance.fault_depth_m));
     }
     tile.stiffness_s = lap(start);
     tile.march =

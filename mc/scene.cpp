@@ -10,6 +10,9 @@
 #include "gears/mesh_geometry.hpp"
 #include "lockstep/step_limit.hpp"
 #include "mc/study_gears.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
+#include "stiffness/square_wave_mesh.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -141,8 +144,12 @@ gears::Speeds Scene::speeds(double given) const {
 void Scene::build_pairs() {
     const Gearbox& g = study_.gearbox;
     if (g.tooth_profile == ToothProfile::constant) {
-        sun_planet_ = stiffness::PairStiffness::constant(*g.sun_planet_stiffness_N_m);
-        ring_planet_ = stiffness::PairStiffness::constant(*g.ring_planet_stiffness_N_m);
+        const auto constant = [](double stiffness_N_m) {
+            return std::make_unique<const stiffness::SquareWaveMesh>(
+                stiffness::SquareWaveMesh::constant(stiffness_N_m));
+        };
+        sun_planet_ = constant(*g.sun_planet_stiffness_N_m);
+        ring_planet_ = constant(*g.ring_planet_stiffness_N_m);
     } else {
         const stiffness::Material material{*g.young_modulus_Pa, *g.poisson_ratio, *g.face_width_m};
         const auto profile = g.tooth_profile == ToothProfile::root_circle
@@ -152,65 +159,57 @@ void Scene::build_pairs() {
         const gears::Gear planet = gear_of(g, Member::planet);
         const gears::Gear ring = gear_of(g, Member::ring);
         const gears::MeshGeometry sun_planet(sun, planet), ring_planet(planet, ring);
-        sun_planet_.emplace(sun_planet, material, profile);
-        ring_planet_.emplace(ring_planet, material, profile);
+        sun_planet_ =
+            std::make_unique<const stiffness::AdditiveMesh>(sun_planet, material, profile);
+        ring_planet_ =
+            std::make_unique<const stiffness::AdditiveMesh>(ring_planet, material, profile);
         const Fault& f = study_.fault;
         if (f.kind == FaultKind::crack) {
             const bool on_sun_mesh =
                 f.member == Member::sun || (f.member == Member::planet && f.side == Member::sun);
             const int gear =
                 f.member == Member::sun || (f.member == Member::planet && !on_sun_mesh) ? 1 : 2;
-            cracked_.emplace(on_sun_mesh ? sun_planet : ring_planet, material, profile, gear,
-                             f.angle_rad);
+            fault_ = std::make_unique<const stiffness::ToothCrack>(
+                on_sun_mesh ? sun_planet : ring_planet, material, profile, gear, f.angle_rad);
         }
     }
-    pairs_.sun_planet = &*sun_planet_;
-    pairs_.ring_planet = &*ring_planet_;
     // A tooth pair that is touched in the reverse order begins where it used to end.
     pairs_.reversed = sense_ == gears::PlanetSense::counter_clockwise;
-    const auto start = [&](double pitch_phase, const stiffness::PairStiffness& pair) {
+    const auto add = [&](double pitch_phase, const stiffness::MeshStiffness& mesh) {
         const double since =
-            pairs_.reversed ? pair.contact_ratio() - pair.pitch_position() : pair.pitch_position();
-        return lockstep::phase_in_period(pitch_phase - since);
+            pairs_.reversed ? mesh.contact_ratio() - mesh.pitch_position() : mesh.pitch_position();
+        pairs_.mesh.push_back(&mesh);
+        pairs_.start.push_back(lockstep::phase_in_period(pitch_phase - since));
     };
     for (int n = 0; n < train_.planets; ++n) {
-        pairs_.start.push_back(start(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_));
+        add(gears::sun_mesh_phase(train_, n, sense_), *sun_planet_);
     }
     for (int n = 0; n < train_.planets; ++n) {
         const double phase =
             gears::ring_mesh_phase(train_, n, sense_) + gears::ring_to_sun_phase(train_);
-        pairs_.start.push_back(start(phase, *ring_planet_));
+        add(phase, *ring_planet_);
     }
 }
 
-// A cracked planet tooth meets the same gear every Z_p meshes; a sun tooth meets the next planet
-// every Z_s / N meshes, a ring tooth every Z_r / N.
 void Scene::build_pattern() {
     const Fault& f = study_.fault;
     if (f.kind == FaultKind::none) {
         return;
     }
-    const int n_planets = train_.planets;
-    if (*f.member == Member::planet) {
-        const int pair = (f.side == Member::sun ? 0 : n_planets) + f.planet - 1;
-        pattern_.length = train_.planet_teeth;
-        pattern_.passages = {{pair, pairs_.start[static_cast<std::size_t>(pair)]}};
-        return;
+    const auto planets = lockstep::equal_planets(train_.planets);
+    switch (*f.member) {
+        case Member::sun:
+            pattern_ = lockstep::sun_fault_pattern(pairs_, planets, train_.sun_teeth);
+            return;
+        case Member::planet:
+            pattern_ = lockstep::planet_fault_pattern(
+                pairs_, f.planet - 1,
+                f.side == Member::sun ? lockstep::PlanetSide::sun : lockstep::PlanetSide::ring,
+                train_.planet_teeth);
+            return;
+        default:
+            pattern_ = lockstep::ring_fault_pattern(pairs_, planets, train_.ring_teeth);
     }
-    const bool on_sun = *f.member == Member::sun;
-    const int first = on_sun ? 0 : n_planets;
-    pattern_.length = on_sun ? train_.sun_teeth : train_.ring_teeth;
-    for (int i = 0; i < n_planets; ++i) {
-        // The sun overtakes the planets in their order, the planets overtake the ring in reverse;
-        // the other way round if the sun falls behind the carrier.
-        const int n = on_sun != pairs_.reversed ? i : (n_planets - i) % n_planets;
-        const double phase = pairs_.start[static_cast<std::size_t>(first + n)];
-        const double due = pairs_.start[static_cast<std::size_t>(first)] +
-                           static_cast<double>(pattern_.length) * i / n_planets;
-        pattern_.passages.push_back({first + n, phase + std::round(due - phase)});
-    }
-    std::sort(pattern_.passages.begin(), pattern_.passages.end(),
-              [](const auto& a, const auto& b) { return a.start < b.start; });
 }
 
 // Samples a mesh period at least, for a rate of `key`.
@@ -226,8 +225,8 @@ int Scene::sampling(double frequency_Hz, const char* key) const {
 }
 
 std::vector<double> Scene::mean_pairs() const {
-    std::vector<double> k(static_cast<std::size_t>(train_.planets), sun_planet_->mean());
-    k.resize(2 * k.size(), ring_planet_->mean());
+    std::vector<double> k(static_cast<std::size_t>(train_.planets), mean_total(*sun_planet_));
+    k.resize(2 * k.size(), mean_total(*ring_planet_));
     return k;
 }
 
@@ -237,7 +236,7 @@ std::vector<double> Scene::stiffest_pairs() const {
     for (int i = 0; i < pairs_.pairs(); ++i) {
         double stiffest = 0.0;
         for (int p = 0; p < kPhases; ++p) {
-            stiffest = std::max(stiffest, pairs_.mesh(i, static_cast<double>(p) / kPhases));
+            stiffest = std::max(stiffest, pairs_.total(i, static_cast<double>(p) / kPhases));
         }
         k.push_back(stiffest);
     }
@@ -373,11 +372,11 @@ dynamics::PlanetaryInputs Scene::inputs(const InstanceInputs& instance) const {
     return out;
 }
 
-std::optional<stiffness::CrackedToothCurve> Scene::cracked_tooth(double depth_m) const {
-    if (!cracked_ || depth_m <= 0.0) {
-        return std::nullopt;
+std::shared_ptr<const stiffness::FaultyMesh> Scene::faulty_mesh(double size) const {
+    if (!fault_ || size <= 0.0) {
+        return nullptr;
     }
-    return cracked_->at(depth_m);
+    return stiffness::faulty_mesh(pairs_.curve(faulty_pair()), fault_->at(size));
 }
 
 }  // namespace gearpod::mc

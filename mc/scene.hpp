@@ -2,7 +2,7 @@
 // pattern.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,8 +12,7 @@
 #include "lockstep/tile.hpp"
 #include "mc/sampling.hpp"
 #include "mc/study.hpp"
-#include "stiffness/cracked_pair.hpp"
-#include "stiffness/pair_stiffness.hpp"
+#include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::mc {
 
@@ -38,8 +37,8 @@ class Scene {
 
     const Study& study() const { return study_; }
     const gears::PlanetaryTrain& train() const { return train_; }
-    const stiffness::PairStiffness& sun_planet() const { return *sun_planet_; }
-    const stiffness::PairStiffness& ring_planet() const { return *ring_planet_; }
+    const stiffness::MeshStiffness& sun_planet() const { return *sun_planet_; }
+    const stiffness::MeshStiffness& ring_planet() const { return *ring_planet_; }
     const lockstep::PairSet& pairs() const { return pairs_; }
     const lockstep::MarchPlan& plan() const { return plan_; }
     const lockstep::FaultPattern& pattern() const { return pattern_; }
@@ -68,8 +67,8 @@ class Scene {
     std::vector<double> mean_pairs() const;
 
     dynamics::PlanetaryInputs inputs(const InstanceInputs& instance) const;
-    // The faulty tooth of one gearbox; none if its depth is 0.
-    std::optional<stiffness::CrackedToothCurve> cracked_tooth(double depth_m) const;
+    // The faulty pair of one gearbox; none if the fault's size is 0.
+    std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const;
 
   private:
     gears::Speeds speeds(double given) const;
@@ -85,8 +84,8 @@ class Scene {
     Member speed_member_;
     gears::PlanetaryTrain train_;
     double sun_radius_ = 0.0, ring_radius_ = 0.0;  // of the base circles, m
-    std::optional<stiffness::PairStiffness> sun_planet_, ring_planet_;
-    std::optional<stiffness::CrackedPairFamily> cracked_;
+    std::unique_ptr<const stiffness::MeshStiffness> sun_planet_, ring_planet_;
+    std::unique_ptr<const stiffness::ToothFaultFamily> fault_;
     lockstep::PairSet pairs_;
     lockstep::FaultPattern pattern_;
     lockstep::MarchPlan plan_;

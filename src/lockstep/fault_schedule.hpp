@@ -1,41 +1,31 @@
 // When a faulty tooth passes which pair, and the stiffness that the lanes then see.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "lockstep/fault_pattern.hpp"
 #include "lockstep/march.hpp"
-#include "stiffness/cracked_pair.hpp"
+#include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::lockstep {
-
-// A faulty tooth's engagement in one pattern: it replaces a healthy tooth pair of `pair` from phase
-// `start` (mesh periods) for a contact ratio.
-struct FaultPassage {
-    int pair = 0;
-    double start = 0.0;
-};
-
-// The fault's repetition: passages in mesh periods [0, length), ascending start; length is the
-// number of meshes after which the same teeth meet again (Z_p, Z_s or Z_r).
-struct FaultPattern {
-    int length = 1;
-    std::vector<FaultPassage> passages;
-};
 
 // What marching a tile needs besides the plan: the pairs' curves for the faulty tooth.
 struct FaultCurves {
     const PairSet* pairs = nullptr;
     FaultPattern pattern;
-    // One per lane; a lane without a fault has none and keeps its healthy orbit to the bit.
-    std::vector<std::optional<stiffness::CrackedToothCurve>> cracked;
+    // [curve][lane]; a lane without a fault has none and keeps its healthy orbit to the bit. The
+    // faults of all lanes have the same number of teeth.
+    std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
+
+    bool faulty(int lane) const;
 };
 
 // Valid as long as the plan and the faults it was made from.
 class FaultSchedule {
   public:
-    FaultSchedule(const MarchPlan& plan, const FaultCurves& faults)
-        : plan_(plan), faults_(faults) {}
+    FaultSchedule(const MarchPlan& plan, const FaultCurves& faults);
 
     // The pairs whose stiffness the faulty tooth changes during mesh k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
@@ -45,10 +35,14 @@ class FaultSchedule {
 
   private:
     std::optional<double> passage_start(const FaultPassage& passage, int k) const;
-    PairOverride make_override(int pair, int k, double start) const;
+    double duration(const FaultPassage& passage) const {
+        return duration_[static_cast<std::size_t>(passage.curve)];
+    }
+    PairOverride make_override(const FaultPassage& passage, int k, double start) const;
 
     const MarchPlan& plan_;
     const FaultCurves& faults_;
+    std::vector<double> duration_;  // of each curve, mesh periods; 0 if no lane has it
 };
 
 }  // namespace gearpod::lockstep

@@ -18,6 +18,10 @@ struct PhaseGrid {
     int samples = 0;              // per mesh period, at phases i / samples
     std::vector<Step> steps;      // ascending phase, covering [0, 1)
     std::vector<double> lengths;  // distinct step lengths, mesh periods
+    // Where within a step the integrator's stages want the stiffness, ascending in [0, 1]; at 0 the
+    // limit from above, at 1 the limit from below. Those of the classical Runge-Kutta method unless
+    // set otherwise.
+    std::vector<double> stage_nodes{0.0, 0.5, 1.0};
 };
 
 // At least `steps_per_mesh` equal steps, rounded up to a multiple of `samples`, split at

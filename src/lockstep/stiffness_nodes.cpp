@@ -2,30 +2,63 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "stiffness/stretch.hpp"
 
 namespace gearpod::lockstep {
 namespace {
 
-// Adds the stiffness of the tooth pair that began to engage at phase `start` to column `pair`.
-void add_tooth_pair(StiffnessNodes& nodes, const PhaseGrid& grid, const PairSet& pairs, int pair,
-                    double start) {
-    const auto& curve = pairs.curve(pair);
-    const ToothPositions positions = tooth_positions(grid, 0.0, start, curve.contact_ratio());
-    std::vector<double> k(positions.tau.size());
-    pairs.tooth_pair(curve, curve.contact_ratio(), positions.tau, k);
-    for (int i = positions.first_step * kStageNodes; i < positions.last_step * kStageNodes; ++i) {
-        nodes.stiffness[static_cast<std::size_t>(i * nodes.pairs + pair)] +=
-            k[static_cast<std::size_t>(i)];
+// A pair that is touched in the reverse order, as a pair in the forward one: `last` is the position
+// at which it ends.
+void mirror(StepPositions& steps, double last) {
+    for (auto* positions : {&steps.node, &steps.middle}) {
+        std::reverse(positions->begin(), positions->end());
+        for (double& position : *positions) {
+            position = last - position;
+        }
     }
+}
+
+// total(positions, inside, values) for each run of steps that lie in one stretch.
+template <class Total>
+std::vector<double> by_stretches(const StepPositions& steps, std::span<const double> transitions,
+                                 std::span<const double> jumps, const Total& total) {
+    std::vector<double> values(steps.node.size()), positions(steps.node.size());
+    const std::size_t count = steps.middle.size();
+    const std::size_t nodes = count > 0 ? steps.node.size() / count : 0;
+    for (std::size_t step = 0; step < count;) {
+        const double inside = steps.middle[step];
+        const auto stretch = stiffness::stretch_around(transitions, jumps, inside);
+        const std::size_t first = step * nodes;
+        while (step < count && steps.middle[step] < stretch.end) {
+            ++step;
+        }
+        const std::size_t size = step * nodes - first;
+        std::transform(steps.node.begin() + static_cast<std::ptrdiff_t>(first),
+                       steps.node.begin() + static_cast<std::ptrdiff_t>(first + size),
+                       positions.begin() + static_cast<std::ptrdiff_t>(first),
+                       [&](double p) { return std::clamp(p, stretch.begin, stretch.end); });
+        total(std::span<const double>(positions).subspan(first, size), inside,
+              std::span<double>(values).subspan(first, size));
+    }
+    return values;
 }
 
 }  // namespace
 
-double PairSet::mesh(int pair, double phase) const {
+double PairSet::pitch_phase(int pair) const {
+    const auto& m = curve(pair);
+    return start[static_cast<std::size_t>(pair)] +
+           (reversed ? m.contact_ratio() - m.pitch_position() : m.pitch_position());
+}
+
+double PairSet::total(int pair, double phase) const {
+    const auto& m = curve(pair);
     const double since = phase - start[static_cast<std::size_t>(pair)];
-    return curve(pair).mesh(reversed ? curve(pair).contact_ratio() - since : since);
+    return reversed ? total_at(m, m.contact_ratio() - since, stiffness::Limit::from_below)
+                    : total_at(m, since, stiffness::Limit::from_above);
 }
 
 double phase_in_period(double phase) {
@@ -35,49 +68,85 @@ double phase_in_period(double phase) {
 std::vector<double> contact_transitions(const PairSet& pairs) {
     std::vector<double> phases;
     for (int i = 0; i < pairs.pairs(); ++i) {
+        const auto& mesh = pairs.curve(i);
         const double start = pairs.start[static_cast<std::size_t>(i)];
-        phases.push_back(phase_in_period(start));
-        phases.push_back(phase_in_period(start + pairs.curve(i).contact_ratio()));
+        for (const double transition : mesh.transitions()) {
+            phases.push_back(phase_in_period(
+                start + (pairs.reversed ? mesh.contact_ratio() - transition : transition)));
+        }
     }
     std::sort(phases.begin(), phases.end());
     return phases;
 }
 
-ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
-                               double contact_ratio) {
-    ToothPositions positions;
-    positions.tau.reserve(grid.steps.size() * kStageNodes);
-    const auto engaged = [&](const Step& step) {
-        // A step lies wholly inside or outside the engagement; its middle decides.
-        const double middle = mesh + step.phase + 0.5 * step.length - start;
-        return middle > 0.0 && middle < contact_ratio;
+StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration) {
+    // A step lies wholly inside or outside; its middle decides.
+    const auto middle = [&](const Step& step) {
+        return mesh + step.phase + 0.5 * step.length - start;
     };
-    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), engaged);
-    const auto last = std::find_if_not(first, grid.steps.end(), engaged);
+    const auto under_way = [&](const Step& step) {
+        return middle(step) > 0.0 && middle(step) < duration;
+    };
+    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), under_way);
+    const auto last = std::find_if_not(first, grid.steps.end(), under_way);
+    StepPositions positions;
     positions.first_step = static_cast<int>(first - grid.steps.begin());
     positions.last_step = static_cast<int>(last - grid.steps.begin());
-    for (const Step& step : grid.steps) {
-        for (const double part : {0.0, 0.5, 1.0}) {
-            const double tau = mesh + step.phase + part * step.length - start;
-            positions.tau.push_back(std::clamp(tau, 0.0, contact_ratio));
+    positions.node.reserve(static_cast<std::size_t>(last - first) * grid.stage_nodes.size());
+    for (auto step = first; step != last; ++step) {
+        positions.middle.push_back(middle(*step));
+        for (const double part : grid.stage_nodes) {
+            positions.node.push_back(mesh + step->phase + part * step->length - start);
         }
     }
     return positions;
 }
 
+std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
+                                  const StepPositions& steps) {
+    const auto total = [&](auto positions, double inside, auto values) {
+        mesh.total(positions, inside, values);
+    };
+    if (!reversed) {
+        return by_stretches(steps, mesh.transitions(), {}, total);
+    }
+    StepPositions mirrored = steps;
+    mirror(mirrored, mesh.contact_ratio());
+    std::vector<double> values = by_stretches(mirrored, mesh.transitions(), {}, total);
+    std::reverse(values.begin(), values.end());
+    return values;
+}
+
+std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
+                                 const stiffness::FaultyMesh& faulty, bool reversed,
+                                 const StepPositions& steps) {
+    const auto total = [&](auto positions, double inside, auto values) {
+        faulty.total(positions, inside, values);
+    };
+    if (!reversed) {
+        return by_stretches(steps, healthy.transitions(), faulty.jumps(), total);
+    }
+    StepPositions mirrored = steps;
+    mirror(mirrored, faulty.duration());
+    std::vector<double> values =
+        by_stretches(mirrored, healthy.transitions(), faulty.jumps(), total);
+    std::reverse(values.begin(), values.end());
+    return values;
+}
+
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
                         dynamics::MeshDamping damping) {
+    constexpr double kForever = std::numeric_limits<double>::infinity();
     StiffnessNodes nodes;
     nodes.pairs = pairs.pairs();
-    nodes.stiffness.assign(grid.steps.size() * kStageNodes * static_cast<std::size_t>(nodes.pairs),
-                           0.0);
-    for (int pair = 0; pair < nodes.pairs; ++pair) {
-        const auto& curve = pairs.curve(pair);
-        // Tooth pairs that began in this or in an earlier mesh period and are still in contact.
-        const int earlier = static_cast<int>(std::ceil(curve.contact_ratio()));
-        for (int age = 0; age <= earlier; ++age) {
-            add_tooth_pair(nodes, grid, pairs, pair,
-                           pairs.start[static_cast<std::size_t>(pair)] - age);
+    const auto count = static_cast<std::size_t>(nodes.pairs);
+    nodes.stiffness.resize(grid.steps.size() * grid.stage_nodes.size() * count);
+    for (std::size_t pair = 0; pair < count; ++pair) {
+        // From an engagement before the mesh period.
+        const StepPositions steps = steps_under_way(grid, 0.0, pairs.start[pair] - 1.0, kForever);
+        const auto total = healthy_total(*pairs.mesh[pair], pairs.reversed, steps);
+        for (std::size_t i = 0; i < total.size(); ++i) {
+            nodes.stiffness[i * count + pair] = total[i];
         }
     }
     nodes.damping_shape.resize(nodes.stiffness.size());

@@ -1,61 +1,43 @@
 // Stiffness of all pairs at the stage nodes of a phase grid: one contiguous load per pair and node.
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "dynamics/planetary.hpp"
 #include "lockstep/phase_grid.hpp"
-#include "stiffness/pair_stiffness.hpp"
+#include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::lockstep {
 
-// Nodes of a step that the integrator's stages use: start (right limit), middle, end (left limit).
+// Nodes of a step that the classical Runge-Kutta method uses: start, middle, end.
 inline constexpr int kStageNodes = 3;
 
-// A planetary train's 2N pairs: sp1..spN, rp1..rpN. Pair i's tooth pairs start engaging at the
-// phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
+// A gearbox's gear pairs; of a planetary train sp1..spN, rp1..rpN. Pair i's tooth pairs start
+// engaging at the phases start[i] + integer, in mesh periods since sp1 was at its pitch point.
 struct PairSet {
-    const stiffness::PairStiffness* sun_planet = nullptr;
-    const stiffness::PairStiffness* ring_planet = nullptr;
+    std::vector<const stiffness::MeshStiffness*> mesh;
     std::vector<double> start;  // in [0, 1)
-    // The planets turn the other way past the carrier (the sun is held, or the ring drives a
-    // standing carrier): contact runs the same line of action from its end to its start.
+    // The gears turn the other way (in a train: the planets past the carrier; the sun is held, or
+    // the ring drives a standing carrier): contact runs the same line of action from its end to its
+    // start.
     bool reversed = false;
 
     int pairs() const { return static_cast<int>(start.size()); }
-    const stiffness::PairStiffness& curve(int pair) const {
-        return 2 * pair < pairs() ? *sun_planet : *ring_planet;
+    const stiffness::MeshStiffness& curve(int pair) const {
+        return *mesh[static_cast<std::size_t>(pair)];
     }
-
-    // Stiffness of a tooth pair, healthy or faulty, at positions tau (ascending) since it engaged.
-    template <class Curve>
-    void tooth_pair(const Curve& tooth, double contact_ratio, std::span<const double> tau,
-                    std::span<double> stiffness) const;
-    // All tooth pairs of a healthy pair at a phase (mesh periods since sp1 was at its pitch point).
-    double mesh(int pair, double phase) const;
+    // Phase at which the tooth pair that engages at start[pair] is at its pitch point.
+    double pitch_phase(int pair) const;
+    // All tooth pairs of a healthy pair at a phase (mesh periods since sp1 was at its pitch point);
+    // at a transition the limit from later phases.
+    double total(int pair, double phase) const;
 };
-
-template <class Curve>
-void PairSet::tooth_pair(const Curve& tooth, double contact_ratio, std::span<const double> tau,
-                         std::span<double> stiffness) const {
-    if (!reversed) {
-        tooth.tooth_pair(tau, stiffness);
-        return;
-    }
-    std::vector<double> mirrored(tau.rbegin(), tau.rend());
-    for (double& position : mirrored) {
-        position = contact_ratio - position;
-    }
-    tooth.tooth_pair(mirrored, stiffness);
-    std::reverse(stiffness.begin(), stiffness.end());
-}
 
 // The part of a phase within its mesh period, in [0, 1).
 double phase_in_period(double phase);
 
-// Phases in [0, 1) at which the number of tooth pairs in contact jumps, of all pairs.
+// Phases in [0, 1), ascending, that bound the stretches of all pairs.
 std::vector<double> contact_transitions(const PairSet& pairs);
 
 // Stiffness and damping shape (dynamics::MeshDamping), [step][stage node][pair].
@@ -67,15 +49,25 @@ struct StiffnessNodes {
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);
 
-// Position of one tooth pair at the stage nodes of every step of mesh `mesh` (an integer count of
-// mesh periods), in mesh periods since it began to engage at phase `start` (not reduced), clamped
-// to [0, contact_ratio], and the range of steps during which it is in contact.
-struct ToothPositions {
-    std::vector<double> tau;  // [step][stage node]
+// Consecutive steps of one mesh period and where they lie: mesh periods since something began.
+struct StepPositions {
     int first_step = 0;
-    int last_step = 0;  // one past the last
+    int last_step = 0;           // one past the last
+    std::vector<double> node;    // [step - first_step][stage node]
+    std::vector<double> middle;  // [step - first_step]: decides to which stretch a step belongs
 };
-ToothPositions tooth_positions(const PhaseGrid& grid, double mesh, double start,
-                               double contact_ratio);
+
+// The steps of mesh `mesh` (an integer count of mesh periods) during which something that began at
+// phase `start` (not reduced) and lasts `duration` is under way.
+StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration);
+
+// The total of a healthy pair during these steps, [step - first_step][stage node], N/m; positions
+// count from an engagement of its teeth.
+std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
+                                  const StepPositions& steps);
+// The same while a fault passes; positions count from the engagement of its first tooth.
+std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
+                                 const stiffness::FaultyMesh& faulty, bool reversed,
+                                 const StepPositions& steps);
 
 }  // namespace gearpod::lockstep

@@ -74,7 +74,7 @@ class TileMarch {
 
   private:
     bool faulty(int lane) const {
-        return faults_.cracked[static_cast<std::size_t>(lane)].has_value() &&
+        return faults_.faulty(lane) &&
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
@@ -327,7 +327,8 @@ class TileMarch {
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings) {
-    assert(inputs.size() == W && faults.cracked.size() == W);
+    assert(inputs.size() == W && std::all_of(faults.curve.begin(), faults.curve.end(),
+                                             [](const auto& lanes) { return lanes.size() == W; }));
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 

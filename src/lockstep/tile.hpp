@@ -30,8 +30,8 @@ struct TileResult {
     std::vector<LaneStatus> status;  // per lane
 };
 
-// `inputs` and `faults.cracked` hold W lanes; unused lanes of the last tile repeat its last one.
-// A lane's result never depends on its neighbours.
+// `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
+// one. A lane's result never depends on its neighbours.
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::PlanetaryInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);

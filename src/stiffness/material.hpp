@@ -7,6 +7,7 @@ struct Material {
     double youngs_modulus_Pa = 0;
     double poisson_ratio = 0;
     double face_width_m = 0;
+    bool shear_energy = true;  // whether teeth give way to shear
 };
 
 // Linearised Hertz contact of a tooth pair, pi E L / 4 (1 - nu^2), in N/m.

@@ -3,8 +3,9 @@
 //
 // Positions tau count mesh periods since one tooth pair began to engage; the pairs that engaged
 // before and after it stand at tau + 1, tau - 1 and so on. A stretch is an interval of tau in which
-// no tooth pair enters or leaves. `inside` is a position strictly within a stretch and says which
-// pairs touch, so that values at the ends of the stretch are the limits from within it.
+// no tooth pair enters or leaves and no fault's law jumps. `inside` is a position strictly within a
+// stretch and says which pairs touch, so that values at the ends of the stretch are the limits from
+// within it.
 #pragma once
 
 #include <memory>
@@ -25,6 +26,8 @@ class FaultyMesh {
     // engagement of the first faulty tooth, 0 <= tau <= duration().
     virtual void total(std::span<const double> tau, double inside,
                        std::span<double> stiffness) const = 0;
+    // Positions, ascending, at which the fault's own law makes the total jump.
+    virtual std::vector<double> jumps() const { return {}; }
 };
 
 // A healthy gear pair. Immutable; shared by threads.
@@ -41,10 +44,30 @@ class MeshStiffness {
     // The part of the load, 0 to 1, that the tooth pair at tau carries; 0 outside its engagement.
     virtual void share(std::span<const double> tau, double inside,
                        std::span<double> share) const = 0;
-    // Phases in [0, 1), ascending, where the total jumps or kinks: 0 is the start of an engagement.
+    // Phases in [0, 1), ascending, that bound the stretches: where tooth pairs begin or cease to
+    // touch, and where the total kinks. The first is 0, the start of an engagement.
     virtual std::vector<double> transitions() const = 0;
-    // The pair with that fault on one of its gears. The fault must outlive the result.
+    // The pair with that fault on one of its gears. The fault must outlive the result. Throws
+    // std::invalid_argument if the model does not know what the fault changes.
     virtual std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const = 0;
 };
+
+// with_fault() for an owner who keeps both together.
+std::shared_ptr<const FaultyMesh> faulty_mesh(const MeshStiffness& mesh,
+                                              std::unique_ptr<const ToothFault> fault);
+
+// The two transitions of a mesh whose pairs stay engaged for a contact ratio: 0 and its fraction;
+// only 0 if they coincide (to 1e-10).
+std::vector<double> contact_transitions(double contact_ratio);
+
+// Total stiffness at any position; at an end of a stretch the limit from above or from below.
+enum class Limit { from_above, from_below };
+double total_at(const MeshStiffness& mesh, double tau, Limit limit = Limit::from_above);
+// transitions: of the healthy mesh.
+double total_at(const FaultyMesh& mesh, std::span<const double> transitions, double tau,
+                Limit limit = Limit::from_above);
+
+// Total stiffness averaged over a mesh period; relative error below 1e-12.
+double mean_total(const MeshStiffness& mesh);
 
 }  // namespace gearpod::stiffness

@@ -9,24 +9,43 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr int kPoints = 12;
+// On panels short enough that the thickness changes by less than kEven, the pole of 1 / t^3 lies so
+// far off that half the points do.
+constexpr int kFewPoints = 6;
+constexpr double kEven = 1.1;
+constexpr double kShort_rad = 0.1;
 
 }  // namespace
 
-double compliance(const SectionMoments& m, const ToothProfile& profile, const Material& material,
-                  double contact_angle) {
-    const double c = std::cos(contact_angle), s = std::sin(contact_angle);
-    const double root_arm = profile.base_radius() - profile.root_axial() * c;
-    const double bending =
-        root_arm * (root_arm * m.bending[0] - 2 * c * m.bending[1]) + c * c * m.bending[2];
-    const double shear = 2.4 * (1 + material.poisson_ratio) * c * c * m.shear;
-    return (bending + shear + s * s * m.axial) /
+double bending_compliance(const SectionMoments& m, const ToothProfile& profile,
+                          const Material& material, double cosine) {
+    const double root_arm = profile.base_radius() - profile.root_axial() * cosine;
+    return (root_arm * (root_arm * m.bending[0] - 2 * cosine * m.bending[1]) +
+            cosine * cosine * m.bending[2]) /
            (material.youngs_modulus_Pa * material.face_width_m);
 }
 
+double shear_compliance(const SectionMoments& m, const Material& material, double cosine) {
+    return material.shear_energy ? 2.4 * (1 + material.poisson_ratio) * cosine * cosine * m.shear /
+                                       (material.youngs_modulus_Pa * material.face_width_m)
+                                 : 0;
+}
+
+double axial_compliance(const SectionMoments& m, const Material& material, double sine) {
+    return sine * sine * m.axial / (material.youngs_modulus_Pa * material.face_width_m);
+}
+
+double compliance(const SectionMoments& m, const ToothProfile& profile, const Material& material,
+                  double contact_angle) {
+    const double cosine = std::cos(contact_angle), sine = std::sin(contact_angle);
+    return bending_compliance(m, profile, material, cosine) +
+           shear_compliance(m, material, cosine) + axial_compliance(m, material, sine);
+}
+
 SectionSweep::SectionSweep(const ToothProfile& profile, const CrackedSections& sections)
-    : profile_(&profile), sections_(&sections), u_(profile.involute_root()) {
+    : profile_(&profile), sections_(&sections), u_(profile.root()) {
     add_lengthening();
-    add_straight();
+    advance(profile.involute_root());
 }
 
 void SectionSweep::add_section(double weight, double axial, double thickness,
@@ -56,18 +75,9 @@ void SectionSweep::add_lengthening() {
     moments_.axial = axial;
 }
 
-void SectionSweep::add_straight() {
-    const double length = profile_->straight_length();
-    if (length <= 0)
-        return;
-    const double half = profile_->root_half_thickness();
-    const double thickness = sections_->cracked() ? sections_->cracked_thickness(half) : 2 * half;
-    const double bending = 12 / (thickness * thickness * thickness);
-    moments_.bending[0] += bending * length;
-    moments_.bending[1] += bending * length * length / 2;
-    moments_.bending[2] += bending * length * length * length / 3;
-    moments_.shear += length / thickness;
-    moments_.axial += length / (2 * half);
+void SectionSweep::advance(double to) {
+    for_section_parts(*profile_, *sections_, u_, to,
+                      [&](double, double until, bool cracked) { advance(until, cracked); });
 }
 
 void SectionSweep::advance(double to, bool cracked) {
@@ -76,15 +86,19 @@ void SectionSweep::advance(double to, bool cracked) {
     const auto thickness = [&](double h) {
         return cracked ? sections_->cracked_thickness(h) : 2 * h;
     };
-    for_panels(
-        u_, to, [&](double u) { return thickness(profile_->half_thickness(u)); },
-        [&](double from, double until) {
-            for_gauss_points<kPoints>(from, until, [&](double weight, double u) {
-                const ToothSection at = profile_->section(u);
-                add_section(weight * at.axial_slope, at.axial, thickness(at.half_thickness),
-                            2 * at.half_thickness);
-            });
-        });
+    const auto thickness_at = [&](double u) { return thickness(profile_->half_thickness(u)); };
+    for_panels(u_, to, thickness_at, [&](double from, double until) {
+        const auto add = [&](double weight, double u) {
+            const ToothSection at = profile_->section(u);
+            add_section(weight * at.axial_slope, at.axial, thickness(at.half_thickness),
+                        2 * at.half_thickness);
+        };
+        const double ratio = thickness_at(from) / thickness_at(until);
+        if (ratio < kEven && 1 < kEven * ratio && std::abs(from - until) < kShort_rad)
+            for_gauss_points<kFewPoints>(from, until, add);
+        else
+            for_gauss_points<kPoints>(from, until, add);
+    });
     u_ = to;
 }
 

@@ -19,16 +19,23 @@ struct SectionMoments {
 // m/N, of a tooth with these moments touched at the contact angle.
 double compliance(const SectionMoments& moments, const ToothProfile& profile,
                   const Material& material, double contact_angle);
+// Its three parts, by the contact angle's cosine or sine.
+double bending_compliance(const SectionMoments& moments, const ToothProfile& profile,
+                          const Material& material, double cosine);
+double shear_compliance(const SectionMoments& moments, const Material& material, double cosine);
+double axial_compliance(const SectionMoments& moments, const Material& material, double sine);
 
 // The sections of one tooth, healthy or cracked, gathered from the root towards the contact by
 // Gauss panels; relative error below 1e-12 as long as the stretch touches no section that is gone.
 class SectionSweep {
   public:
-    // Gathers what lies between the beam's start and the involute. Both arguments must outlive the
-    // sweep.
+    // Gathers what lies between the beam's start and the involute, for contacts that see the crack.
+    // Both arguments must outlive the sweep.
     SectionSweep(const ToothProfile& profile, const CrackedSections& sections);
 
-    // Goes on along the involute to u (towards the tip), with the crack's or the healthy thickness.
+    // Goes on along the involute to u (towards the tip) as the crack has it.
+    void advance(double u);
+    // The same with the crack's or the healthy thickness all the way.
     void advance_cracked(double u) { advance(u, true); }
     void advance_healthy(double u) { advance(u, false); }
     const SectionMoments& moments() const { return moments_; }
@@ -36,7 +43,6 @@ class SectionSweep {
   private:
     void add_section(double weight, double axial, double thickness, double healthy_thickness);
     void add_lengthening();
-    void add_straight();
     void advance(double to, bool cracked);
 
     const ToothProfile* profile_;

@@ -1,6 +1,5 @@
 #include "stiffness/tooth_compliance.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,7 +31,8 @@ class BeamIntegrals {
           cosine_(std::cos(contact_angle)),
           sine_(std::sin(contact_angle)),
           stretch_(material.youngs_modulus_Pa * material.face_width_m),
-          shear_(stretch_ / (2 * (1 + material.poisson_ratio))) {}
+          shear_(stretch_ / (2 * (1 + material.poisson_ratio))),
+          shear_energy_(material.shear_energy) {}
 
     template <typename Axial, typename Slope, typename Thickness>
     void add_bending_and_shear(double from, double to, Axial axial, Slope slope,
@@ -46,7 +46,8 @@ class BeamIntegrals {
             return 1.2 * cosine_ * cosine_ * slope(p) / (shear_ * thickness(p));
         };
         sum_.bending += integrate(from, to, bending, thickness);
-        sum_.shear += integrate(from, to, shear, thickness);
+        if (shear_energy_)
+            sum_.shear += integrate(from, to, shear, thickness);
     }
 
     template <typename Slope, typename Thickness>
@@ -62,6 +63,7 @@ class BeamIntegrals {
   private:
     double base_radius_, cosine_, sine_;
     double stretch_, shear_;  // E L, G L
+    bool shear_energy_;
     ToothCompliance sum_;
 };
 
@@ -69,43 +71,37 @@ class BeamIntegrals {
 
 ToothCompliance tooth_compliance(const ToothProfile& profile, const Material& material,
                                  double contact_angle, const Crack& crack) {
-    const CrackedSections sections(profile, crack);
     const double contact = profile.involute_angle(contact_angle);
+    CrackedSections sections(profile, crack);
     if (sections.gone(contact)) {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return {kInfinity, kInfinity, kInfinity};
     }
+    if (!sections.sees(contact))
+        sections = CrackedSections(profile, {});
 
     BeamIntegrals beam(profile, material, contact_angle);
-    const auto straight_axial = [](double xi) { return xi; };
-    const auto unit_slope = [](double) { return 1.0; };
     const auto axial = [&](double u) { return profile.section(u).axial; };
     const auto slope = [&](double u) { return profile.section(u).axial_slope; };
     const auto healthy = [&](double u) { return 2 * profile.half_thickness(u); };
     const auto cracked = [&](double u) {
         return sections.cracked_thickness(profile.half_thickness(u));
     };
-    const double root = profile.root_axial();
-    const double straight_end = root + profile.straight_length();
-    const double root_width = 2 * profile.root_half_thickness();
-    const double straight_thickness =
-        sections.cracked() ? sections.cracked_thickness(profile.root_half_thickness()) : root_width;
-
-    const double radius = profile.lengthening_radius();
+    const double root = profile.root_axial(), radius = profile.lengthening_radius();
     beam.add_bending_and_shear(
-        root - sections.lengthening(), root, straight_axial, unit_slope, [&](double xi) {
+        root - sections.lengthening(), root, [](double xi) { return xi; },
+        [](double) { return 1.0; },
+        [&](double xi) {
             return sections.cracked_thickness(std::sqrt(radius * radius - xi * xi));
         });
-    beam.add_bending_and_shear(root, straight_end, straight_axial, unit_slope,
-                               [&](double) { return straight_thickness; });
-    const double involute_root = profile.involute_root();
-    const double boundary = sections.cracked()
-                                ? std::clamp(sections.boundary(), contact, involute_root)
-                                : involute_root;
-    beam.add_bending_and_shear(boundary, involute_root, axial, slope, cracked);
-    beam.add_bending_and_shear(contact, boundary, axial, slope, healthy);
-    beam.add_axial(root, straight_end, unit_slope, [&](double) { return root_width; });
-    beam.add_axial(contact, involute_root, slope, healthy);
+    for_section_parts(profile, sections, profile.root(), contact,
+                      [&](double from, double until, bool is_cracked) {
+                          if (is_cracked)
+                              beam.add_bending_and_shear(until, from, axial, slope, cracked);
+                          else
+                              beam.add_bending_and_shear(until, from, axial, slope, healthy);
+                          beam.add_axial(until, from, slope, healthy);
+                      });
     return beam.sum();
 }
 

@@ -1,6 +1,6 @@
 // The sections of one tooth. A section lies at the axial coordinate xi (from the gear's centre,
-// along the tooth's centre line) and has the half thickness h(xi). On the involute both follow the
-// involute angle u:
+// along the tooth's centre line) and has the half thickness h(xi). Both follow one coordinate u
+// along the flank, which on the involute is the involute angle:
 //
 //     xi = R_b [cos u - (a2 - u) sin u],    h = R_b [(a2 - u) cos u + sin u],    dxi/du = -R_b (a2
 //     - u) cos u,
@@ -8,17 +8,29 @@
 // a2 being the half tooth angle on the base circle (beta_2 of an internal gear). External teeth: u
 // falls from the root (alpha_2 on the base circle) to the tip; contact at u = -alpha_1 (Tian,
 // Eqs. 2.23-2.24). Internal teeth: u rises from the tip to the root (phi); contact at u = beta_1
-// (Liang, Eqs. 2.2.20-2.2.25). Lengths in metres.
+// (Liang, Eqs. 2.2.20-2.2.25). In both u is larger at the root. Below the involute, in the tooth's
+// foot, u goes on rising: along a straight side by 1 / R_b per metre, along the fillet's arc by the
+// angle turned. Lengths in metres.
 #pragma once
+
+#include <array>
+#include <span>
 
 #include "gears/gear.hpp"
 
 namespace gearpod::stiffness {
 
-// Where the beam of an external tooth begins. base_circle: Tian (2004). root_circle: Liang (2016),
-// section 3.2: straight sides from the base circle down to the root circle where root < base,
-// involute from the root circle otherwise. An internal tooth begins at its root circle in both.
-enum class Profile { base_circle, root_circle };
+// Where the beam of an external tooth begins. An internal tooth begins at its root circle in all.
+//  base_circle  Tian (2004).
+//  root_circle  Liang (2016), section 3.2: straight sides from the base circle down to the root
+//               circle where root < base, involute from the root circle otherwise.
+//  fillet       Yang (2022), Eqs. 1, 8-15: a circular arc of radius rho_t = c m / (1 - sin a0), c =
+//               dedendum - addendum coefficient, touches the involute on the transition end circle
+//               and the root circle, where the beam begins. His equations have a solution only
+//               where R_r^2 + 2 R_r rho_t >= R_b^2 (30 standard teeth at 20 degrees, though his sun
+//               has 28). With fewer the flank goes on below the base circle along the radius, to
+//               which the involute is tangent, and the arc touches that.
+enum class Profile { base_circle, root_circle, fillet };
 
 struct ToothSection {
     double axial = 0;           // xi
@@ -30,7 +42,9 @@ class ToothProfile {
   public:
     ToothProfile(const gears::Gear& gear, Profile profile);
 
-    ToothSection section(double u) const;
+    ToothSection section(double u) const {
+        return u > involute_root_ ? foot_section(u) : involute_section(u);
+    }
     double half_thickness(double u) const { return section(u).half_thickness; }
 
     // u of a contact at alpha_1 (external) or beta_1 (internal), and back: the map is its own
@@ -38,27 +52,57 @@ class ToothProfile {
     double involute_angle(double contact_angle) const {
         return internal_ ? contact_angle : -contact_angle;
     }
+    bool internal() const { return internal_; }
     double base_radius() const { return base_radius_; }
     // The root section, where the uncracked beam begins.
+    double root() const { return root_; }  // its u
     double root_axial() const { return root_axial_; }
     double root_half_thickness() const { return root_half_thickness_; }
-    // Straight sides of half thickness root_half_thickness() between the root section and the
-    // involute.
-    double straight_length() const { return straight_length_; }
+    // The circle through the root section's ends, and half the angle that the section spans on it.
+    double root_radius() const;
+    double root_half_angle() const;
     // u where the involute part begins on the root side.
     double involute_root() const { return involute_root_; }
+    // u of the fillet's end on the transition end circle; root() without a fillet.
+    double fillet_end() const { return fillet_end_; }
+    double fillet_radius() const { return fillet_radius_; }  // rho_t; 0 without a fillet
+    // u, falling, between which the foot's sections change smoothly: from root() to
+    // involute_root(), both included. The thickness has its minima only at these.
+    std::span<const double> foot_breaks() const {
+        return {foot_breaks_.data(), static_cast<std::size_t>(foot_break_count_)};
+    }
+    // u of the foot's thinnest section, of several equal ones that nearest the tip.
+    double waist() const { return waist_; }
     // Radius of the circle along which a crack lengthens the beam below the root chord; 0 if it
     // does not.
     double lengthening_radius() const { return lengthening_radius_; }
     // u of the section whose half thickness is h, on the tip side of the thickest section, 0 <= h
     // <= root half thickness (the involute is continued past the tip circle if it must be).
     double angle_of_half_thickness(double h) const;
+    // The same on the fillet between the root and the waist; h no less than the waist's.
+    double fillet_angle_of_half_thickness(double h) const;
+    // u of the section at xi, on the tooth or, past its tip, on the involute continued; root() for
+    // sections below the root.
+    double angle_of_axial(double xi) const;
 
   private:
+    ToothSection involute_section(double u) const;
+    ToothSection foot_section(double u) const;
+    void add_fillet(const gears::Gear& gear);
+    void add_straight_side(double end_axial);
+    void add_foot_break(double u) { foot_breaks_[foot_break_count_++] = u; }
+
     bool internal_ = false;
     double base_radius_ = 0, half_base_angle_ = 0;
-    double root_axial_ = 0, root_half_thickness_ = 0, straight_length_ = 0;
-    double involute_root_ = 0, lengthening_radius_ = 0;
+    double root_axial_ = 0, root_half_thickness_ = 0;
+    double involute_root_ = 0, root_ = 0, waist_ = 0, lengthening_radius_ = 0;
+    // The straight side: from the involute's root section, tapering by h' = dh/dxi.
+    double side_axial_ = 0, side_half_thickness_ = 0, side_taper_ = 0;
+    // The fillet's arc about (xi, h): the point at the angle p is centre - rho (cos p, sin p).
+    double fillet_end_ = 0, fillet_radius_ = 0;
+    double fillet_axial_ = 0, fillet_height_ = 0, fillet_end_angle_ = 0;
+    std::array<double, 4> foot_breaks_{};
+    int foot_break_count_ = 0;
 };
 
 }  // namespace gearpod::stiffness

@@ -9,6 +9,8 @@
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
 #include "lockstep/tile.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
 
 namespace gearpod::test {
 
@@ -20,25 +22,24 @@ struct LiangTrain {
         ring{81, true, kModule, kAngle};
     stiffness::Material steel{2.068e11, 0.3, 0.0381};
     gears::MeshGeometry sun_mesh{sun, planet}, ring_mesh{planet, ring};
-    stiffness::PairStiffness sun_planet{sun_mesh, steel, stiffness::Profile::root_circle};
-    stiffness::PairStiffness ring_planet{ring_mesh, steel, stiffness::Profile::root_circle};
-    stiffness::CrackedPairFamily cracked{ring_mesh, steel, stiffness::Profile::root_circle, 1,
-                                         std::numbers::pi / 4};
+    stiffness::AdditiveMesh sun_planet{sun_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::AdditiveMesh ring_planet{ring_mesh, steel, stiffness::Profile::root_circle};
+    stiffness::ToothCrack cracked{ring_mesh, steel, stiffness::Profile::root_circle, 1,
+                                  std::numbers::pi / 4};
     lockstep::PairSet pairs;
 
     LiangTrain() {
         const gears::PlanetaryTrain train{19, 31, 81, 4};
-        pairs.sun_planet = &sun_planet;
-        pairs.ring_planet = &ring_planet;
-        const auto add = [&](double pitch_phase, double pitch_position) {
-            const double start = pitch_phase - pitch_position;
+        const auto add = [&](double pitch_phase, const stiffness::AdditiveMesh& mesh) {
+            const double start = pitch_phase - mesh.pitch_position();
+            pairs.mesh.push_back(&mesh);
             pairs.start.push_back(start - std::floor(start));
         };
         for (int n = 0; n < 4; ++n) {
-            add(gears::sun_mesh_phase(train, n), sun_planet.pitch_position());
+            add(gears::sun_mesh_phase(train, n), sun_planet);
         }
         for (int n = 0; n < 4; ++n) {
-            add(gears::ring_mesh_phase(train, n), ring_planet.pitch_position());
+            add(gears::ring_mesh_phase(train, n), ring_planet);
         }
     }
 
@@ -88,18 +89,18 @@ struct LiangTrain {
     lockstep::FaultCurves no_fault(int lanes) const {
         lockstep::FaultCurves f;
         f.pairs = &pairs;
-        f.cracked.resize(static_cast<std::size_t>(lanes));
+        f.curve.resize(1);
+        f.curve[0].resize(static_cast<std::size_t>(lanes));
         return f;
     }
 
     // A crack of the given depths on the ring side of planet 1, one a lane; 0: healthy.
     lockstep::FaultCurves ring_side_cracks(const std::vector<double>& depths_m) const {
         lockstep::FaultCurves f = no_fault(static_cast<int>(depths_m.size()));
-        f.pattern.length = 31;
-        f.pattern.passages = {{4, pairs.start[4]}};
+        f.pattern = lockstep::planet_fault_pattern(pairs, 0, lockstep::PlanetSide::ring, 31);
         for (std::size_t l = 0; l < depths_m.size(); ++l) {
             if (depths_m[l] > 0.0) {
-                f.cracked[l] = cracked.at(depths_m[l]);
+                f.curve[0][l] = stiffness::faulty_mesh(ring_planet, cracked.at(depths_m[l]));
             }
         }
         return f;

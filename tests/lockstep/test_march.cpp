@@ -46,7 +46,7 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
         std::vector<double> k(8, 0.0);
         const double phase = t / in.mesh_period_s;
         for (std::size_t pair = 0; pair < 8; ++pair) {
-            const auto& curve = train.pairs.curve(static_cast<int>(pair));
+            const auto& curve = pair < 4 ? train.sun_planet : train.ring_planet;
             for (int age = 0; age < 3; ++age) {
                 const double start = train.pairs.start[pair] - age;
                 if (middle > start && middle < start + curve.contact_ratio()) {

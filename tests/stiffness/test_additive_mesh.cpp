@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "gear_pairs.hpp"
-#include "stiffness/pair_stiffness.hpp"
+#include "stiffness/additive_mesh.hpp"
 #include "stiffness/tooth_compliance.hpp"
 
 using namespace gearpod;
@@ -14,14 +14,14 @@ namespace {
 // Change of the mesh stiffness, root against base circle, averaged over [from, to] of a mesh
 // period.
 double root_circle_change(const gears::MeshGeometry& mesh, double from, double to) {
-    const PairStiffness root(mesh, kLiangSteel, Profile::root_circle);
-    const PairStiffness base(mesh, kLiangSteel, Profile::base_circle);
+    const AdditiveMesh root(mesh, kLiangSteel, Profile::root_circle);
+    const AdditiveMesh base(mesh, kLiangSteel, Profile::base_circle);
     double sum_root = 0, sum_base = 0;
     constexpr int kSamples = 2000;
     for (int i = 0; i < kSamples; ++i) {
         const double phase = from + (to - from) * (i + 0.5) / kSamples;
-        sum_root += root.mesh(phase);
-        sum_base += base.mesh(phase);
+        sum_root += total_at(root, phase);
+        sum_base += total_at(base, phase);
     }
     return sum_root / sum_base - 1;
 }
@@ -29,16 +29,16 @@ double root_circle_change(const gears::MeshGeometry& mesh, double from, double t
 }  // namespace
 
 TEST_CASE("Tian's mean mesh stiffness is 8.854e8 N/m and its damping coefficient 3.99e-6 s") {
-    const PairStiffness pair(gears::MeshGeometry(external(19), external(48)), kTianSteel,
-                             Profile::base_circle);
-    CHECK(pair.mean() == Approx(8.854e8).epsilon(0.002));
+    const AdditiveMesh pair(gears::MeshGeometry(external(19), external(48)), kTianSteel,
+                            Profile::base_circle);
+    CHECK(mean_total(pair) == Approx(8.854e8).epsilon(0.002));
     // Tian (2004), below Eq. 4.25: mu = c_m / k_m with c_m = 3.533e3 Ns/m.
-    CHECK(3.533e3 / pair.mean() == Approx(3.99e-6).epsilon(0.002));
+    CHECK(3.533e3 / mean_total(pair) == Approx(3.99e-6).epsilon(0.002));
 }
 
 TEST_CASE("the mean is the mesh stiffness averaged over a period") {
-    const PairStiffness pair(gears::MeshGeometry(external(31), internal(81)), kLiangSteel,
-                             Profile::root_circle);
+    const AdditiveMesh pair(gears::MeshGeometry(external(31), internal(81)), kLiangSteel,
+                            Profile::root_circle);
     // Simpson's rule on each side of the transition, with one-sided limits at the jumps.
     double sum = 0;
     const double cut = pair.transitions().at(1);
@@ -48,10 +48,11 @@ TEST_CASE("the mean is the mesh stiffness averaged over a period") {
         const double h = (to - from) / kPanels;
         for (int i = 0; i < kPanels; ++i)
             sum += h / 6 *
-                   (pair.mesh(from + i * h, Side::after) + 4 * pair.mesh(from + (i + 0.5) * h) +
-                    pair.mesh(from + (i + 1) * h, Side::before));
+                   (total_at(pair, from + i * h, Limit::from_above) +
+                    4 * total_at(pair, from + (i + 0.5) * h) +
+                    total_at(pair, from + (i + 1) * h, Limit::from_below));
     }
-    CHECK(sum == Approx(pair.mean()).epsilon(1e-9));
+    CHECK(sum == Approx(mean_total(pair)).epsilon(1e-9));
 }
 
 TEST_CASE("starting teeth at the root circle takes 40 % off Liang's sun-planet mesh stiffness") {
@@ -86,7 +87,7 @@ TEST_CASE(
 
 TEST_CASE("a tooth pair is Hertz contact and two beams in series") {
     for (const auto& gear : cracked_gears()) {
-        const PairStiffness pair(gear.geometry, kLiangSteel, gear.profile);
+        const AdditiveMesh pair(gear.geometry, kLiangSteel, gear.profile);
         const ToothProfile first(gear.geometry.gear(1), gear.profile);
         const ToothProfile second(gear.geometry.gear(2), gear.profile);
         for (int i = 0; i <= 50; ++i) {
@@ -101,37 +102,44 @@ TEST_CASE("a tooth pair is Hertz contact and two beams in series") {
 }
 
 TEST_CASE("two pairs touch until the contact ratio's fraction, then one") {
-    const PairStiffness pair(gears::MeshGeometry(external(19), external(31)), kLiangSteel,
-                             Profile::root_circle);
+    const AdditiveMesh pair(gears::MeshGeometry(external(19), external(31)), kLiangSteel,
+                            Profile::root_circle);
     const double c = pair.contact_ratio();
     REQUIRE(pair.transitions().size() == 2);
     CHECK(pair.transitions()[0] == 0);
     CHECK(pair.transitions()[1] == Approx(c - 1));
     CHECK(pair.tooth_pair(-1e-6) == 0);
     CHECK(pair.tooth_pair(c + 1e-6) == 0);
-    CHECK(pair.mesh(0.3) == pair.tooth_pair(0.3) + pair.tooth_pair(1.3));
-    CHECK(pair.mesh(0.8) == pair.tooth_pair(0.8));
-    CHECK(pair.mesh(0, Side::before) == pair.tooth_pair(1));
-    CHECK(pair.mesh(0, Side::after) == pair.tooth_pair(0) + pair.tooth_pair(1));
+    CHECK(total_at(pair, 0.3) == pair.tooth_pair(0.3) + pair.tooth_pair(1.3));
+    CHECK(total_at(pair, 0.8) == pair.tooth_pair(0.8));
+    CHECK(total_at(pair, 0, Limit::from_below) == pair.tooth_pair(1));
+    CHECK(total_at(pair, 0, Limit::from_above) == pair.tooth_pair(0) + pair.tooth_pair(1));
     const double cut = pair.transitions()[1];
-    CHECK(pair.mesh(cut, Side::before) == Approx(pair.tooth_pair(cut) + pair.tooth_pair(c)));
-    CHECK(pair.mesh(cut, Side::after) == pair.tooth_pair(cut));
+    CHECK(total_at(pair, cut, Limit::from_below) ==
+          Approx(pair.tooth_pair(cut) + pair.tooth_pair(c)));
+    CHECK(total_at(pair, cut, Limit::from_above) == pair.tooth_pair(cut));
     // Limits, from phases far away and negative ones.
-    CHECK(pair.mesh(2511 + cut, Side::before) == Approx(pair.mesh(cut - 1e-7)).epsilon(1e-6));
-    CHECK(pair.mesh(-3, Side::after) == pair.mesh(0, Side::after));
+    CHECK(total_at(pair, 2511 + cut, Limit::from_below) ==
+          Approx(total_at(pair, cut - 1e-7)).epsilon(1e-6));
+    CHECK(total_at(pair, -3, Limit::from_above) == total_at(pair, 0, Limit::from_above));
 }
 
-TEST_CASE("a pair of constant stiffness makes a square wave, or a constant with contact ratio 1") {
-    const PairStiffness wave = PairStiffness::constant(2e8, 1.6);
-    CHECK(wave.mesh(0.3) == 4e8);
-    CHECK(wave.mesh(0.7) == 2e8);
-    CHECK(wave.mean() == Approx(3.2e8));
-    CHECK(wave.transitions().size() == 2);
-    CHECK(wave.pitch_position() == 0.8);
-    const PairStiffness lumped = PairStiffness::constant(5e8);
-    CHECK(lumped.transitions().empty());
-    CHECK(lumped.mean() == 5e8);
-    for (const double phase : {0.0, 0.25, 1.0, 7.75})
-        for (const Side side : {Side::before, Side::after})
-            CHECK(lumped.mesh(phase, side) == 5e8);
+TEST_CASE("each pair carries the load in proportion to its stiffness") {
+    const AdditiveMesh mesh(gears::MeshGeometry(external(19), external(31)), kLiangSteel,
+                            Profile::root_circle);
+    const double tau[] = {0.1, 0.2, 0.3}, later[] = {1.1, 1.2, 1.3};
+    double first[3], second[3];
+    mesh.share(tau, 0.2, first);
+    mesh.share(later, 1.2, second);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(first[i] + second[i] == Approx(1).epsilon(1e-14));
+        CHECK(first[i] / second[i] ==
+              Approx(mesh.tooth_pair(tau[i]) / mesh.tooth_pair(later[i])).epsilon(1e-14));
+    }
+    const double alone[] = {0.9};
+    mesh.share(alone, 0.9, {first, 1});
+    CHECK(first[0] == 1);
+    const double gone[] = {1.9};
+    mesh.share(gone, 1.9, {first, 1});
+    CHECK(first[0] == 0);
 }

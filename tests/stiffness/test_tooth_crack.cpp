@@ -5,8 +5,8 @@
 
 #include "gear_pairs.hpp"
 #include "machine/dispatch.hpp"
-#include "stiffness/cracked_pair.hpp"
-#include "stiffness/pair_stiffness.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/tooth_compliance.hpp"
 
 using namespace gearpod;
@@ -15,9 +15,17 @@ using namespace test_pairs;
 
 namespace {
 
-CrackedPairFamily family_of(const CrackedGear& gear) {
-    return {gear.geometry, kLiangSteel, gear.profile, gear.which, kCrackAngle};
-}
+// All depths of a cracked pair of teeth.
+struct CrackedPair {
+    explicit CrackedPair(const CrackedGear& gear)
+        : family(gear.geometry, kLiangSteel, gear.profile, gear.which, kCrackAngle),
+          healthy(gear.geometry, kLiangSteel, gear.profile) {}
+    double max_depth() const { return family.largest_size(); }
+    ToothPairCurve at(double depth) const { return healthy.faulty_pair(*family.at(depth)); }
+
+    ToothCrack family;
+    AdditiveMesh healthy;
+};
 
 double reference(const CrackedGear& gear, double tau, double depth) {
     const auto compliance = [&](int which, const Crack& crack) {
@@ -57,17 +65,17 @@ TEST_CASE(
     "curves of a cracked pair agree with quadrature to 1e-8 of the healthy stiffness at every "
     "depth") {
     for (const auto& gear : cracked_gears()) {
-        const CrackedPairFamily family = family_of(gear);
-        const PairStiffness healthy(gear.geometry, kLiangSteel, gear.profile);
+        const CrackedPair family(gear);
+        const AdditiveMesh& healthy = family.healthy;
         std::mt19937_64 engine(20160517);
         std::uniform_real_distribution<double> uniform(0, gear.geometry.contact_ratio());
         double worst = 0;
         for (const double fraction : random_depths(engine, 300)) {
             const double depth = fraction * family.max_depth();
-            const CrackedToothCurve curve = family.at(depth);
+            const ToothPairCurve curve = family.at(depth);
             for (int i = 0; i < 10; ++i) {
                 const double tau = uniform(engine);
-                const double error = std::abs(curve.tooth_pair(tau) - reference(gear, tau, depth));
+                const double error = std::abs(curve(tau) - reference(gear, tau, depth));
                 worst = std::max(worst, error / healthy.tooth_pair(tau));
             }
         }
@@ -78,15 +86,15 @@ TEST_CASE(
 
 TEST_CASE("a pair without a crack is the healthy pair, one with a broken tooth carries nothing") {
     for (const auto& gear : cracked_gears()) {
-        const CrackedPairFamily family = family_of(gear);
-        const PairStiffness healthy(gear.geometry, kLiangSteel, gear.profile);
-        const CrackedToothCurve whole = family.at(0), broken = family.at(family.max_depth());
+        const CrackedPair family(gear);
+        const AdditiveMesh& healthy = family.healthy;
+        const ToothPairCurve whole = family.at(0), broken = family.at(family.max_depth());
         for (const double tau : positions(healthy.contact_ratio(), 101)) {
-            CHECK(whole.tooth_pair(tau) == Approx(healthy.tooth_pair(tau)).epsilon(2e-9));
-            CHECK(broken.tooth_pair(tau) == 0);
+            CHECK(whole(tau) == Approx(healthy.tooth_pair(tau)).epsilon(2e-9));
+            CHECK(broken(tau) == 0);
         }
-        CHECK(family.at(-1).tooth_pair(0.5) == whole.tooth_pair(0.5));
-        CHECK(family.at(1).tooth_pair(0.5) == 0);
+        CHECK(family.at(-1)(0.5) == whole(0.5));
+        CHECK(family.at(1)(0.5) == 0);
     }
 }
 
@@ -94,20 +102,20 @@ TEST_CASE(
     "a deeper crack never makes the pair stiffer, and its stiffness passes the centre line without "
     "a step") {
     for (const auto& gear : cracked_gears()) {
-        const CrackedPairFamily family = family_of(gear);
+        const CrackedPair family(gear);
         const auto tau = positions(gear.geometry.contact_ratio(), 201);
         std::vector<double> before(tau.size()), now(tau.size());
-        family.at(0).tooth_pair(tau, before);
+        family.at(0)(tau, before);
         const double slack = 2e-8 * before[tau.size() / 2];
         for (int step = 1; step <= 100; ++step) {
-            family.at(family.max_depth() * step / 100).tooth_pair(tau, now);
+            family.at(family.max_depth() * step / 100)(tau, now);
             for (std::size_t i = 0; i < tau.size(); ++i)
                 REQUIRE(now[i] <= before[i] + slack);
             before = now;
         }
         const double half = family.max_depth() / 2;
-        family.at(half * (1 - 1e-10)).tooth_pair(tau, before);
-        family.at(half * (1 + 1e-10)).tooth_pair(tau, now);
+        family.at(half * (1 - 1e-10))(tau, before);
+        family.at(half * (1 + 1e-10))(tau, now);
         for (std::size_t i = 0; i < tau.size(); ++i)
             REQUIRE(std::abs(now[i] - before[i]) <= slack);
     }
@@ -115,13 +123,13 @@ TEST_CASE(
 
 TEST_CASE("stiffness falls to zero where the cracked section is gone, and is never negative") {
     for (const auto& gear : cracked_gears()) {
-        const CrackedPairFamily family = family_of(gear);
+        const CrackedPair family(gear);
         const ToothProfile profile(gear.geometry.gear(gear.which), gear.profile);
         const auto tau = positions(gear.geometry.contact_ratio(), 1001);
         std::vector<double> k(tau.size());
         for (const double fraction : {0.55, 0.7, 0.8, 0.95, 0.999}) {
             const CrackedSections sections(profile, {fraction * family.max_depth(), kCrackAngle});
-            family.at(fraction * family.max_depth()).tooth_pair(tau, k);
+            family.at(fraction * family.max_depth())(tau, k);
             for (std::size_t i = 0; i < tau.size(); ++i) {
                 REQUIRE(k[i] >= 0);
                 const double u =
@@ -135,14 +143,14 @@ TEST_CASE("stiffness falls to zero where the cracked section is gone, and is nev
 
 TEST_CASE("one position, many positions and every instruction set give the same bits") {
     const auto gear = cracked_gears().front();
-    const CrackedPairFamily family = family_of(gear);
+    const CrackedPair family(gear);
     const auto tau = positions(gear.geometry.contact_ratio() + 0.1, 1037);
     for (const double fraction : {0.0, 0.1, 0.4, 0.7}) {
-        const CrackedToothCurve curve = family.at(fraction * family.max_depth());
+        const ToothPairCurve curve = family.at(fraction * family.max_depth());
         std::vector<double> best(tau.size()), other(tau.size());
-        curve.tooth_pair(tau, best);
+        curve(tau, best);
         for (std::size_t i = 0; i < tau.size(); ++i)
-            REQUIRE(curve.tooth_pair(tau[i]) == best[i]);
+            REQUIRE(curve(tau[i]) == best[i]);
         const auto active = machine::active_instruction_set();
         for (const auto set :
              {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3,
@@ -150,7 +158,7 @@ TEST_CASE("one position, many positions and every instruction set give the same 
             if (set > machine::best_instruction_set())
                 continue;
             machine::use_instruction_set(set);
-            curve.tooth_pair(tau, other);
+            curve(tau, other);
             machine::use_instruction_set(active);
             REQUIRE(other == best);
         }
@@ -159,8 +167,8 @@ TEST_CASE("one position, many positions and every instruction set give the same 
 
 TEST_CASE("a crack that is no crack is refused") {
     const gears::MeshGeometry mesh(external(19), external(31));
-    CHECK_THROWS_AS(CrackedPairFamily(mesh, kLiangSteel, Profile::root_circle, 3, 0.8),
+    CHECK_THROWS_AS(ToothCrack(mesh, kLiangSteel, Profile::root_circle, 3, 0.8),
                     std::invalid_argument);
-    CHECK_THROWS_AS(CrackedPairFamily(mesh, kLiangSteel, Profile::root_circle, 1, 0.0),
+    CHECK_THROWS_AS(ToothCrack(mesh, kLiangSteel, Profile::root_circle, 1, 0.0),
                     std::invalid_argument);
 }

@@ -1,0 +1,157 @@
+#include "stiffness/additive_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stiffness/position_range.hpp"
+#include "stiffness/tooth_compliance.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr int kNodes = 48;
+constexpr double kSeriesTolerance = 1e-13;
+constexpr double kFaultyTolerance = 4e-10;  // of the stiffness of contact and mate
+
+ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
+                            Profile profile, int which) {
+    const ToothProfile tooth(geometry.gear(which), profile);
+    const auto compliance = [&](double tau) {
+        return tooth_compliance(tooth, material, geometry.contact_angle(which, tau)).total();
+    };
+    return {compliance, 0, geometry.contact_ratio(), kNodes, kSeriesTolerance};
+}
+
+// Tooth pairs that touch inside a stretch: they stand at tau + age, youngest first.
+struct Ages {
+    int first, last;  // one past the last
+};
+
+Ages touching(double inside, double contact_ratio) {
+    return {-static_cast<int>(std::floor(inside)),
+            static_cast<int>(std::ceil(contact_ratio - inside))};
+}
+
+}  // namespace
+
+class FaultyAdditiveMesh : public FaultyMesh {
+  public:
+    FaultyAdditiveMesh(const AdditiveMesh& healthy, const ToothFault& fault)
+        : healthy_(healthy),
+          teeth_(fault.teeth()),
+          factor_(fault.mesh_factor()),
+          curve_(healthy.faulty_pair(fault)) {
+        for (int tooth = 0; tooth < teeth_; ++tooth)
+            for (const double jump : fault.jumps())
+                jumps_.push_back(tooth + jump);
+        std::sort(jumps_.begin(), jumps_.end());
+    }
+
+    double duration() const override { return teeth_ - 1 + healthy_.contact_ratio(); }
+    std::vector<double> jumps() const override { return jumps_; }
+
+    void total(std::span<const double> tau, double inside,
+               std::span<double> stiffness) const override {
+        const Stretch stretch = stretch_around(healthy_.transitions_, jumps_, inside);
+        std::vector<double> position(tau.size()), one(tau.size());
+        std::fill(stiffness.begin(), stiffness.end(), 0.0);
+        const Ages ages = touching(inside, healthy_.contact_ratio());
+        for (int age = ages.first; age < ages.last; ++age) {
+            if (age > 0 || age <= -teeth_) {
+                healthy_.add_pair(tau, age, stiffness);
+                continue;
+            }
+            std::transform(tau.begin(), tau.end(), position.begin(),
+                           [&](double t) { return t + age; });
+            curve_(position, {stretch.begin + age, stretch.end + age}, one);
+            std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(),
+                           std::plus<>());
+        }
+        for (double& k : stiffness)
+            k *= factor_;
+    }
+
+  private:
+    const AdditiveMesh& healthy_;
+    int teeth_;
+    double factor_;
+    ToothPairCurve curve_;
+    std::vector<double> jumps_;
+};
+
+AdditiveMesh::AdditiveMesh(const gears::MeshGeometry& geometry, const Material& material,
+                           Profile profile)
+    : contact_ratio_(geometry.contact_ratio()),
+      pitch_position_(geometry.pitch_position()),
+      contact_(1 / hertz_stiffness(material)),
+      beams_{beam_series(geometry, material, profile, 1),
+             beam_series(geometry, material, profile, 2)},
+      pair_([&](double tau) { return 1 / (contact_ + beams_[0](tau) + beams_[1](tau)); }, 0,
+            contact_ratio_, kNodes, kSeriesTolerance),
+      fit_(kFaultyTolerance / (contact_ + beams_[1](contact_ratio_ / 2))),
+      transitions_(contact_transitions(contact_ratio_)) {}
+
+double AdditiveMesh::tooth_pair(double tau) const {
+    double stiffness = 0;
+    tooth_pair({&tau, 1}, {&stiffness, 1});
+    return stiffness;
+}
+
+void AdditiveMesh::tooth_pair(std::span<const double> tau, std::span<double> stiffness) const {
+    std::fill(stiffness.begin(), stiffness.end(), 0.0);
+    const auto [first, count] = positions_within(tau, 0, contact_ratio_);
+    pair_(tau.subspan(first, count), stiffness.subspan(first, count));
+}
+
+void AdditiveMesh::add_pair(std::span<const double> tau, int age,
+                            std::span<double> stiffness) const {
+    std::vector<double> position(tau.size()), one(tau.size());
+    std::transform(tau.begin(), tau.end(), position.begin(),
+                   [&](double t) { return std::clamp(t + age, 0.0, contact_ratio_); });
+    pair_(position, one);
+    std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(), std::plus<>());
+}
+
+void AdditiveMesh::total(std::span<const double> tau, double inside,
+                         std::span<double> stiffness) const {
+    std::fill(stiffness.begin(), stiffness.end(), 0.0);
+    const Ages ages = touching(inside, contact_ratio_);
+    for (int age = ages.first; age < ages.last; ++age)
+        add_pair(tau, age, stiffness);
+}
+
+void AdditiveMesh::share(std::span<const double> tau, double inside,
+                         std::span<double> share) const {
+    std::fill(share.begin(), share.end(), 0.0);
+    if (inside < 0 || inside > contact_ratio_)
+        return;
+    add_pair(tau, 0, share);
+    std::vector<double> all(tau.size());
+    total(tau, inside, all);
+    std::transform(share.begin(), share.end(), all.begin(), share.begin(), std::divides<>());
+}
+
+ToothPairCurve AdditiveMesh::faulty_pair(const ToothFault& fault) const {
+    const int own = fault.gear() - 1;
+    const auto stiffness = [&](std::span<const double> tau, std::span<double> values) {
+        std::array<double, ToothPairCurve::kMaxTerms> mate;
+        beams_[1 - own](tau, mate);
+        if (fault.changes_sections())
+            fault.beam_compliance(tau, values);
+        else
+            beams_[own](tau, values);
+        for (std::size_t i = 0; i < tau.size(); ++i) {
+            const double width = fault.changes_contact() ? fault.contact_width(tau[i]) : 1.0;
+            values[i] =
+                width > 0 ? fault.pair_factor() / (contact_ / width + mate[i] + values[i]) : 0.0;
+        }
+    };
+    return fit_(stiffness, fault.breaks(), contact_ratio_);
+}
+
+std::unique_ptr<const FaultyMesh> AdditiveMesh::with_fault(const ToothFault& fault) const {
+    return std::make_unique<FaultyAdditiveMesh>(*this, fault);
+}
+
+}  // namespace gearpod::stiffness

@@ -1,0 +1,53 @@
+// A gear pair whose tooth pairs are independent springs, each two beams and a linear Hertz contact
+// in series:
+//
+//     k = 1 / (1 / k_h + 1 / k_beam1 + 1 / k_beam2),    total = sum over the pairs that touch.
+//
+// Sources: Tian (2004), Eqs. 2.35, 2.63; Liang (2016), Eqs. 2.2.32-2.2.33, 3.2.23-3.2.24. A fault
+// changes the terms of its tooth's pair: the beam of its own gear, and k_h with the width on which
+// the tooth is touched (Tian, Eq. 3.1). Curves are Chebyshev series in the position, in error by
+// less than 1e-12 (healthy) and 1e-8 of the healthy tooth pair (faulty).
+#pragma once
+
+#include "gears/mesh_geometry.hpp"
+#include "stiffness/chebyshev.hpp"
+#include "stiffness/material.hpp"
+#include "stiffness/mesh_stiffness.hpp"
+#include "stiffness/tooth_pair_curve.hpp"
+#include "stiffness/tooth_profile.hpp"
+
+namespace gearpod::stiffness {
+
+class AdditiveMesh : public MeshStiffness {
+  public:
+    AdditiveMesh(const gears::MeshGeometry& geometry, const Material& material, Profile profile);
+
+    double contact_ratio() const override { return contact_ratio_; }
+    double pitch_position() const override { return pitch_position_; }
+    void total(std::span<const double> tau, double inside,
+               std::span<double> stiffness) const override;
+    void share(std::span<const double> tau, double inside, std::span<double> share) const override;
+    std::vector<double> transitions() const override { return transitions_; }
+    std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const override;
+
+    // One healthy tooth pair, N/m; 0 outside [0, contact ratio] (to 1e-10).
+    double tooth_pair(double tau) const;
+    // The same for many positions in ascending order; same bits as one by one.
+    void tooth_pair(std::span<const double> tau, std::span<double> stiffness) const;
+    // The tooth pair with that fault.
+    ToothPairCurve faulty_pair(const ToothFault& fault) const;
+
+  private:
+    friend class FaultyAdditiveMesh;
+    // Adds the healthy tooth pair that stands `age` mesh periods further.
+    void add_pair(std::span<const double> tau, int age, std::span<double> stiffness) const;
+
+    double contact_ratio_, pitch_position_;
+    double contact_;            // compliance of the full contact, m/N
+    ChebyshevSeries beams_[2];  // compliance of either gear's tooth, m/N
+    ChebyshevSeries pair_;
+    ToothPairFit fit_;
+    std::vector<double> transitions_;
+};
+
+}  // namespace gearpod::stiffness

@@ -1,0 +1,217 @@
+#include "stiffness/coupled_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "stiffness/stretch.hpp"
+#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/tooth_pair_curve.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr int kNodes = 48;
+constexpr double kSeriesTolerance = 1e-13;
+constexpr double kFaultyTolerance = 4e-10;  // of the healthy total
+
+// Pairs that touch at a phase strictly between transitions.
+int pairs_at(double phase, double contact_ratio) {
+    return static_cast<int>(std::ceil(contact_ratio - phase));
+}
+
+}  // namespace
+
+// Solves anew at every node of a smooth piece; the march then reads the pieces.
+class FaultyCoupledMesh : public FaultyMesh {
+  public:
+    FaultyCoupledMesh(const CoupledMesh& healthy, const ToothFault& fault)
+        : transitions_(healthy.transitions_),
+          duration_(healthy.contact_ratio() + fault.teeth() - 1) {
+        std::vector<double> breaks;
+        for (int period = 0; period <= duration_; ++period)
+            for (const double transition : transitions_)
+                breaks.push_back(period + transition);
+        for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
+            for (const double at : fault.breaks())
+                breaks.push_back(tooth + at);
+            for (const double jump : fault.jumps())
+                jumps_.push_back(tooth + jump);
+        }
+        std::sort(breaks.begin(), breaks.end());
+        std::sort(jumps_.begin(), jumps_.end());
+        const double scale = healthy.stretches_.front().total(0.0);
+        const ToothPairFit fit(kFaultyTolerance * scale);
+        curve_ = fit([&](std::span<const double> tau,
+                         std::span<double> total) { solve(healthy, fault, tau, total); },
+                     breaks, duration_);
+    }
+
+    double duration() const override { return duration_; }
+    std::vector<double> jumps() const override { return jumps_; }
+    void total(std::span<const double> tau, double inside,
+               std::span<double> stiffness) const override {
+        curve_(tau, stretch_around(transitions_, jumps_, inside), stiffness);
+    }
+
+  private:
+    static void solve(const CoupledMesh& healthy, const ToothFault& fault,
+                      std::span<const double> tau, std::span<double> total) {
+        const std::size_t n = tau.size();
+        const int period = static_cast<int>(std::floor(tau[n / 2]));
+        const int pairs = pairs_at(tau[n / 2] - period, healthy.contact_ratio());
+        std::vector<TouchingPairs> at(n);
+        for (std::size_t i = 0; i < n; ++i)
+            at[i] = healthy.touching(tau[i] - period, pairs);
+        for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
+            const int pair = period - tooth;  // engaged so many periods ago
+            if (pair >= 0 && pair < pairs)
+                put_fault(healthy, fault, tau, tooth, pair, at);
+        }
+        for (std::size_t i = 0; i < n; ++i)
+            total[i] = fault.mesh_factor() *
+                       share_load(at[i], healthy.contact_, healthy.force_N_).stiffness;
+    }
+
+    static void put_fault(const CoupledMesh& healthy, const ToothFault& fault,
+                          std::span<const double> tau, int tooth, int pair,
+                          std::vector<TouchingPairs>& at) {
+        const std::size_t n = tau.size();
+        std::vector<double> position(n), faulty(n), whole(n);
+        std::transform(tau.begin(), tau.end(), position.begin(),
+                       [&](double t) { return t - tooth; });
+        if (fault.changes_sections()) {
+            fault.beam_compliance(position, faulty);
+            healthy.beams_[fault.gear() - 1](position, whole);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            double& own = at[i].compliance[pair][pair];
+            own = (own + (faulty[i] - whole[i])) / fault.pair_factor();
+            at[i].contact_factor[pair] = 1 / fault.pair_factor();
+            if (fault.changes_contact())
+                at[i].width[pair] = fault.contact_width(position[i]);
+        }
+    }
+
+    std::vector<double> transitions_, jumps_;
+    double duration_;
+    ToothPairCurve curve_;
+};
+
+CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& material,
+                         Profile profile, const CoupledMeshOptions& options)
+    : geometry_(geometry),
+      contact_(material, options.contact),
+      force_N_(options.force_N),
+      bodies_{make_foundation(geometry.gear(1), material, profile, options.foundation,
+                              options.body_radius_1_m),
+              make_foundation(geometry.gear(2), material, profile, options.foundation,
+                              options.body_radius_2_m)},
+      transitions_(contact_transitions(geometry.contact_ratio())) {
+    if (contact_.load_dependent() && !(force_N_ > 0))
+        throw std::invalid_argument(
+            fmt::format("contacts that stiffen with the load carry a mesh force of {} N (must be "
+                        "positive)",
+                        force_N_));
+    if (contact_ratio() > TouchingPairs::kMost)
+        throw std::invalid_argument(fmt::format("a contact ratio of {:.2f} (at most {})",
+                                                contact_ratio(), TouchingPairs::kMost));
+    for (const int which : {1, 2}) {
+        const ToothProfile tooth(geometry.gear(which), profile);
+        beams_[which - 1] = ChebyshevSeries(
+            [&](double tau) {
+                return tooth_compliance(tooth, material, geometry.contact_angle(which, tau))
+                    .total();
+            },
+            0, contact_ratio(), kNodes, kSeriesTolerance);
+    }
+    foundation_ =
+        ChebyshevSeries([&](double tau) { return foundation(1, tau) + foundation(2, tau); }, 0,
+                        contact_ratio(), kNodes, kSeriesTolerance);
+    for (std::size_t i = 0; i < transitions_.size(); ++i) {
+        const double begin = transitions_[i];
+        const double end = i + 1 < transitions_.size() ? transitions_[i + 1] : 1;
+        const int pairs = pairs_at(0.5 * (begin + end), contact_ratio());
+        const auto series = [&](auto&& value) {
+            return ChebyshevSeries([&](double phase) { return value(healthy_load(phase, pairs)); },
+                                   begin, end, kNodes, kSeriesTolerance);
+        };
+        HealthyStretch stretch{
+            begin, end, series([](const SharedLoad& load) { return load.stiffness; }), {}};
+        for (int pair = 0; pair < pairs; ++pair)
+            stretch.shares.push_back(
+                series([&](const SharedLoad& load) { return load.share[pair]; }));
+        stretches_.push_back(std::move(stretch));
+    }
+}
+
+double CoupledMesh::foundation(int which, double tau) const {
+    const FilletFoundation* body = bodies_[which - 1].get();
+    return body ? body->self(geometry_.contact_angle(which, tau)).total() : 0;
+}
+
+double CoupledMesh::coupling(double tau_i, double tau_j) const {
+    // Gear 1's teeth are pushed against its rotation, gear 2's along it; the pair with the larger
+    // tau is ahead on both.
+    const int ahead = static_cast<int>(std::lround(tau_j - tau_i));
+    double sum = 0;
+    for (const int which : {1, 2})
+        if (const FilletFoundation* body = bodies_[which - 1].get())
+            sum +=
+                body->coupling(geometry_.contact_angle(which, tau_i),
+                               geometry_.contact_angle(which, tau_j), which == 1 ? -ahead : ahead);
+    return sum;
+}
+
+TouchingPairs CoupledMesh::touching(double phase, int pairs) const {
+    TouchingPairs at;
+    at.count = pairs;
+    for (int i = 0; i < pairs; ++i) {
+        const double tau = std::min(phase + i, contact_ratio());
+        at.width[i] = at.contact_factor[i] = 1;
+        at.compliance[i][i] = beams_[0](tau) + beams_[1](tau) + foundation_(tau);
+        for (int j = 0; j < i; ++j)
+            at.compliance[i][j] = at.compliance[j][i] = coupling(phase + i, phase + j);
+    }
+    return at;
+}
+
+SharedLoad CoupledMesh::healthy_load(double phase, int pairs) const {
+    return share_load(touching(phase, pairs), contact_, force_N_);
+}
+
+const CoupledMesh::HealthyStretch& CoupledMesh::stretch_at(double phase) const {
+    const auto next = std::upper_bound(transitions_.begin(), transitions_.end(), phase);
+    return stretches_[static_cast<std::size_t>(next - transitions_.begin()) - 1];
+}
+
+void CoupledMesh::total(std::span<const double> tau, double inside,
+                        std::span<double> stiffness) const {
+    const double period = std::floor(inside);
+    const HealthyStretch& stretch = stretch_at(inside - period);
+    std::vector<double> phase(tau.size());
+    std::transform(tau.begin(), tau.end(), phase.begin(),
+                   [&](double t) { return std::clamp(t - period, stretch.begin, stretch.end); });
+    stretch.total(phase, stiffness);
+}
+
+void CoupledMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
+    std::fill(share.begin(), share.end(), 0.0);
+    if (inside < 0 || inside > contact_ratio())
+        return;
+    const double period = std::floor(inside);
+    const HealthyStretch& stretch = stretch_at(inside - period);
+    std::vector<double> phase(tau.size());
+    std::transform(tau.begin(), tau.end(), phase.begin(),
+                   [&](double t) { return std::clamp(t - period, stretch.begin, stretch.end); });
+    stretch.shares[static_cast<std::size_t>(period)](phase, share);
+}
+
+std::unique_ptr<const FaultyMesh> CoupledMesh::with_fault(const ToothFault& fault) const {
+    return std::make_unique<FaultyCoupledMesh>(*this, fault);
+}
+
+}  // namespace gearpod::stiffness

@@ -1,0 +1,78 @@
+// A gear pair whose tooth pairs share the load: beams and Hertz contacts as in AdditiveMesh, and
+// gear bodies that give way under each root and, through the body, under the neighbours'
+// (foundation/fillet_foundation.hpp); contacts may stiffen with the force they carry
+// (contact/hertz_contact.hpp). The total is the mesh's force over the approach of the gears along
+// the line of action. Source: Yang (2022), section 2.1, for any number of touching pairs.
+//
+// Curves are Chebyshev series in the position: in error by less than 1e-11 (healthy) and 1e-8 of
+// the mean (faulty).
+#pragma once
+
+#include <vector>
+
+#include "gears/mesh_geometry.hpp"
+#include "stiffness/chebyshev.hpp"
+#include "stiffness/contact/load_sharing.hpp"
+#include "stiffness/foundation/fillet_foundation.hpp"
+#include "stiffness/material.hpp"
+#include "stiffness/mesh_stiffness.hpp"
+#include "stiffness/tooth_profile.hpp"
+
+namespace gearpod::stiffness {
+
+struct CoupledMeshOptions {
+    FoundationModel foundation = FoundationModel::none;
+    Contact contact = Contact::linear;
+    // The circle on which each gear's body is held (make_foundation).
+    double body_radius_1_m = 0, body_radius_2_m = 0;
+    double force_N = 0;  // of the mesh, along the line of action; for load-dependent contacts
+};
+
+class CoupledMesh : public MeshStiffness {
+  public:
+    // Throws std::invalid_argument for a body or a force that cannot be, or more than 8 pairs in
+    // contact.
+    CoupledMesh(const gears::MeshGeometry& geometry, const Material& material, Profile profile,
+                const CoupledMeshOptions& options);
+
+    double contact_ratio() const override { return geometry_.contact_ratio(); }
+    double pitch_position() const override { return geometry_.pitch_position(); }
+    void total(std::span<const double> tau, double inside,
+               std::span<double> stiffness) const override;
+    void share(std::span<const double> tau, double inside, std::span<double> share) const override;
+    std::vector<double> transitions() const override { return transitions_; }
+    std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const override;
+
+    // Displacement along the line of action of the pair at tau_j by a unit force on the pair at
+    // tau_i, through both gear bodies, m/N; whole mesh periods apart.
+    double coupling(double tau_i, double tau_j) const;
+    // Of one healthy tooth: as a beam, and its foundation; m/N.
+    double beam(int which, double tau) const { return beams_[which - 1](tau); }
+    double foundation(int which, double tau) const;
+    // Null where the gear has none.
+    const FilletFoundation* body(int which) const { return bodies_[which - 1].get(); }
+
+  private:
+    friend class FaultyCoupledMesh;
+    // Between two transitions: the total, and the shares of the pairs from the youngest on.
+    struct HealthyStretch {
+        double begin, end;
+        ChebyshevSeries total;
+        std::vector<ChebyshevSeries> shares;
+    };
+    // The pairs that touch at phase, 0 <= phase < 1 (or at its end): at phase, phase + 1, ...
+    SharedLoad healthy_load(double phase, int pairs) const;
+    TouchingPairs touching(double phase, int pairs) const;
+    const HealthyStretch& stretch_at(double phase) const;
+
+    gears::MeshGeometry geometry_;
+    HertzContact contact_;
+    double force_N_;
+    std::unique_ptr<const FilletFoundation> bodies_[2];
+    ChebyshevSeries beams_[2];    // over tau, m/N
+    ChebyshevSeries foundation_;  // of both gears
+    std::vector<double> transitions_;
+    std::vector<HealthyStretch> stretches_;
+};
+
+}  // namespace gearpod::stiffness

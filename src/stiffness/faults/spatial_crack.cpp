@@ -1,0 +1,235 @@
+#include "stiffness/faults/spatial_crack.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "stiffness/faults/slice_rule.hpp"
+#include "stiffness/section_moments.hpp"
+#include "stiffness/tooth_pair_curve.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+// Of the healthy tooth's stiffness; the second where slices differ, which leaves small kinks.
+constexpr double kUniformTolerance = 1e-11, kTolerance = 1e-5;
+
+// Stiffnesses per unit of the healthy face width; zero where the compliance is infinite.
+struct SliceStiffness {
+    double bending = 0, shear = 0, foundation = 0;
+};
+
+// A contact, as all slices have it.
+struct Touch {
+    double u = 0, cosine = 0, sine = 0;
+    FoundationCompliance foundation;  // zero without one
+};
+
+double inverse(double x) {
+    return x > 0 ? 1 / x : 0;
+}
+
+}  // namespace
+
+class CrackOfOneStage : public ToothFault {
+  public:
+    CrackOfOneStage(const SpatialCrack& family, const CrackSurface& surface)
+        : family_(family),
+          surface_(surface),
+          rule_(surface.uniform() ? 1 : family.growth_.slices),
+          healthy_(family.profile_, {}) {
+        if (!surface.cracked())
+            return;
+        const double root_width = 2 * family.profile_.root_half_thickness();
+        for (const double t : rule_.points()) {
+            const Crack crack = surface.crack(t);
+            slices_.emplace_back(family.profile_, crack);
+            const double below = std::cos(crack.angle_rad) * crack.depth_m - crack.height_m;
+            const double cut =
+                below > 0 ? below * std::tan(crack.angle_rad) : 0;  // of the root's width
+            longer_lever_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
+        }
+        find_heights();
+        find_breaks();
+        const SectionSweep whole = swept_to(healthy_, family.angle_at(family.contact_ratio_ / 2));
+        const double soft =
+            compliance(whole.moments(), family.profile_, family.material_,
+                       family.profile_.involute_angle(family.angle_at(family.contact_ratio_ / 2)));
+        const ToothPairFit fit((surface.uniform() ? kUniformTolerance : kTolerance) / soft);
+        curve_ = fit([this](std::span<const double> tau,
+                            std::span<double> stiffness) { sum_slices(tau, stiffness); },
+                     breaks_, family.contact_ratio_);
+        breaks_.clear();
+        for (const auto& piece : curve_.pieces()) {
+            breaks_.push_back(piece.begin);
+            breaks_.push_back(piece.end);
+        }
+    }
+
+    int gear() const override { return family_.which_; }
+    bool changes_sections() const override { return surface_.cracked(); }
+    std::vector<double> breaks() const override { return breaks_; }
+    void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
+        curve_(tau, compliance);
+        for (double& c : compliance)
+            c = c > 0 ? 1 / c : std::numeric_limits<double>::infinity();
+    }
+
+  private:
+    SectionSweep swept_to(const CrackedSections& sections, double u) const {
+        SectionSweep sweep(family_.profile_, sections);
+        sweep.advance(u);
+        return sweep;
+    }
+
+    // Height of the section at u over the root section.
+    double height_at(double u) const {
+        return std::abs(family_.profile_.section(u).axial - family_.profile_.root_axial());
+    }
+
+    int samples() const { return 64 * (1 + static_cast<int>(surface_.height_waves)); }
+
+    void find_heights() {
+        lowest_ = std::numeric_limits<double>::infinity();
+        for (int i = 0; i <= samples(); ++i) {
+            const double l = surface_.height(surface_.length_m * i / samples());
+            lowest_ = std::min(lowest_, l);
+            highest_ = std::max(highest_, l);
+        }
+    }
+
+    // Where the contact passes the crack's lowest and highest start, and where it leaves the
+    // cracked sections at either end: the slices in between change one after the other.
+    void find_breaks() {
+        for (const double height : {lowest_, highest_})
+            add_break(CrackedSections(family_.profile_, {1e-9, 1, height}).start());
+        for (const double t : {0.0, 1.0})
+            add_break(CrackedSections(family_.profile_, surface_.crack(t)).boundary());
+        std::sort(breaks_.begin(), breaks_.end());
+    }
+    void add_break(double u) {
+        const double tau = family_.position_of(u);
+        if (tau > 0 && tau < family_.contact_ratio_)
+            breaks_.push_back(tau);
+    }
+
+    Touch touch_at(double tau) const {
+        const double u = family_.angle_at(tau), angle = family_.profile_.involute_angle(u);
+        return {u, std::cos(angle), std::sin(angle),
+                family_.foundation_ ? family_.foundation_->self(angle) : FoundationCompliance{}};
+    }
+
+    // Stiffness of the tooth, N/m, at ascending positions.
+    void sum_slices(std::span<const double> tau, std::span<double> stiffness) const {
+        const std::size_t n = tau.size(), count = slices_.size();
+        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        std::vector<Touch> touches(n);                  // from the root
+        for (std::size_t i = 0; i < n; ++i)
+            touches[i] = touch_at(tau[climbs ? i : n - 1 - i]);
+        std::vector<SliceStiffness> at(n * count);
+        for (std::size_t slice = 0; slice < count; ++slice) {
+            SectionSweep sweep(family_.profile_, slices_[slice]);
+            for (std::size_t i = 0; i < n; ++i)
+                at[i * count + slice] = slice_stiffness(slice, touches[i], sweep);
+        }
+        SectionSweep sweep(family_.profile_, healthy_);
+        for (std::size_t i = 0; i < n; ++i)
+            stiffness[climbs ? i : n - 1 - i] =
+                tooth_stiffness(touches[i], sweep, {at.data() + i * count, count});
+    }
+
+    // As if the contact saw the crack; where it does not, the sum leaves the slice out.
+    SliceStiffness slice_stiffness(std::size_t slice, const Touch& touch,
+                                   SectionSweep& sweep) const {
+        const CrackedSections& sections = slices_[slice];
+        if (sections.broken() || (sections.past_centre() && touch.u <= sections.boundary()))
+            return {};
+        sweep.advance(touch.u);
+        return stiffness_of(sweep.moments(), touch, longer_lever_[slice]);
+    }
+
+    SliceStiffness stiffness_of(const SectionMoments& moments, const Touch& touch,
+                                double lever) const {
+        return {
+            inverse(bending_compliance(moments, family_.profile_, family_.material_, touch.cosine)),
+            inverse(shear_compliance(moments, family_.material_, touch.cosine)),
+            lever > 0 ? inverse(touch.foundation.total(lever)) : 0};
+    }
+
+    double tooth_stiffness(const Touch& touch, SectionSweep& sweep,
+                           std::span<const SliceStiffness> slices) const {
+        sweep.advance(touch.u);
+        const SliceStiffness whole = stiffness_of(sweep.moments(), touch, 1);
+        const std::vector<double> weights = seen_weights(height_at(touch.u));
+        SliceStiffness sum;
+        double cracked = 0;  // share of the face width
+        for (std::size_t i = 0; i < slices.size(); ++i) {
+            const double share =
+                weights[i] * surface_.stretching(rule_.points()[i]) / surface_.face_width_m;
+            cracked += share;
+            sum.bending += share * slices[i].bending;
+            sum.shear += share * slices[i].shear;
+            sum.foundation += share * slices[i].foundation;
+        }
+        sum.bending += (1 - cracked) * whole.bending;
+        sum.shear += (1 - cracked) * whole.shear;
+        sum.foundation += (1 - cracked) * whole.foundation;
+        double soft =
+            1 / sum.bending + axial_compliance(sweep.moments(), family_.material_, touch.sine);
+        if (whole.shear > 0)
+            soft += 1 / sum.shear;
+        if (whole.foundation > 0)
+            soft += 1 / sum.foundation - 1 / whole.foundation;
+        return sum.bending > 0 ? 1 / soft : 0;
+    }
+
+    // Weights of the slices that a contact at that height sees.
+    std::vector<double> seen_weights(double height) const {
+        std::vector<double> weights(slices_.size());
+        if (height >= highest_)
+            rule_.whole(weights);
+        else if (height > lowest_)
+            rule_.where([&](double t) { return height - surface_.height(surface_.place(t)); },
+                        samples(), weights);
+        return weights;
+    }
+
+    const SpatialCrack& family_;
+    CrackSurface surface_;
+    SliceRule rule_;
+    CrackedSections healthy_;
+    std::vector<CrackedSections> slices_;
+    std::vector<double> longer_lever_;  // S / S'; 0 where the root is cut through
+    double lowest_ = 0, highest_ = 0;   // start of the crack over the root section
+    std::vector<double> breaks_;
+    ToothPairCurve curve_;
+};
+
+SpatialCrack::SpatialCrack(const gears::MeshGeometry& geometry, const Material& material,
+                           Profile profile, int which, CrackGrowth growth,
+                           const FilletFoundation* foundation)
+    : profile_(geometry.gear(which == 2 ? 2 : 1), profile),
+      material_(material),
+      which_(which),
+      growth_(std::move(growth)),
+      foundation_(foundation),
+      contact_ratio_(geometry.contact_ratio()),
+      contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which == 2 ? 2 : 1))),
+      contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which == 2 ? 2 : 1))) {
+    if (which != 1 && which != 2)
+        throw std::invalid_argument("the cracked gear of a pair is gear 1 or gear 2");
+    const auto problems = growth_problems(growth_, material.face_width_m);
+    if (!problems.empty())
+        throw std::invalid_argument(fmt::format("{}", fmt::join(problems, "; ")));
+}
+
+std::unique_ptr<const ToothFault> SpatialCrack::at(double stage) const {
+    return std::make_unique<CrackOfOneStage>(*this, growth_.at(stage, material_.face_width_m));
+}
+
+}  // namespace gearpod::stiffness

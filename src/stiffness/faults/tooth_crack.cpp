@@ -1,0 +1,79 @@
+#include "stiffness/faults/tooth_crack.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "stiffness/faults/crack.hpp"
+#include "stiffness/section_moments.hpp"
+
+namespace gearpod::stiffness {
+
+class CrackOfOneDepth : public ToothFault {
+  public:
+    CrackOfOneDepth(const ToothCrack& family, double depth_m)
+        : family_(family), sections_(family.profile_, {depth_m, family.crack_angle_rad_}) {}
+
+    int gear() const override { return family_.which_; }
+    bool changes_sections() const override { return true; }
+
+    void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
+        SectionSweep sweep(family_.profile_, sections_);
+        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        for (std::size_t i = 0; i < tau.size(); ++i) {
+            const std::size_t next = climbs ? i : tau.size() - 1 - i;
+            compliance[next] = touched_at(family_.angle_at(tau[next]), sweep);
+        }
+    }
+
+    // Where the section law changes.
+    std::vector<double> breaks() const override {
+        if (!sections_.cracked() || sections_.broken())
+            return {};
+        const double tau = (sections_.boundary() - family_.contact_start_) / family_.contact_rate_;
+        if (tau <= 0 || tau >= family_.contact_ratio_)
+            return {};
+        return {tau};
+    }
+
+  private:
+    double touched_at(double u, SectionSweep& sweep) const {
+        if (sections_.gone(u))
+            return std::numeric_limits<double>::infinity();
+        if (sections_.cracked())
+            sweep.advance_cracked(std::max(u, sections_.boundary()));
+        sweep.advance_healthy(u);
+        return stiffness::compliance(sweep.moments(), family_.profile_, family_.material_,
+                                     family_.profile_.involute_angle(u));
+    }
+
+    const ToothCrack& family_;
+    CrackedSections sections_;
+};
+
+ToothCrack::ToothCrack(const gears::MeshGeometry& geometry, const Material& material,
+                       Profile profile, int which, double crack_angle_rad)
+    : profile_(geometry.gear(which == 2 ? 2 : 1), profile),
+      material_(material),
+      which_(which),
+      crack_angle_rad_(crack_angle_rad),
+      contact_ratio_(geometry.contact_ratio()),
+      contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which == 2 ? 2 : 1))),
+      contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which == 2 ? 2 : 1))) {
+    if (which != 1 && which != 2)
+        throw std::invalid_argument("the cracked gear of a pair is gear 1 or gear 2");
+    if (!(crack_angle_rad > 0 && crack_angle_rad < std::numbers::pi / 2))
+        throw std::invalid_argument(
+            "the crack's angle to the tooth's centre line must lie between 0 and 90 degrees");
+}
+
+double ToothCrack::largest_size() const {
+    return max_crack_depth(profile_, crack_angle_rad_);
+}
+
+std::unique_ptr<const ToothFault> ToothCrack::at(double depth_m) const {
+    return std::make_unique<CrackOfOneDepth>(*this, depth_m);
+}
+
+}  // namespace gearpod::stiffness

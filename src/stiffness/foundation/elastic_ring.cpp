@@ -1,0 +1,130 @@
+#include "stiffness/foundation/elastic_ring.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+namespace gearpod::stiffness {
+
+namespace {
+
+using std::numbers::pi;
+
+// What is left out falls as 1 / (n^2 half angle) in the self part and 1 / n^3 in the coupling.
+constexpr int kHarmonics = 4096;
+
+// Fourier coefficients of 1 (cosines) and of phi (sines) on |phi| <= half_angle, 0 elsewhere.
+double constant_coefficient(int n, double half_angle) {
+    return 2 * std::sin(n * half_angle) / (pi * n);
+}
+double linear_coefficient(int n, double half_angle) {
+    const double x = n * half_angle;
+    return 2 * (std::sin(x) - x * std::cos(x)) / (pi * n * n);
+}
+
+}  // namespace
+
+ElasticRing::ElasticRing(const ToothProfile& tooth, int teeth, const Material& material,
+                         double body_radius_m)
+    : half_angle_(tooth.root_half_angle()),
+      base_radius_(tooth.base_radius() / tooth.root_radius()),
+      outwards_(tooth.internal() ? -1 : 1),
+      stretch_(material.youngs_modulus_Pa * material.face_width_m) {
+    const Annulus body(body_radius_m / tooth.root_radius(), material.poisson_ratio);
+    limit_even_ = body.limit_even();
+    limit_odd_ = body.limit_odd();
+    const HarmonicCompliance mean = body.harmonic(0);
+    moved_by_shear_ = mean.tt * half_angle_ / pi;
+    pressed_by_normal_ = mean.rr * half_angle_ / pi;
+    for (auto& work : work_) {
+        work[shear][shear] = mean.tt * 2 * half_angle_ * half_angle_ / pi;
+        work[normal][normal] = mean.rr * 2 * half_angle_ * half_angle_ / pi;
+    }
+    for (int n = 1; n <= kHarmonics; ++n) {
+        const HarmonicCompliance c = body.harmonic(n);
+        add_self_harmonic(n, c);
+        add_coupling_harmonic(n, c, teeth);
+    }
+    add_self_limits();
+}
+
+// The slopes' series converge like those of cos(n x) / n and sin(n x) / n; these parts are summed
+// in closed form by add_self_limits().
+void ElasticRing::add_self_harmonic(int n, const HarmonicCompliance& c) {
+    const double constant = constant_coefficient(n, half_angle_);
+    const double linear = linear_coefficient(n, half_angle_);
+    moved_by_shear_ += c.tt * constant;
+    moved_by_linear_ += c.rt * linear;
+    turned_by_shear_ += (n * c.rt - limit_odd_) * constant;
+    turned_by_linear_ += (n * c.rr - limit_even_) * linear +
+                         limit_even_ * 2 * std::sin(n * half_angle_) / (pi * n * n);
+    pressed_by_normal_ += c.rr * constant;
+}
+
+void ElasticRing::add_self_limits() {
+    turned_by_shear_ += limit_odd_ * (1 - half_angle_ / pi);
+    turned_by_linear_ +=
+        limit_even_ * 2 * half_angle_ / pi * std::log(2 * std::sin(half_angle_ / 2));
+}
+
+void ElasticRing::add_coupling_harmonic(int n, const HarmonicCompliance& c, int teeth) {
+    const double constant = constant_coefficient(n, half_angle_);
+    const double linear = linear_coefficient(n, half_angle_);
+    const double cc = pi * constant * constant, cl = pi * constant * linear,
+                 ll = pi * linear * linear;
+    for (int apart = 1; apart <= kFarthest; ++apart) {
+        const double angle = 2 * pi * apart * n / teeth;
+        const double cosine = std::cos(angle), sine = outwards_ * std::sin(angle);
+        auto& work = work_[apart - 1];
+        work[shear][shear] += c.tt * cc * cosine;
+        work[shear][linear_normal] += c.rt * cl * cosine;
+        work[shear][normal] -= c.rt * cc * sine;
+        work[linear_normal][shear] += c.rt * cl * cosine;
+        work[linear_normal][linear_normal] += c.rr * ll * cosine;
+        work[linear_normal][normal] -= c.rr * cl * sine;
+        work[normal][shear] += c.rt * cc * sine;
+        work[normal][linear_normal] += c.rr * cl * sine;
+        work[normal][normal] += c.rr * cc * cosine;
+    }
+}
+
+// Balance of moments about the gear's centre (force times base radius), of forces along the root
+// and of forces into the body.
+ElasticRing::Stresses ElasticRing::stresses(double contact_angle) const {
+    const double a = half_angle_, sine = std::sin(a);
+    return {base_radius_ / (2 * a),
+            (base_radius_ * sine / a - std::cos(contact_angle)) / (2 * (sine - a * std::cos(a))),
+            std::sin(contact_angle) / (2 * sine)};
+}
+
+FoundationCompliance ElasticRing::self(double contact_angle) const {
+    // cos a1 u / R: the lever, turned into the force's direction.
+    const double lever = base_radius_ - std::cos(contact_angle), radial = std::sin(contact_angle);
+    const Stresses at = stresses(contact_angle);
+    // The linear stress has a part that the lever demands and one, small, from the root's
+    // curvature.
+    const double by_lever = 1 / (2 * (std::sin(half_angle_) - half_angle_ * std::cos(half_angle_)));
+    const double by_curvature = at[linear_normal] - by_lever * lever;
+    const double moved = moved_by_shear_ * at[shear] + moved_by_linear_ * by_curvature;
+    const double turned = turned_by_shear_ * at[shear] + turned_by_linear_ * by_curvature;
+    return {turned_by_linear_ * by_lever * lever * lever / stretch_,
+            (base_radius_ * moved_by_linear_ * by_lever + turned) * lever / stretch_,
+            (base_radius_ * moved + radial * pressed_by_normal_ * at[normal]) / stretch_};
+}
+
+double ElasticRing::coupling(double angle_i, double angle_j, int teeth_apart) const {
+    if (teeth_apart == 0 || std::abs(teeth_apart) > kFarthest)
+        return 0;
+    // Backwards is the same with the two exchanged.
+    const bool forwards = teeth_apart > 0;
+    const Stresses from = stresses(forwards ? angle_i : angle_j);
+    const Stresses to = stresses(forwards ? angle_j : angle_i);
+    const auto& work = work_[std::abs(teeth_apart) - 1];
+    double sum = 0;
+    for (int row = 0; row < kStresses; ++row)
+        for (int column = 0; column < kStresses; ++column)
+            sum += to[row] * work[row][column] * from[column];
+    return sum / stretch_;
+}
+
+}  // namespace gearpod::stiffness

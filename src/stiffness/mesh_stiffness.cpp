@@ -1,0 +1,76 @@
+#include "stiffness/mesh_stiffness.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "stiffness/position_range.hpp"
+#include "stiffness/stretch.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+struct OwnedFault {
+    std::unique_ptr<const ToothFault> fault;
+    std::unique_ptr<const FaultyMesh> mesh;
+};
+
+// Positions this close to the end of a stretch count as the end.
+constexpr double kBeside = 2 * kPositionTolerance;
+
+template <class Mesh>
+double limit_at(const Mesh& mesh, std::span<const double> transitions,
+                std::span<const double> jumps, double tau, Limit limit) {
+    const double beside = limit == Limit::from_above ? kBeside : -kBeside;
+    const Stretch stretch = stretch_around(transitions, jumps, tau + beside);
+    const double at = std::clamp(tau, stretch.begin, stretch.end);
+    double stiffness = 0;
+    mesh.total({&at, 1}, 0.5 * (stretch.begin + stretch.end), {&stiffness, 1});
+    return stiffness;
+}
+
+}  // namespace
+
+std::shared_ptr<const FaultyMesh> faulty_mesh(const MeshStiffness& mesh,
+                                              std::unique_ptr<const ToothFault> fault) {
+    auto owned = std::make_shared<OwnedFault>();
+    owned->fault = std::move(fault);
+    owned->mesh = mesh.with_fault(*owned->fault);
+    return {owned, owned->mesh.get()};
+}
+
+std::vector<double> contact_transitions(double contact_ratio) {
+    const double leaving = contact_ratio - std::floor(contact_ratio);
+    if (leaving < kPositionTolerance || leaving > 1 - kPositionTolerance)
+        return {0};
+    return {0, leaving};
+}
+
+double total_at(const MeshStiffness& mesh, double tau, Limit limit) {
+    return limit_at(mesh, mesh.transitions(), {}, tau - std::floor(tau + kPositionTolerance),
+                    limit);
+}
+
+double total_at(const FaultyMesh& mesh, std::span<const double> transitions, double tau,
+                Limit limit) {
+    return limit_at(mesh, transitions, mesh.jumps(), tau, limit);
+}
+
+double mean_total(const MeshStiffness& mesh) {
+    using Rule = boost::math::quadrature::gauss<double, 30>;
+    std::vector<double> ends = mesh.transitions();
+    ends.push_back(ends.front() + 1);
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double middle = 0.5 * (ends[i] + ends[i + 1]), half = 0.5 * (ends[i + 1] - ends[i]);
+        const auto at = [&](double tau) {
+            double stiffness = 0;
+            mesh.total({&tau, 1}, middle, {&stiffness, 1});
+            return stiffness;
+        };
+        sum += half * Rule::integrate([&](double x) { return at(middle + half * x); });
+    }
+    return sum;
+}
+
+}  // namespace gearpod::stiffness

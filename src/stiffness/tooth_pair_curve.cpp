@@ -1,0 +1,89 @@
+#include "stiffness/tooth_pair_curve.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "stiffness/position_range.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr int kNodes = ToothPairCurve::kMaxTerms;
+
+// A series that needs more terms may hide an error in those it lacks: its piece is cut near its
+// softer end, where the stiffness of a tooth cracked past its centre line falls to zero within a
+// short layer.
+constexpr int kResolvedTerms = 32;
+constexpr double kCut = 0.15;
+constexpr int kMaxCuts = 6;
+
+// Mesh periods. Shorter pieces are left to their neighbour.
+constexpr double kShortestPiece = 1e-8;
+
+}  // namespace
+
+void ToothPairCurve::operator()(std::span<const double> tau, const Stretch& stretch,
+                                std::span<double> stiffness) const {
+    std::fill(stiffness.begin(), stiffness.end(), 0.0);
+    for (const Piece& piece : pieces_) {
+        if (piece.end <= stretch.begin + kPositionTolerance ||
+            piece.begin >= stretch.end - kPositionTolerance)
+            continue;
+        const auto [first, count] = positions_within(tau, piece.begin, piece.end);
+        evaluate_chebyshev({piece.coefficients.data(), static_cast<std::size_t>(piece.terms)},
+                           piece.begin, piece.end, tau.subspan(first, count),
+                           stiffness.subspan(first, count), 0.0);
+    }
+}
+
+void ToothPairCurve::operator()(std::span<const double> tau, std::span<double> stiffness) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    (*this)(tau, {-kInfinity, kInfinity}, stiffness);
+}
+
+double ToothPairCurve::operator()(double tau) const {
+    double stiffness = 0;
+    (*this)({&tau, 1}, {&stiffness, 1});
+    return stiffness;
+}
+
+ToothPairCurve ToothPairFit::operator()(const Stiffness& stiffness, std::span<const double> breaks,
+                                        double contact_ratio) const {
+    ToothPairCurve curve;
+    double begin = 0;
+    for (const double at : breaks) {
+        if (at < begin + kShortestPiece || at > contact_ratio - kShortestPiece)
+            continue;
+        add_piece(curve, stiffness, begin, at, kMaxCuts);
+        begin = at;
+    }
+    add_piece(curve, stiffness, begin, contact_ratio, kMaxCuts);
+    return curve;
+}
+
+void ToothPairFit::add_piece(ToothPairCurve& curve, const Stiffness& stiffness, double begin,
+                             double end, int cuts) const {
+    std::array<double, kNodes> tau, values;
+    const auto& points = transform_.points();  // falling
+    for (int i = 0; i < kNodes; ++i)
+        tau[kNodes - 1 - i] = 0.5 * (begin + end) + 0.5 * (end - begin) * points[i];
+    stiffness(tau, values);
+    if (std::all_of(values.begin(), values.end(), [](double k) { return k == 0; }))
+        return;
+    const bool softer_at_end = values.back() < values.front();
+    std::reverse(values.begin(), values.end());
+    ToothPairCurve::Piece piece{begin, end, 0, {}};
+    transform_.fit(values, piece.coefficients);
+    piece.terms = chebyshev_terms(piece.coefficients, tolerance_);
+    if (piece.terms > kResolvedTerms && cuts > 0) {
+        const double cut =
+            softer_at_end ? end - kCut * (end - begin) : begin + kCut * (end - begin);
+        add_piece(curve, stiffness, begin, cut, cuts - 1);
+        add_piece(curve, stiffness, cut, end, cuts - 1);
+        return;
+    }
+    curve.pieces_.push_back(piece);
+}
+
+}  // namespace gearpod::stiffness
