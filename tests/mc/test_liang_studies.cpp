@@ -17,13 +17,12 @@ std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<d
     const auto& healthy = scene.pairs().curve(scene.faulty_pair());
     std::vector<double> lowest;
     for (const double depth : depths_m) {
-        const auto cracked = scene.cracked_tooth(depth);
-        double least = healthy.mesh(0.0);
-        for (int i = 0; i <= 1000; ++i) {
-            const double tau = healthy.contact_ratio() * i / 1000.0;
-            least = std::min(least,
-                             healthy.mesh(tau) - healthy.tooth_pair(tau) +
-                                 (depth > 0 ? cracked->tooth_pair(tau) : healthy.tooth_pair(tau)));
+        const auto cracked = depth > 0 ? scene.faulty_mesh(depth) : nullptr;
+        double least = stiffness::total_at(healthy, 0.0);
+        for (int i = 0; i < 1000; ++i) {
+            const double tau = healthy.contact_ratio() * (i + 0.5) / 1000.0;
+            least = std::min(least, cracked ? total_at(*cracked, healthy.transitions(), tau)
+                                            : total_at(healthy, tau));
         }
         lowest.push_back(least);
     }
