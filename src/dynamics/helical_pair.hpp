@@ -2,9 +2,10 @@
 // translations and three rotations, and what of it remains in the transverse plane.
 //
 // Source: Park et al. (2016), section III-B and Eqs. A1, A2, after Kim (2001). The printed matrices
-// are k v v^T of the vectors below. Three of their entries that the scan shows clearly are not:
-// on the diagonal blocks' coupling y_s y_p and y_p y_r it prints cos^2(phi) sin^2(omega) for
-// cos^2(phi) cos^2(omega), and in (A2) rows of the planet's rotations carry r_r for r_p.
+// are k v v^T of the vectors below but for slips, as far as the scan can be read: y_s y_p (A1) and
+// y_p y_r (A2) carry a squared sine for cos^2(omega); in (A2) x_p z_r has cos(omega) for
+// sin(omega), and the planet's y and z couple to its own rotations by r_r for r_p. As printed,
+// rigid motion would cost energy.
 //
 // x points from the central gear's axis to the planet's, z along the axes. phi is the pressure
 // angle in the normal plane, omega the helix angle, radii are those of the pitch circles.

@@ -102,7 +102,10 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
             lanes.mesh_damping_factor[pair][l] =
                 dynamics::mesh_damping_factor(plan.layout, in, pair);
         }
-        dynamics::GearboxMatrices m = dynamics::assemble(plan.layout, in, no_mesh);
+        // A constant damping would stay with meshes of no stiffness; the steps bring it.
+        dynamics::GearboxInputs bare = in;
+        std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
+        const dynamics::GearboxMatrices m = dynamics::assemble(plan.layout, bare, no_mesh);
         for (std::size_t kind = 0; kind <= plan.grid.lengths.size(); ++kind) {
             const double a = kind < plan.grid.lengths.size()
                                  ? share * plan.grid.lengths[kind] * lanes.mesh_period[l]

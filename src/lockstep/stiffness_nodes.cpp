@@ -36,10 +36,12 @@ std::vector<double> by_stretches(const StepPositions& steps, std::span<const dou
             ++step;
         }
         const std::size_t size = step * nodes - first;
-        std::transform(steps.node.begin() + static_cast<std::ptrdiff_t>(first),
-                       steps.node.begin() + static_cast<std::ptrdiff_t>(first + size),
-                       positions.begin() + static_cast<std::ptrdiff_t>(first),
-                       [&](double p) { return std::clamp(p, stretch.begin, stretch.end); });
+#pragma omp simd
+        for (std::size_t i = first; i < first + size; ++i) {
+            const double node = steps.node[i];
+            const double begun = node < stretch.begin ? stretch.begin : node;
+            positions[i] = begun > stretch.end ? stretch.end : begun;
+        }
         total(std::span<const double>(positions).subspan(first, size), inside,
               std::span<double>(values).subspan(first, size));
     }

@@ -5,6 +5,9 @@
 
 namespace gearpod::signals {
 
+// Phases whose samples get their tones together.
+inline constexpr int kTonePhases = 4;
+
 // What the kernel reads and writes. Shapes as in TileSignals, PathGrid and FoldPlan, which must
 // agree.
 struct FoldArguments {
@@ -15,9 +18,9 @@ struct FoldArguments {
     const ToneTable* tones = nullptr;  // if any, over the whole span
     double* whole_steps = nullptr;     // scratch, [M_c/2 + 1][lane]
     double* weight = nullptr;          // scratch, [carrier index][planet][lane]
-    double* pairs = nullptr;           // scratch, [pair][lane]: y^2, or y if there are tones
-    double* totals = nullptr;          // scratch, [sum][lane]
-    double* folded = nullptr;          // [tooth * P + p][lane]
+    double* pairs = nullptr;   // scratch, [pair][lane]: y^2; with tones y, [phase][pair][lane]
+    double* totals = nullptr;  // scratch, [sum][lane]
+    double* folded = nullptr;  // [tooth * P + p][lane]
 };
 
 void fold_squares_1(const FoldArguments& a);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "signals/fold_squares.hpp"
 #include "signals/path_weights.hpp"
 #include "signals/planet_count.hpp"
@@ -10,7 +12,8 @@ namespace {
 // y^2, or y, of one mesh's pairs at phase p. The accelerations stay in registers over the carrier
 // indices.
 template <int N, int W, bool kSquared>
-GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh) {
+GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh,
+                                   double* pairs_of_phase) {
     const FoldPlan::Pairs& pairs = a.plan->pairs();
     const double* sine = a.path->sine() + p * a.path->positions();
     const double* cosine = a.path->cosine() + p * a.path->positions();
@@ -21,7 +24,7 @@ GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh) {
     for (long q = pairs.first[mesh]; q < pairs.first[mesh + 1]; ++q) {
         const long c = pairs.carrier[q];
         const double* __restrict weight = a.weight + c * N * W;
-        double* __restrict pair = a.pairs + q * W;
+        double* __restrict pair = pairs_of_phase + q * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const double y = resultant<N, W>(accel, weight, sine[c], cosine[c], l);
@@ -76,74 +79,117 @@ GEARPOD_INLINE void hand_out(const FoldArguments& a, long p) {
     }
 }
 
-// Every mesh of the span at phase p with its tones, squared and added to its tooth's bin.
-template <int W>
-GEARPOD_INLINE void fold_with_tones(const FoldArguments& a, long p) {
-    const long phases = a.path->phases();
-    const int teeth = a.plan->layout().planet_teeth;
-    const int meshes = a.plan->layout().meshes();
-    const int tones = a.tones->tones();
-    const int* pair_of_mesh = a.plan->pair_of_mesh().data();
-    const double* __restrict phase_sine = a.tones->phase_sine() + p * tones * W;
-    const double* __restrict phase_cosine = a.tones->phase_cosine() + p * tones * W;
-    for (long j = 0; j < teeth; ++j) {
-        double* __restrict bin = a.folded + (j * phases + p) * W;
+// Meshes whose samples, at the phases of a block, stay in the first cache while all tones are
+// added.
+constexpr int kToneMeshes = 32;
+
+// Adds tone t to y[mesh][phase][lane] of meshes k.. at phases p.. .
+template <int B, int W>
+GEARPOD_INLINE void add_tone(const ToneTable& tones, long meshes, long t, long k, int count, long p,
+                             double* __restrict y) {
+    alignas(64) double sine[B * W], cosine[B * W];
+    for (long b = 0; b < B; ++b) {
         for (int l = 0; l < W; ++l) {
-            bin[l] = 0.0;
+            sine[b * W + l] = tones.phase_sine()[((p + b) * tones.tones() + t) * W + l];
+            cosine[b * W + l] = tones.phase_cosine()[((p + b) * tones.tones() + t) * W + l];
         }
     }
-    alignas(64) double y[W];
-    for (long k = 0, j = 0; k < meshes; ++k, j = j + 1 < teeth ? j + 1 : 0) {
-        const double* __restrict pair = a.pairs + long{pair_of_mesh[k]} * W;
-        for (int l = 0; l < W; ++l) {
-            y[l] = pair[l];
-        }
-        for (long t = 0; t < tones; ++t) {
-            const double* __restrict sine = a.tones->mesh_sine() + (t * meshes + k) * W;
-            const double* __restrict cosine = a.tones->mesh_cosine() + (t * meshes + k) * W;
+    const double* __restrict mesh_sine = tones.mesh_sine() + (t * meshes + k) * W;
+    const double* __restrict mesh_cosine = tones.mesh_cosine() + (t * meshes + k) * W;
+    for (int i = 0; i < count; ++i) {
+        for (int b = 0; b < B; ++b) {
+            double* __restrict sample = y + (i * B + b) * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                y[l] = plus_tone(y[l], sine[l], cosine[l], phase_sine[t * W + l],
-                                 phase_cosine[t * W + l]);
+                sample[l] = plus_tone(sample[l], mesh_sine[i * W + l], mesh_cosine[i * W + l],
+                                      sine[b * W + l], cosine[b * W + l]);
             }
-        }
-        double* __restrict bin = a.folded + (j * phases + p) * W;
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            bin[l] = std::fma(y[l], y[l], bin[l]);
         }
     }
 }
 
-template <int N, int W, bool kTones>
-GEARPOD_INLINE void fold_phases(const FoldArguments& a) {
-    whole_step_table<W>(a.path->positions(), a.exponent, a.whole_steps);
-    const long sums = static_cast<long>(a.plan->sums().first.size()) - 1;
-    const int meshes = a.plan->largest_mesh() + 1;
-    for (long p = 0; p < a.path->phases(); ++p) {
-        path_weights<N, W>(*a.path, p, a.exponent, a.whole_steps, a.weight);
-        for (int mesh = 0; mesh < meshes; ++mesh) {
-            evaluate_pairs<N, W, !kTones>(a, p, mesh);
-        }
-        if constexpr (kTones) {
-            fold_with_tones<W>(a, p);
-        } else {
-            for (long s = 0; s < sums; ++s) {
-                sum_pairs<W>(a, s);
+// Every mesh of the span at B phases from p on: the signal of its pair, its tones, the square added
+// to its tooth's bin.
+template <int B, int W>
+GEARPOD_INLINE void fold_with_tones(const FoldArguments& a, long p) {
+    const long phases = a.path->phases();
+    const long pairs = static_cast<long>(a.plan->pairs().carrier.size());
+    const long teeth = a.plan->layout().planet_teeth;
+    const long meshes = a.plan->layout().meshes();
+    const int* pair_of_mesh = a.plan->pair_of_mesh().data();
+    for (long j = 0; j < teeth; ++j) {
+        std::fill_n(a.folded + (j * phases + p) * W, B * W, 0.0);
+    }
+    alignas(64) double y[kToneMeshes * B * W];
+    for (long k = 0; k < meshes; k += kToneMeshes) {
+        const int count = static_cast<int>(std::min<long>(kToneMeshes, meshes - k));
+        for (int i = 0; i < count; ++i) {
+            for (long b = 0; b < B; ++b) {
+                const double* pair = a.pairs + (b * pairs + pair_of_mesh[k + i]) * W;
+                std::copy_n(pair, W, y + (i * B + b) * W);
             }
-            hand_out<W>(a, p);
         }
+        for (long t = 0; t < a.tones->tones(); ++t) {
+            add_tone<B, W>(*a.tones, meshes, t, k, count, p, y);
+        }
+        for (int i = 0; i < count; ++i) {
+            double* __restrict bin = a.folded + ((k + i) % teeth * phases + p) * W;
+            const double* __restrict sample = y + i * B * W;
+#pragma omp simd
+            for (int l = 0; l < B * W; ++l) {
+                bin[l] = std::fma(sample[l], sample[l], bin[l]);
+            }
+        }
+    }
+}
+
+// All pairs at B phases from p on.
+template <int N, int B, int W, bool kSquared>
+GEARPOD_INLINE void evaluate_phases(const FoldArguments& a, long p) {
+    const long pairs = static_cast<long>(a.plan->pairs().carrier.size());
+    for (long b = 0; b < B; ++b) {
+        path_weights<N, W>(*a.path, p + b, a.exponent, a.whole_steps, a.weight);
+        for (int mesh = 0; mesh <= a.plan->largest_mesh(); ++mesh) {
+            evaluate_pairs<N, W, kSquared>(a, p + b, mesh, a.pairs + b * pairs * W);
+        }
+    }
+}
+
+template <int N, int W>
+GEARPOD_INLINE void fold_phases(const FoldArguments& a) {
+    const long sums = static_cast<long>(a.plan->sums().first.size()) - 1;
+    for (long p = 0; p < a.path->phases(); ++p) {
+        evaluate_phases<N, 1, W, true>(a, p);
+        for (long s = 0; s < sums; ++s) {
+            sum_pairs<W>(a, s);
+        }
+        hand_out<W>(a, p);
+    }
+}
+
+template <int N, int W>
+GEARPOD_INLINE void fold_phases_with_tones(const FoldArguments& a) {
+    constexpr int B = kTonePhases;
+    long p = 0;
+    for (; p + B <= a.path->phases(); p += B) {
+        evaluate_phases<N, B, W, false>(a, p);
+        fold_with_tones<B, W>(a, p);
+    }
+    for (; p < a.path->phases(); ++p) {
+        evaluate_phases<N, 1, W, false>(a, p);
+        fold_with_tones<1, W>(a, p);
     }
 }
 
 template <int W>
 GEARPOD_INLINE void fold_all(const FoldArguments& a) {
+    whole_step_table<W>(a.path->positions(), a.exponent, a.whole_steps);
     with_planets(
         a.path->planets(), [&]<int N>() __attribute__((always_inline)) {
-            if (a.tones != nullptr) {
-                fold_phases<N, W, true>(a);
+            if (a.tones == nullptr) {
+                fold_phases<N, W>(a);
             } else {
-                fold_phases<N, W, false>(a);
+                fold_phases_with_tones<N, W>(a);
             }
         });
 }

@@ -42,7 +42,8 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     const machine::AlignedVector exponent(path_exponent.begin(), path_exponent.end());
     machine::AlignedVector whole_steps((positions / 2 + 1) * lanes);
     machine::AlignedVector weight(positions * tile.planets * lanes);
-    machine::AlignedVector pairs(plan.pairs().carrier.size() * lanes);
+    machine::AlignedVector pairs(plan.pairs().carrier.size() * lanes *
+                                 (tones.empty() ? 1 : kTonePhases));
     machine::AlignedVector totals(plan.sums().first.size() * lanes);
     folded.resize(static_cast<std::size_t>(plan.layout().planet_teeth) * tile.phases * lanes);
 

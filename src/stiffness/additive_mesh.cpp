@@ -33,6 +33,20 @@ Ages touching(double inside, double contact_ratio) {
             static_cast<int>(std::ceil(contact_ratio - inside))};
 }
 
+void shift(std::span<const double> tau, int age, std::span<double> position) {
+    const std::size_t count = tau.size();
+#pragma omp simd
+    for (std::size_t i = 0; i < count; ++i)
+        position[i] = tau[i] + age;
+}
+
+void add(std::span<const double> more, std::span<double> sum) {
+    const std::size_t count = sum.size();
+#pragma omp simd
+    for (std::size_t i = 0; i < count; ++i)
+        sum[i] += more[i];
+}
+
 }  // namespace
 
 class FaultyAdditiveMesh : public FaultyMesh {
@@ -58,15 +72,12 @@ class FaultyAdditiveMesh : public FaultyMesh {
         std::fill(stiffness.begin(), stiffness.end(), 0.0);
         const Ages ages = touching(inside, healthy_.contact_ratio());
         for (int age = ages.first; age < ages.last; ++age) {
-            if (age > 0 || age <= -teeth_) {
-                healthy_.add_pair(tau, age, stiffness);
-                continue;
-            }
-            std::transform(tau.begin(), tau.end(), position.begin(),
-                           [&](double t) { return t + age; });
-            curve_(position, {stretch.begin + age, stretch.end + age}, one);
-            std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(),
-                           std::plus<>());
+            shift(tau, age, position);
+            if (age > 0 || age <= -teeth_)
+                healthy_.pair_(position, one);
+            else
+                curve_(position, {stretch.begin + age, stretch.end + age}, one);
+            add(one, stiffness);
         }
         for (double& k : stiffness)
             k *= factor_;
@@ -104,21 +115,16 @@ void AdditiveMesh::tooth_pair(std::span<const double> tau, std::span<double> sti
     pair_(tau.subspan(first, count), stiffness.subspan(first, count));
 }
 
-void AdditiveMesh::add_pair(std::span<const double> tau, int age,
-                            std::span<double> stiffness) const {
-    std::vector<double> position(tau.size()), one(tau.size());
-    std::transform(tau.begin(), tau.end(), position.begin(),
-                   [&](double t) { return std::clamp(t + age, 0.0, contact_ratio_); });
-    pair_(position, one);
-    std::transform(one.begin(), one.end(), stiffness.begin(), stiffness.begin(), std::plus<>());
-}
-
 void AdditiveMesh::total(std::span<const double> tau, double inside,
                          std::span<double> stiffness) const {
+    std::vector<double> position(tau.size()), one(tau.size());
     std::fill(stiffness.begin(), stiffness.end(), 0.0);
     const Ages ages = touching(inside, contact_ratio_);
-    for (int age = ages.first; age < ages.last; ++age)
-        add_pair(tau, age, stiffness);
+    for (int age = ages.first; age < ages.last; ++age) {
+        shift(tau, age, position);
+        pair_(position, one);
+        add(one, stiffness);
+    }
 }
 
 void AdditiveMesh::share(std::span<const double> tau, double inside,
@@ -126,7 +132,7 @@ void AdditiveMesh::share(std::span<const double> tau, double inside,
     std::fill(share.begin(), share.end(), 0.0);
     if (inside < 0 || inside > contact_ratio_)
         return;
-    add_pair(tau, 0, share);
+    pair_(tau, share);
     std::vector<double> all(tau.size());
     total(tau, inside, all);
     std::transform(share.begin(), share.end(), all.begin(), share.begin(), std::divides<>());

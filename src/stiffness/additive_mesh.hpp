@@ -39,8 +39,6 @@ class AdditiveMesh : public MeshStiffness {
 
   private:
     friend class FaultyAdditiveMesh;
-    // Adds the healthy tooth pair that stands `age` mesh periods further.
-    void add_pair(std::span<const double> tau, int age, std::span<double> stiffness) const;
 
     double contact_ratio_, pitch_position_;
     double contact_;            // compliance of the full contact, m/N

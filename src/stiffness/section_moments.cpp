@@ -44,6 +44,8 @@ double compliance(const SectionMoments& m, const ToothProfile& profile, const Ma
 
 SectionSweep::SectionSweep(const ToothProfile& profile, const CrackedSections& sections)
     : profile_(&profile), sections_(&sections), u_(profile.root()) {
+    if (sections.broken())
+        return;
     add_lengthening();
     advance(profile.involute_root());
 }

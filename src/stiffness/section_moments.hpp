@@ -30,7 +30,7 @@ double axial_compliance(const SectionMoments& moments, const Material& material,
 class SectionSweep {
   public:
     // Gathers what lies between the beam's start and the involute, for contacts that see the crack.
-    // Both arguments must outlive the sweep.
+    // Nothing of a tooth that is broken. Both arguments must outlive the sweep.
     SectionSweep(const ToothProfile& profile, const CrackedSections& sections);
 
     // Goes on along the involute to u (towards the tip) as the crack has it.

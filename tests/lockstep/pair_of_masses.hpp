@@ -20,7 +20,8 @@ struct PairOfMasses {
     dynamics::PlanetaryInputs in;
     lockstep::TileState state;
 
-    PairOfMasses(dynamics::MeshLaw law, int steps, double period_s, double damping_N_s_m = 0.0) {
+    PairOfMasses(dynamics::MeshLaw law, int steps, double period_s, double damping_N_s_m = 0.0,
+                 lockstep::Integrator integrator = lockstep::Integrator::rk4) {
         dynamics::PlanetaryLayout layout;
         layout.planets = 1;
         layout.pressure_angle_rad = 0.35;
@@ -28,9 +29,12 @@ struct PairOfMasses {
         layout.mesh_damping = dynamics::MeshDamping::constant;
         plan.layout = layout;
         plan.mesh_law = law;
+        plan.integrator = integrator;
         plan.grid = lockstep::make_phase_grid(steps, steps, {});
+        plan.grid.stage_nodes = lockstep::stage_nodes(integrator);
+        const std::size_t nodes = plan.grid.steps.size() * plan.grid.stage_nodes.size();
         plan.nodes.pairs = 2;
-        for (int i = 0; i < 3 * steps; ++i) {
+        for (std::size_t i = 0; i < nodes; ++i) {
             plan.nodes.stiffness.insert(plan.nodes.stiffness.end(), {kStiffness, 0.0});
             plan.nodes.damping_shape.insert(plan.nodes.damping_shape.end(), {1.0, 0.0});
         }

@@ -59,6 +59,16 @@ double largest_difference(const machine::AlignedVector& a, const machine::Aligne
     return largest;
 }
 
+// One lane's values.
+std::vector<double> column(const machine::AlignedVector& values, std::size_t lane,
+                           std::size_t width) {
+    std::vector<double> result;
+    for (std::size_t i = lane; i < values.size(); i += width) {
+        result.push_back(values[i]);
+    }
+    return result;
+}
+
 }  // namespace
 
 TEST_CASE("Newmark has order 2 and the L-stable method order 3, across contact transitions") {
@@ -188,14 +198,6 @@ TEST_CASE("Implicit marches give the same bits for eight lanes and one, on every
     for (int l = 0; l < 8; ++l) {
         inputs.push_back(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
     }
-    const auto column = [](const machine::AlignedVector& values, std::size_t lane,
-                           std::size_t width) {
-        std::vector<double> result;
-        for (std::size_t i = lane; i < values.size(); i += width) {
-            result.push_back(values[i]);
-        }
-        return result;
-    };
     TileSettings settings;
     settings.max_meshes = 4;
     for (const Integrator integrator : kImplicit) {
@@ -283,5 +285,30 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
         const auto separating = run(plan_of(400, integrator, 1e-7, MeshLaw::separating), 1e-4, 2);
         const auto linear = run(plan_of(400, integrator, 1e-7, MeshLaw::with_error), 1e-4, 2);
         CHECK(separating == linear);
+    }
+
+    // Lanes part and touch in different rounds, and keep their bits.
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.coupling_damping_N_m_s_rad[g] = 5.0;
+    }
+    std::vector<dynamics::GearboxInputs> lanes;
+    for (int l = 0; l < 8; ++l) {
+        in.motor_torque_N_m = 0.5 * l;
+        in.load_torque_N_m = in.motor_torque_N_m * 48.0 / 19.0;
+        in.backlash_m = 1e-6 * (1 + l);
+        lanes.push_back(in);
+    }
+    for (const Integrator integrator : kImplicit) {
+        const MarchPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
+        TileSettings settings;
+        settings.max_meshes = 1;
+        settings.march_meshes = 3;
+        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), settings);
+        for (std::size_t l = 0; l < 8; ++l) {
+            const TileResult narrow =
+                run_tile<1>(plan, std::span<const dynamics::GearboxInputs>(lanes).subspan(l, 1),
+                            gearbox.no_fault(1), settings);
+            CHECK(column(narrow.records[2].te, 0, 1) == column(wide.records[2].te, l, 8));
+        }
     }
 }

@@ -1,0 +1,39 @@
+// Park's transmission errors over the models' motions: none sees the train turn as a mechanism.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "dynamics/planetary.hpp"
+#include "gears/power_flow.hpp"
+
+using namespace gearpod;
+using namespace gearpod::dynamics;
+
+TEST_CASE("The free rotation of the model gives no transmission error in any working condition") {
+    const gears::PlanetaryTrain train{16, 26, 68, 3, {}};
+    const double module = 14e-3, angle = 0.43;
+    const double r_c = module * 42 / 2, r_r = module * 68 / 2 * std::cos(angle),
+                 r_s = module * 16 / 2 * std::cos(angle);
+    using gears::FixedMember;
+    using gears::Member;
+    for (const auto fixed : {FixedMember::sun, FixedMember::ring, FixedMember::carrier}) {
+        for (const auto input : {Member::sun, Member::ring, Member::carrier}) {
+            if (!gears::power_flow_problems({fixed, input}).empty()) {
+                continue;
+            }
+            const gears::Members w = gears::transmission_error_weights(train, {fixed, input});
+            for (const auto motion : {Motion::torsional, Motion::translational_torsional}) {
+                PlanetaryLayout layout;
+                layout.planets = 3;
+                layout.pressure_angle_rad = angle;
+                layout.fixed = fixed;
+                layout.motion = motion;
+                const Eigen::VectorXd turn = rigid_rotation(layout);
+                const double seen = w.carrier / r_c * turn(layout.rotation_index(carrier)) +
+                                    w.ring / r_r * turn(layout.rotation_index(ring)) +
+                                    w.sun / r_s * turn(layout.rotation_index(sun));
+                CHECK(turn.cwiseAbs().maxCoeff() >= 1.0);
+                CHECK(std::abs(seen) < 1e-13 / r_s);
+            }
+        }
+    }
+}
