@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
 #include "analysis/wilson.hpp"
 
@@ -35,29 +36,12 @@ void check_request(const DetectionRequest& request) {
     }
 }
 
-// A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
-// edge and leaves the upper one to the next group, unless no group begins there.
-std::size_t group_of(double size_m, const std::vector<SizeGroup>& groups) {
-    constexpr double kSameSize = 1e-9;
-    std::size_t found = kNoGroup;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        const double slack = kSameSize * std::abs(groups[g].high_m);
-        const bool level = groups[g].low_m == groups[g].high_m;
-        const double low = level ? groups[g].low_m - slack : groups[g].low_m;
-        const double high = level ? groups[g].high_m + slack : groups[g].high_m;
-        if (size_m >= low && size_m <= high) {
-            found = g;
-        }
-    }
-    return found;
-}
-
 std::vector<std::size_t> groups_of(std::span<const double> sizes_m,
                                    const std::vector<SizeGroup>& groups) {
     std::vector<std::size_t> out;
     out.reserve(sizes_m.size());
     for (const double size_m : sizes_m) {
-        out.push_back(group_of(size_m, groups));
+        out.push_back(group_of(size_m, groups).value_or(kNoGroup));
     }
     return out;
 }

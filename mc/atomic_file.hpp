@@ -18,4 +18,8 @@ void write_file(const std::string& path, std::span<const std::byte> bytes);
 // Leaves no file behind and an existing file as it was.
 std::string why_not_writable(const std::string& path);
 
+// The file that a chain of symbolic links ends at, whether it exists or not; the links themselves
+// where the chain has no end.
+std::string behind_links(std::string path);
+
 }  // namespace gearpod::mc

@@ -22,4 +22,7 @@ Presence crack(const Study&);          // required for a crack
 Presence planet_side(const Study&);    // required for a crack in a planet
 Presence planet_number(const Study&);  // only for a crack in a planet
 
+Presence until_part(const Study&);   // only with until.half_width, and then required
+Presence until_level(const Study&);  // only with until.half_width
+
 }  // namespace gearpod::mc

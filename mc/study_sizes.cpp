@@ -1,5 +1,7 @@
 #include "mc/study_sizes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gearpod::mc {
@@ -45,6 +47,16 @@ std::vector<analysis::SizeGroup> size_groups(const Study& study) {
         groups.push_back({depth, depth});
     }
     return groups;
+}
+
+double size_in_si(double in_file) {
+    return in_file * 1e-3;
+}
+
+std::string size_text(const analysis::SizeGroup& group) {
+    return group.low_m == group.high_m
+               ? fmt::format("{:g} mm", group.low_m * 1e3)
+               : fmt::format("{:g} to {:g} mm", group.low_m * 1e3, group.high_m * 1e3);
 }
 
 analysis::DetectionRequest detection_request(const Study& study) {
