@@ -93,6 +93,32 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
     sync_folder(target);
 }
 
+PendingFile::PendingFile(const std::string& path)
+    : path_(path), target_(behind_links(path)), name_(target_ + ".new") {
+    const std::string kind = why_not_replaceable(path);
+    if (!kind.empty()) {
+        throw std::runtime_error(path + ": cannot be written (" + kind + ")");
+    }
+}
+
+PendingFile::~PendingFile() {
+    if (!name_.empty()) {
+        ::unlink(name_.c_str());
+    }
+}
+
+void PendingFile::commit(int fd) {
+    if (::fsync(fd) != 0 || std::rename(name_.c_str(), target_.c_str()) != 0) {
+        fail(errno);
+    }
+    name_.clear();
+    sync_folder(target_);
+}
+
+void PendingFile::fail(int error) const {
+    throw std::runtime_error(path_ + ": cannot be written (" + std::strerror(error) + ")");
+}
+
 std::string why_not_writable(const std::string& name) {
     const std::string kind = why_not_replaceable(name);
     if (!kind.empty()) {

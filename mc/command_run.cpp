@@ -90,11 +90,9 @@ class Run {
         return rows;
     }
 
-    // The results of the first tiles, with all that the file says about them.
-    Results results(std::size_t tiles, const std::string& state) {
+    // What the file says about its rows.
+    Results frame(const RowSource& rows, const std::string& state) const {
         Results results = results_frame(study_);
-        const StoredRows rows(*checkpoint_, plan_, tiles);
-        fill_columns(results, rows);
         results.detection = detect_all(results, rows);
         results.provenance = provenance(study_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
@@ -113,7 +111,8 @@ class Run {
         while (complete_ < plan_.tiles() && checkpoint_->has(complete_)) {
             ++complete_;
         }
-        write_results(results_path(options_), results(complete_, "running"));
+        const StoredRows rows(*checkpoint_, plan_, complete_);
+        write_results(results_path(options_), frame(rows, "running"), rows);
         last_snapshot_ = Clock::now();
         snapshot_s_ = seconds_since(start);
     }
@@ -126,15 +125,15 @@ class Run {
         }
         const std::string path = results_path(options_);
         std::string trouble = outcome.failure;
+        const StoredRows rows(*checkpoint_, plan_, outcome.tiles);
         Results all;
-        RowCounts counts;
         if (trouble.empty()) {
             try {
-                all = results(outcome.tiles, state_of(outcome));
+                all = frame(rows, state_of(outcome));
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
-                write_results(path, all);
+                write_results(path, all, rows);
             } catch (const std::exception& error) {
                 trouble = error.what();
             }
@@ -145,12 +144,8 @@ class Run {
         if (!whole || !trouble.empty()) {
             return stop_short(outcome, trouble.empty());
         }
+        const RowCounts counts = count_rows(rows);
         checkpoint_->remove();
-        for (const int status : all.status) {
-            ++counts.all;
-            counts.diverged += status == static_cast<int>(Status::diverged) ? 1 : 0;
-            counts.not_settled += status == static_cast<int>(Status::not_settled) ? 1 : 0;
-        }
         if (!options_.quiet) {
             fmt::print("{}\n", analysis::detection_text(all.detection, all.request));
             print_failures(counts, scene_.max_meshes());

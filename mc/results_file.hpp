@@ -66,13 +66,22 @@ struct Results {
     std::string provenance_value(const std::string& name) const;
 };
 
-// Writes to a temporary in the same folder, flushes, fsyncs and renames: the file at `path` is
-// either the old or the complete new one. Throws std::runtime_error naming the path and the reason
-// (not writable, disk full), std::invalid_argument if the shapes in `results` disagree.
+class RowSource;  // row_source.hpp
+
+// Writes to F.h5.new in the same folder, flushes, fsyncs and renames: the file at `path` is either
+// the old or the complete new one. Takes the rows from `rows` and everything else from `frame`,
+// whose columns are not looked at; memory does not grow with the rows. Throws std::runtime_error
+// naming the path and the reason (not writable, disk full).
+void write_results(const std::string& path, const Results& frame, const RowSource& rows);
+
+// The same with the columns in `results`. Throws std::invalid_argument if their shapes disagree.
 void write_results(const std::string& path, const Results& results);
 
 // Throws std::runtime_error naming the path and the reason: missing, not HDF5, not a gearpod
 // results file, damaged or truncated, written by a newer version.
 Results read_results(const std::string& path);
+
+// The same without the columns, whose rows FileRows (results_rows.hpp) reads.
+Results read_frame(const std::string& path);
 
 }  // namespace gearpod::mc

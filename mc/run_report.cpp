@@ -36,6 +36,18 @@ Spread spread_of(const std::vector<CrewTimes>& crews, const TimeRow& row) {
 
 }  // namespace
 
+RowCounts count_rows(const RowSource& rows) {
+    RowCounts counts;
+    rows.visit([&](const RowBlock& block) {
+        counts.all += block.count();
+        for (const int status : block.status) {
+            counts.diverged += status == static_cast<int>(Status::diverged) ? 1 : 0;
+            counts.not_settled += status == static_cast<int>(Status::not_settled) ? 1 : 0;
+        }
+    });
+    return counts;
+}
+
 void print_failures(const RowCounts& rows, int max_meshes) {
     fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n", rows.failed(),
                rows.all, rows.diverged, rows.not_settled);

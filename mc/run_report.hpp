@@ -2,15 +2,18 @@
 #pragma once
 
 #include "mc/ensemble.hpp"
+#include "mc/row_source.hpp"
 
 namespace gearpod::mc {
 
-// Rows that have a value.
+// All rows, and those without a value.
 struct RowCounts {
     std::size_t all = 0, diverged = 0, not_settled = 0;
 
     std::size_t failed() const { return diverged + not_settled; }
 };
+
+RowCounts count_rows(const RowSource& rows);
 
 void print_failures(const RowCounts& rows, int max_meshes);
 

@@ -7,7 +7,7 @@
 #include "mc/atomic_file.hpp"
 #include "mc/provenance.hpp"
 #include "mc/results_file.hpp"
-#include "mc/row_source.hpp"
+#include "mc/results_rows.hpp"
 #include "mc/tile_worker.hpp"
 
 namespace gearpod::mc {
@@ -53,20 +53,21 @@ class TileFiller {
 
 std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
                                  const RunIdentity& identity, const TilePlan& plan) {
-    const Results old = read_results(results_path);
+    const Results old = read_frame(results_path);
+    const FileRows rows(results_path, old);
     const std::string why = difference(identity_of(old, results_path), identity);
     if (!why.empty()) {
         throw std::runtime_error(results_path + ": cannot be continued: it " + why);
     }
-    if (old.status.size() > plan.rows()) {
+    if (rows.rows() > plan.rows()) {
         throw std::runtime_error(
             fmt::format("{}: cannot be continued: it has {} gearboxes, more than the {} asked for; "
                         "raise --instances",
-                        results_path, old.status.size(), plan.rows()));
+                        results_path, rows.rows(), plan.rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
     TileFiller filler(*checkpoint, plan, identity.shape);
-    ColumnRows(old).visit([&](const RowBlock& block) { filler.add(block); });
+    rows.visit([&](const RowBlock& block) { filler.add(block); });
     checkpoint->sync();
     return checkpoint;
 }
