@@ -13,6 +13,7 @@
 #include "mc/run_agreement.hpp"
 #include "mc/run_report.hpp"
 #include "mc/run_store.hpp"
+#include "mc/simulation.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -48,6 +49,33 @@ bool check_watch(const RunOptions& options, const Study& study) {
     }
     fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
     return false;
+}
+
+bool check_signals(const RunOptions& options, const Study& study) {
+    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
+                                      [&](long row) { return row < 0 || row >= rows; });
+    if (outside == options.signals.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
+    return false;
+}
+
+// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
+std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
+    std::vector<RowSignals> all;
+    for (const long row : options.signals) {
+        try {
+            all.push_back(
+                {static_cast<std::size_t>(row),
+                 simulate(scene, id_of_row(scene.study(), row), scene.train().planet_teeth)
+                     .columns});
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "--signals {}: {}\n", row, error.what());
+        }
+    }
+    return all;
 }
 
 // Rank 0's run: everything that is not computing tiles.
@@ -130,6 +158,7 @@ class Run {
         if (trouble.empty()) {
             try {
                 all = frame(rows, state_of(outcome));
+                all.signals = chosen_signals(options_, scene_);
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
@@ -225,7 +254,8 @@ int run_command(const RunOptions& options) {
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = can_write(results_path(options));
-        if (scene && writable && good_limit && check_watch(options, scene->study())) {
+        if (scene && writable && good_limit && check_watch(options, scene->study()) &&
+            check_signals(options, scene->study())) {
             const Ensemble& ensemble = scene->study().ensemble;
             try {
                 checkpoint = open_checkpoint(

@@ -13,32 +13,14 @@
 #include "mc/hdf5_data.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/provenance.hpp"
+#include "mc/simulation.hpp"
 #include "signals/sensor.hpp"
 #include "signals/sensor_noise.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// One instance's signals, one value a sample.
-struct Column {
-    std::string name;
-    std::string unit;
-    std::vector<double> values;
-};
-
-struct Simulation {
-    std::vector<Column> columns;
-    std::vector<double> noise_levels;
-    std::vector<std::string> feature_names;
-    std::vector<double> features;  // [feature * levels + level], as in a results file
-};
-
-GearboxId id_of_row(const Study& study, long row) {
-    const long thresholds = study.ensemble.threshold_instances;
-    return row < thresholds
-               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
-               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
-}
+using Column = SignalColumn;
 
 std::vector<std::string> motion_names(const dynamics::PlanetaryLayout& layout) {
     std::vector<std::string> bodies{"carrier", "ring", "sun"};
@@ -105,6 +87,15 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
     }
 }
 
+}  // namespace
+
+GearboxId id_of_row(const Study& study, long row) {
+    const long thresholds = study.ensemble.threshold_instances;
+    return row < thresholds
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
+}
+
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
     const Sampler sampler(scene.study());
@@ -135,6 +126,8 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     add_motion(scene, tile, meshes, out);
     return out;
 }
+
+namespace {
 
 std::string csv_text(const Simulation& simulation) {
     std::string text;

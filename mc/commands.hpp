@@ -25,6 +25,7 @@ struct RunOptions {
     bool resume = false;
     std::string time_limit;  // "hh:mm:ss", "": none
     std::string watch;       // feature whose Pd the progress shows, "": the study's first
+    std::vector<long> signals;  // rows whose signals the results hold as well
     bool quiet = false;
 };
 int run_command(const RunOptions& options);

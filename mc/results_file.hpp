@@ -12,6 +12,7 @@
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /timing/<name>         seconds
+//   /signals/<row>/<name>  one value a sample, attribute `unit`: of the gearboxes asked for
 //
 // A checksum follows the HDF5 part (results_seal.hpp); other programs do not see it.
 #pragma once
@@ -48,6 +49,19 @@ struct Timing {
     double seconds = 0.0;
 };
 
+// One value a sample.
+struct SignalColumn {
+    std::string name;
+    std::string unit;
+    std::vector<double> values;
+};
+
+// The signals of one gearbox.
+struct RowSignals {
+    std::size_t row = 0;
+    std::vector<SignalColumn> columns;
+};
+
 // A row is a gearbox: the threshold group in order of instance, then the graded group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
@@ -61,6 +75,7 @@ struct Results {
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
     std::vector<Timing> timing;
+    std::vector<RowSignals> signals;  // of chosen gearboxes; not read back
 
     // The value of a provenance entry, "" if absent.
     std::string provenance_value(const std::string& name) const;

@@ -152,6 +152,20 @@ void write_detection(hid_t root, const Results& results) {
     }
 }
 
+void write_all_signals(hid_t root, const Results& frame) {
+    if (frame.signals.empty()) {
+        return;
+    }
+    const Hdf5Handle group = create_group(root, "signals");
+    for (const RowSignals& signals : frame.signals) {
+        const Hdf5Handle row = create_group(group.get(), std::to_string(signals.row));
+        for (const SignalColumn& column : signals.columns) {
+            write_numbers(row.get(), column.name, {column.values.size()}, column.values);
+            write_text(row.get(), column.name, "unit", column.unit);
+        }
+    }
+}
+
 // Everything but the rows, which have their places reserved.
 Places write_frame(const std::string& path, const Results& frame, std::size_t rows) {
     Hdf5Handle file = create_file(path);
@@ -166,6 +180,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         create_instances(root.get(), frame, rows, places);
         create_features(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
+        write_all_signals(root.get(), frame);
         const Hdf5Handle timing = create_group(root.get(), "timing");
         for (const Timing& entry : frame.timing) {
             write_numbers(timing.get(), entry.name, {}, {entry.seconds});

@@ -17,7 +17,8 @@ constexpr TimeRow kTimeRows[] = {{"sampling", [](const CrewTimes& t) { return t.
                                  {"signals", [](const CrewTimes& t) { return t.work.signals; }},
                                  {"noise", [](const CrewTimes& t) { return t.work.noise; }},
                                  {"features", [](const CrewTimes& t) { return t.work.features; }},
-                                 {"waiting", [](const CrewTimes& t) { return t.waiting; }}};
+                                 {"waiting", [](const CrewTimes& t) { return t.waiting; }},
+                                 {"output", [](const CrewTimes& t) { return t.output; }}};
 
 struct Spread {
     double least = 0.0, sum = 0.0, most = 0.0;
@@ -81,7 +82,7 @@ void print_times(const EnsembleOutcome& outcome) {
     for (const TimeRow& row : kTimeRows) {
         print_row(row.name, spread_of(outcome.crews, row));
     }
-    fmt::print("beside them rank 0's main thread wrote checkpoints: {:.2f} s\n", outcome.output_s);
+    fmt::print("  (output: checkpoints, written by rank 0's main thread beside the others)\n");
 }
 
 }  // namespace gearpod::mc

@@ -1,5 +1,6 @@
 #include "mc/tile_crew.hpp"
 
+#include <algorithm>
 #include <exception>
 
 namespace gearpod::mc {
@@ -69,11 +70,9 @@ CrewTimes TileCrew::close() {
     return times_;
 }
 
-std::optional<std::size_t> TileCrew::next_tile(double& waited) {
-    const auto start = Clock::now();
+std::optional<std::size_t> TileCrew::next_tile() {
     std::unique_lock lock(mutex_);
     given_news_.wait(lock, [&] { return closed_ || !given_.empty(); });
-    waited += seconds_since(start);
     if (given_.empty()) {
         return std::nullopt;
     }
@@ -92,10 +91,10 @@ void TileCrew::hand_in(FinishedTile finished) {
 
 // A thread's life. Nothing may leave it by an exception.
 void TileCrew::work(const TileTask& task, const TilePlan& plan) {
+    const auto birth = Clock::now();
     std::optional<TileWorker> worker;
     Seconds seconds;
-    double waited = 0.0;
-    while (const auto tile = next_tile(waited)) {
+    while (const auto tile = next_tile()) {
         FinishedTile finished;
         finished.tile = *tile;
         const auto start = Clock::now();
@@ -112,7 +111,7 @@ void TileCrew::work(const TileTask& task, const TilePlan& plan) {
     }
     const std::lock_guard lock(mutex_);
     times_.work += seconds;
-    times_.waiting += waited;
+    times_.waiting += std::max(0.0, seconds_since(birth) - seconds.sum());
 }
 
 }  // namespace gearpod::mc

@@ -24,7 +24,8 @@ struct FinishedTile {
 // What the threads of one process did with their time, summed over them.
 struct CrewTimes {
     Seconds work;
-    double waiting = 0.0;
+    double waiting = 0.0;  // all that is not work: for tiles, for the processor
+    double output = 0.0;   // the main thread's, which writes finished tiles in rank 0
     int threads = 0;
 };
 
@@ -47,7 +48,7 @@ class TileCrew {
 
   private:
     void work(const TileTask& task, const TilePlan& plan);
-    std::optional<std::size_t> next_tile(double& waited);
+    std::optional<std::size_t> next_tile();
     void hand_in(FinishedTile finished);
 
     std::mutex mutex_;

@@ -49,6 +49,7 @@ class Leader {
             checkpoint();
         }
         close();
+        outcome_.crews[0].output = outcome_.output_s;
         outcome_.wall_s = seconds_since(start);
         outcome_.tiles =
             run_.watch != nullptr && run_.watch->enough() ? run_.watch->tiles() : first_missing();

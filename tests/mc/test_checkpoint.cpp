@@ -234,7 +234,7 @@ TEST_CASE("A full disk is an error of the write, and the tiles before it stay") 
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit limit{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
-    const rlimit small{4096 + 3000, limit.rlim_max};
+    const rlimit small{4096 + 2000, limit.rlim_max};
     REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
     std::string reason;
     std::size_t tile = 0;
