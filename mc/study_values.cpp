@@ -162,6 +162,12 @@ class ValueReader {
                    key_.range.hint());
             return false;
         }
+        const double si = value.number * key_.unit.to_si;
+        if (!std::isfinite(si) || (value.number != 0.0 && !std::isnormal(si))) {
+            reject(fmt::format("{} is beyond the numbers that can be computed with", value.number),
+                   key_.range.hint());
+            return false;
+        }
         return true;
     }
 
