@@ -200,7 +200,7 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
         // The rate in the file is the one that was asked for.
         const auto& cell = results.detection[5].levels[2].cells.back();
         CHECK(results.detection[5].feature == "window_ratio");
-        CHECK(cell.size.high_m == Approx(4.28e-3));
+        CHECK(cell.size.high == Approx(4.28e-3));
         CHECK((cell.upper - cell.lower) / 2 <= 0.25);
     }
     for (const auto& [wrong, words] :
