@@ -11,7 +11,7 @@ namespace gearpod::mc {
 
 class SceneFault {
   public:
-    // The meshes must outlive the fault.
+    // The meshes must outlive the fault. Throws SceneError.
     SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                const lockstep::PairSet& pairs);
 
