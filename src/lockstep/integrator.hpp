@@ -20,7 +20,7 @@ struct Alexander {
     static constexpr double k32 = (6.0 * kDiagonal * kDiagonal - 20.0 * kDiagonal + 5.0) / 4.0;
 };
 
-// Positions within a step, ascending from 0 (right limit) to 1 (left limit).
+// Positions within a step, ascending; the last is 1 (left limit), and 0 means the right limit.
 std::vector<double> stage_nodes(Integrator integrator);
 
 }  // namespace gearpod::lockstep

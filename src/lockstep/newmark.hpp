@@ -15,7 +15,7 @@ struct Newmark {
         static constexpr int kSize = (Model::kMaxDegrees + 3) / 4 * 4 * W;
         double x[kSize], v[kSize], a_start[kSize], a_end[kSize];
         double input[2][2 * Model::kMaxSources * W];  // of the sensor, at the step's ends
-        StageScratch<Model> meshes;
+        StageScratch<Model> meshes{};
     };
 
     template <class Model, int W = Model::kWidth>

@@ -17,7 +17,7 @@ struct Sdirk3 {
         double q_end[kSize];        // and with it
         double v1[kSize], v2[kSize], v3[kSize], a1[kSize], a2[kSize], a3[kSize];
         double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the stages
-        StageScratch<Model> meshes;
+        StageScratch<Model> meshes{};
     };
 
     template <class Model, int W = Model::kWidth>

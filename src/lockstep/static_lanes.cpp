@@ -7,10 +7,6 @@
 namespace gearpod::lockstep {
 namespace {
 
-double backlash_of(const dynamics::GearboxInputs& inputs) {
-    return std::visit([](const auto& kind) { return kind.backlash_m; }, inputs);
-}
-
 // Inertia is left out, so the matrices' centrifugal terms are not part of it; the pull that turns
 // with the carrier is in the force and stays.
 Eigen::MatrixXd held_stiffness(const dynamics::GearboxMatrices& m, const Eigen::VectorXd& turn,
@@ -57,7 +53,7 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
             }
         }
         lanes.force_size.push_back(m.force.cwiseAbs().maxCoeff());
-        lanes.backlash.push_back(backlash_of(inputs[l]));
+        lanes.backlash.push_back(dynamics::backlash_m(inputs[l]));
     }
     return lanes;
 }

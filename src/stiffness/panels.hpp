@@ -4,6 +4,7 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <stdexcept>
 
 namespace gearpod::stiffness {
 
@@ -18,6 +19,9 @@ void for_panels(double from, double to, Thickness&& thickness, Panel&& panel) {
     while (from != to) {
         double next = to;
         double there = thickness(next);
+        if (!(here > 0 && there > 0)) {
+            throw std::logic_error("a section of the beam has no thickness");
+        }
         while (there > kMaxRatio * here || here > kMaxRatio * there) {
             next = 0.5 * (from + next);
             there = thickness(next);

@@ -35,9 +35,6 @@ class SectionSweep {
 
     // Goes on along the involute to u (towards the tip) as the crack has it.
     void advance(double u);
-    // The same with the crack's or the healthy thickness all the way.
-    void advance_cracked(double u) { advance(u, true); }
-    void advance_healthy(double u) { advance(u, false); }
     const SectionMoments& moments() const { return moments_; }
 
   private:

@@ -48,6 +48,16 @@ CrackedSections::CrackedSections(const ToothProfile& profile, const Crack& crack
     const double above_root = crack.height_m - crack.depth_m * std::cos(crack.angle_rad);
     lower_end_ =
         above_root > 0 ? profile.angle_of_axial(axial_at(profile, above_root)) : profile.root();
+    // The tooth may be thinner below the start than at it: the crack has then left through the
+    // other flank before it is as deep as the start's chord, or as rounding lets it seem.
+    constexpr double kNothing = 1e-12;
+    const auto cut_through = [&](double u) {
+        return cracked_thickness(profile.half_thickness(u)) <=
+               kNothing * profile.root_half_thickness();
+    };
+    const bool passes_waist = lower_end_ >= profile.waist();
+    broken_ = broken_ || cut_through(start_) || cut_through(lower_end_) ||
+              (passes_waist && cut_through(profile.waist()));
     if (profile.lengthening_radius() > 0 && !broken_)
         lengthening_ = std::max(
             0.0, std::cos(crack.angle_rad) * std::min(crack.depth_m, max_depth - crack.depth_m) -

@@ -7,7 +7,8 @@
 // faster than slices of equal width. Where the contact lies below a slice's start it does not see
 // the crack; the sum then ends exactly where the start's height passes the contact. A crack of one
 // height that starts within the contact's range makes the stiffness jump there; as the place moves
-// with the size it is one of the fault's breaks, not of its jumps.
+// with the size it is one of the fault's breaks, not of its jumps. Sixteen slices leave 2e-5 of the
+// compliance where the contact sees the whole crack, and up to 5e-4 where its sight ends within it.
 //
 // Foundation: the part of the crack below the root section narrows the root, S' = S - q_b sin g
 // with q_b = q - l / cos g, and so makes the lever over the width longer by S / S'. What that adds
