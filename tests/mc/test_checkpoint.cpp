@@ -183,8 +183,8 @@ TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged tile is used") {
             ++found;
         }
     }
-    CHECK(refused > 30);
-    CHECK(found > 900);
+    CHECK(refused > 20);
+    CHECK(found == 5 * 600 / 3);  // every byte looked at of every tile
 }
 
 TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {
