@@ -146,10 +146,10 @@ TEST_CASE("Fig. 4.7: the chipped tooth's signal leaves the healthy one at 22.4 d
     const auto& healthy = scene.pairs().curve(0);
     const auto chipped = scene.fault().mesh(0, 8e-3);
     double first = 0.0;
-    while (stiffness::total_at(*chipped, healthy.transitions(), first) >
-           (1.0 - 1e-6) * stiffness::total_at(healthy, first)) {
+    while (first < healthy.contact_ratio() &&
+           stiffness::total_at(*chipped, healthy.transitions(), first) >
+               (1.0 - 1e-6) * stiffness::total_at(healthy, first)) {
         first += 1e-4;
-        REQUIRE(first < healthy.contact_ratio());
     }
     CHECK(degrees(first) == Approx(22.4).margin(0.1));
 
