@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
 #include "analysis/wilson.hpp"
 
@@ -35,29 +36,12 @@ void check_request(const DetectionRequest& request) {
     }
 }
 
-// A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
-// edge and leaves the upper one to the next group, unless no group begins there.
-std::size_t group_of(double size, const std::vector<SizeGroup>& groups) {
-    constexpr double kSameSize = 1e-9;
-    std::size_t found = kNoGroup;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        const double slack = kSameSize * std::abs(groups[g].high);
-        const bool level = groups[g].low == groups[g].high;
-        const double low = level ? groups[g].low - slack : groups[g].low;
-        const double high = level ? groups[g].high + slack : groups[g].high;
-        if (size >= low && size <= high) {
-            found = g;
-        }
-    }
-    return found;
-}
-
 std::vector<std::size_t> groups_of(std::span<const double> sizes,
                                    const std::vector<SizeGroup>& groups) {
     std::vector<std::size_t> out;
     out.reserve(sizes.size());
     for (const double size : sizes) {
-        out.push_back(group_of(size, groups));
+        out.push_back(group_of(size, groups).value_or(kNoGroup));
     }
     return out;
 }

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,48 +9,18 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "mc/file_descriptor.hpp"
+
 namespace gearpod::mc {
 namespace {
 
-class Descriptor {
-  public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() { close(); }
-
-    int get() const { return fd_; }
-    bool close() {
-        const int fd = fd_;
-        fd_ = -1;
-        return fd < 0 || ::close(fd) == 0;
-    }
-
-  private:
-    int fd_;
-};
-
 std::string temporary_name(const std::string& path) {
-    return path + ".part-" + std::to_string(::getpid());
+    return path + ".new-" + std::to_string(::getpid());
 }
 
 std::string folder_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
-}
-
-bool write_all(int fd, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written <= 0) {
-            return false;
-        }
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    return true;
 }
 
 // errno of the first failure, 0 if the bytes are safely on the disk under the temporary's name.
@@ -60,7 +29,7 @@ int write_temporary(const std::string& name, std::span<const std::byte> bytes) {
     if (file.get() < 0) {
         return errno;
     }
-    const bool good = write_all(file.get(), bytes) && ::fsync(file.get()) == 0 && file.close();
+    const bool good = write_at(file.get(), bytes, 0) && ::fsync(file.get()) == 0 && file.close();
     return good ? 0 : errno;
 }
 
@@ -70,21 +39,6 @@ void sync_folder(const std::string& path) {
     if (folder.get() >= 0) {
         ::fsync(folder.get());
     }
-}
-
-// The file that a chain of symbolic links ends at, whether it exists or not; the links themselves
-// where the chain has no end.
-std::string behind_links(std::string path) {
-    constexpr int kMostLinks = 40;  // as the kernel follows
-    for (int i = 0; i < kMostLinks; ++i) {
-        std::error_code error;
-        const std::string next = std::filesystem::read_symlink(path, error).string();
-        if (error) {
-            break;
-        }
-        path = next.front() == '/' ? next : folder_of(path) + "/" + next;
-    }
-    return path;
 }
 
 // Why nothing may be renamed to this name, or "". A name that is free, or a dangling link, is good.
@@ -108,6 +62,19 @@ std::string why_not_replaceable(const std::string& path) {
 
 }  // namespace
 
+std::string behind_links(std::string path) {
+    constexpr int kMostLinks = 40;  // as the kernel follows
+    for (int i = 0; i < kMostLinks; ++i) {
+        std::error_code error;
+        const std::string next = std::filesystem::read_symlink(path, error).string();
+        if (error) {
+            break;
+        }
+        path = next.front() == '/' ? next : folder_of(path) + "/" + next;
+    }
+    return path;
+}
+
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
     const std::string kind = why_not_replaceable(path);
     if (!kind.empty()) {
@@ -124,6 +91,32 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
         throw std::runtime_error(path + ": cannot be written (" + std::strerror(error) + ")");
     }
     sync_folder(target);
+}
+
+PendingFile::PendingFile(const std::string& path)
+    : path_(path), target_(behind_links(path)), name_(target_ + ".new") {
+    const std::string kind = why_not_replaceable(path);
+    if (!kind.empty()) {
+        throw std::runtime_error(path + ": cannot be written (" + kind + ")");
+    }
+}
+
+PendingFile::~PendingFile() {
+    if (!name_.empty()) {
+        ::unlink(name_.c_str());
+    }
+}
+
+void PendingFile::commit(int fd) {
+    if (::fsync(fd) != 0 || std::rename(name_.c_str(), target_.c_str()) != 0) {
+        fail(errno);
+    }
+    name_.clear();
+    sync_folder(target_);
+}
+
+void PendingFile::fail(int error) const {
+    throw std::runtime_error(path_ + ": cannot be written (" + std::strerror(error) + ")");
 }
 
 std::string why_not_writable(const std::string& name) {

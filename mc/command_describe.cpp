@@ -122,10 +122,9 @@ void print_cost(const Scene& scene) {
                     thread_count(study), machine::name(machine::active_instruction_set())));
     const double mesh_bytes = 8.0 * scene.samples_per_mesh() * study.numerics.lanes *
                               (2.0 * dynamics::sources(plan.layout) + 1.0);
+    // The rows go to the disk; what detection needs of them at a time is a feature's values.
     const double rows_bytes =
-        8.0 * static_cast<double>(rows) *
-        static_cast<double>(used_features(study).size() * study.sensor.noise_levels.size() +
-                            study.random.size() + 3);
+        8.0 * static_cast<double>(rows) * static_cast<double>(study.sensor.noise_levels.size() + 4);
     print_entry(
         "estimated memory",
         fmt::format(

@@ -1,27 +1,25 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 
 #include "analysis/detection_json.hpp"
 #include "analysis/detection_text.hpp"
 #include "mc/command_support.hpp"
-#include "mc/ensemble.hpp"
-#include "mc/results_file.hpp"
+#include "mc/results_rows.hpp"
+#include "mc/run_report.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-nlohmann::json json_of(const Results& results) {
+nlohmann::json json_of(const Results& results, const RowCounts& rows) {
     nlohmann::json json;
     json["detection"] = analysis::detection_json(results.detection, results.request);
     for (const auto& [name, value] : results.provenance) {
         json["provenance"][name] = value;
     }
-    json["gearboxes"] = results.status.size();
-    json["failed"] = std::count_if(results.status.begin(), results.status.end(),
-                                   [](int status) { return status != 0; });
+    json["gearboxes"] = rows.all;
+    json["failed"] = rows.failed();
     for (const Timing& timing : results.timing) {
         json["timing"][timing.name] = timing.seconds;
     }
@@ -32,15 +30,24 @@ nlohmann::json json_of(const Results& results) {
 
 int report_command(const ReportOptions& options) {
     Results results;
+    RowCounts counts;
     try {
-        results = read_results(options.results);
-        results.detection = detect_all(results);
+        results = read_frame(options.results);
+        const FileRows rows(options.results, results);
+        results.detection = detect_all(results, rows);
+        counts = count_rows(rows);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
         return kBadInput;
     }
     if (!options.json.empty()) {
-        return write_text_to(options.json, json_of(results).dump(2) + "\n") ? kDone : kBadInput;
+        return write_text_to(options.json, json_of(results, counts).dump(2) + "\n") ? kDone
+                                                                                    : kBadInput;
+    }
+    const std::string state = results.provenance_value("state");
+    if (state == "running" || state.starts_with("interrupted")) {
+        fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results, counts.all,
+                   results.provenance_value("gearboxes_asked_for"), state);
     }
     fmt::print("{}", analysis::detection_text(results.detection, results.request));
     return kDone;

@@ -8,9 +8,12 @@
 #include "analysis/detection_text.hpp"
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
-#include "mc/progress.hpp"
 #include "mc/provenance.hpp"
-#include "mc/results_file.hpp"
+#include "mc/row_source.hpp"
+#include "mc/run_agreement.hpp"
+#include "mc/run_report.hpp"
+#include "mc/run_store.hpp"
+#include "mc/simulation.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -21,87 +24,259 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-long count_status(const Results& results, Status status) {
-    return std::count(results.status.begin(), results.status.end(), static_cast<int>(status));
+std::string results_path(const RunOptions& options) {
+    return options.out.empty() ? std::filesystem::path(options.study.path).stem().string() + ".h5"
+                               : options.out;
 }
 
-double timing(const Results& results, const std::string& name) {
-    const auto found = std::find_if(results.timing.begin(), results.timing.end(),
-                                    [&](const Timing& t) { return t.name == name; });
-    return found == results.timing.end() ? 0.0 : found->seconds;
-}
-
-void print_times(const Results& results, const Study& study) {
-    const int threads = thread_count(study);
-    const double total = threads * timing(results, "ensemble_s");
-    fmt::print("where the time went ({} thread{}, share of the ensemble's {:.1f} s):\n", threads,
-               threads == 1 ? "" : "s", timing(results, "ensemble_s"));
-    double listed = 0.0;
-    for (const char* name : {"sampling", "stiffness", "march", "signals", "features"}) {
-        const double spent = timing(results, fmt::format("{}_thread_s", name));
-        listed += spent;
-        fmt::print("  {:<10} {:5.1f} %\n", name, 100.0 * spent / total);
+bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
+    if (options.time_limit.empty()) {
+        return true;
     }
-    fmt::print("  {:<10} {:5.1f} %\n", "waiting", 100.0 * std::max(0.0, total - listed) / total);
-    fmt::print("set-up {:.2f} s, detection and output {:.2f} s\n", timing(results, "setup_s"),
-               timing(results, "output_s"));
+    limit = parse_time_limit(options.time_limit);
+    if (!limit) {
+        fmt::print(stderr,
+                   "--time-limit {}: is not a time; write hours:minutes:seconds as 01:30:00\n",
+                   options.time_limit);
+    }
+    return limit.has_value();
 }
 
-void print_failures(const Results& results, int max_meshes) {
-    const long diverged = count_status(results, Status::diverged);
-    const long unsettled = count_status(results, Status::not_settled);
-    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n",
-               diverged + unsettled, results.status.size(), diverged, unsettled);
-    if (unsettled > 0) {
-        fmt::print(
-            "  (their orbit or the fault's disturbance was not back within {} mesh periods: "
-            "raise numerics.max_meshes, or numerics.settle_tolerance)\n",
-            max_meshes);
+bool check_watch(const RunOptions& options, const Study& study) {
+    const auto& use = study.features.use;
+    if (options.watch.empty() || std::find(use.begin(), use.end(), options.watch) != use.end()) {
+        return true;
     }
+    fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
+    return false;
+}
+
+bool check_signals(const RunOptions& options, const Study& study) {
+    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
+                                      [&](long row) { return row < 0 || row >= rows; });
+    if (outside == options.signals.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
+    return false;
+}
+
+// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
+std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
+    std::vector<RowSignals> all;
+    for (const long row : options.signals) {
+        try {
+            all.push_back(
+                {static_cast<std::size_t>(row),
+                 simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
+                     .columns});
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "--signals {}: {}\n", row, error.what());
+        }
+    }
+    return all;
+}
+
+// Rank 0's run: everything that is not computing tiles.
+class Run {
+  public:
+    Run(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+        std::unique_ptr<Checkpoint> checkpoint, double setup_s)
+        : options_(options),
+          scene_(scene),
+          ranks_(ranks),
+          study_(scene.study()),
+          plan_(study_.ensemble.threshold_instances, study_.ensemble.instances),
+          checkpoint_(std::move(checkpoint)),
+          watch_(study_, plan_, options.watch),
+          setup_s_(setup_s) {}
+
+    int run(const Interruption& interruption) {
+        if (!options_.quiet) {
+            fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
+        }
+        Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
+        const EnsembleOutcome outcome = run_tiles(scene_, plan_,
+                                                  {.ranks = ranks_,
+                                                   .store = *checkpoint_,
+                                                   .progress = progress,
+                                                   .interruption = &interruption,
+                                                   .watch = &watch_,
+                                                   .checkpoint_s = study_.ensemble.checkpoint_s,
+                                                   .checkpointed = [&] { snapshot(); }});
+        progress.finish();
+        return conclude(outcome);
+    }
+
+  private:
+    long rows_done() const {
+        long rows = 0;
+        for (std::size_t tile = 0; tile < plan_.tiles(); ++tile) {
+            rows += checkpoint_->has(tile) ? static_cast<long>(plan_.tile(tile).count) : 0;
+        }
+        return rows;
+    }
+
+    // What the file says about its rows.
+    Results frame(const RowSource& rows, const std::string& state) const {
+        Results results = results_frame(study_);
+        results.detection = detect_all(results, rows);
+        results.provenance = provenance(study_, ranks_.size(), threads_);
+        results.provenance.emplace_back("state", state);
+        results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
+        return results;
+    }
+
+    // The results so far, for whoever looks while the run goes on; left out where it would take
+    // more than a fiftieth of the time.
+    void snapshot() {
+        constexpr double kShare = 0.02;
+        if (snapshot_s_ > kShare * seconds_since(last_snapshot_)) {
+            return;
+        }
+        const auto start = Clock::now();
+        while (complete_ < plan_.tiles() && checkpoint_->has(complete_)) {
+            ++complete_;
+        }
+        const StoredRows rows(*checkpoint_, plan_, complete_);
+        write_results(results_path(options_), frame(rows, "running"), rows);
+        last_snapshot_ = Clock::now();
+        snapshot_s_ = seconds_since(start);
+    }
+
+    int conclude(const EnsembleOutcome& outcome) {
+        const auto start = Clock::now();
+        const bool whole = outcome.failure.empty() && outcome.interruption.empty();
+        for (const CrewTimes& crew : outcome.crews) {
+            threads_ += crew.threads;
+        }
+        const std::string path = results_path(options_);
+        std::string trouble = outcome.failure;
+        const StoredRows rows(*checkpoint_, plan_, outcome.tiles);
+        Results all;
+        if (trouble.empty()) {
+            try {
+                all = frame(rows, state_of(outcome));
+                all.signals = chosen_signals(options_, scene_);
+                all.timing = timing_of(outcome);
+                all.timing.push_back({"setup_s", setup_s_});
+                all.timing.push_back({"output_s", outcome.output_s});
+                write_results(path, all, rows);
+            } catch (const std::exception& error) {
+                trouble = error.what();
+            }
+        }
+        if (!trouble.empty()) {
+            fmt::print(stderr, "{}\n", trouble);
+        }
+        if (!whole || !trouble.empty()) {
+            return stop_short(outcome, trouble.empty());
+        }
+        const RowCounts counts = count_rows(rows);
+        checkpoint_->remove();
+        if (!options_.quiet) {
+            fmt::print("{}\n", analysis::detection_text(all.detection, all.request));
+            print_failures(counts, scene_.max_meshes());
+            print_times(outcome);
+            fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,
+                       seconds_since(start));
+            print_end(outcome, path);
+        }
+        return counts.failed() == 0 ? kDone : kSomeFailed;
+    }
+
+    std::string state_of(const EnsembleOutcome& outcome) const {
+        return !outcome.interruption.empty() ? "interrupted by " + outcome.interruption
+               : watch_.enough()             ? "ended by ensemble.until"
+                                             : "complete";
+    }
+
+    void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
+        if (watch_.enough()) {
+            fmt::print("ensemble.until is reached with {} of {} gearboxes: {}\n",
+                       plan_.rows_before(outcome.tiles), plan_.rows(), watch_.text());
+        } else if (study_.ensemble.until.half_width) {
+            fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
+                       watch_.text(), watch_.rows_left().value_or(0));
+        }
+        fmt::print("results: {}\n", path);
+    }
+
+    // With a checkpoint left to go on from.
+    int stop_short(const EnsembleOutcome& outcome, bool saved) {
+        const long done = rows_done();
+        if (!options_.quiet || !saved) {
+            fmt::print(
+                stderr,
+                "{}{} of {} gearboxes are finished and kept in {}; continue with "
+                "--resume\n",
+                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
+                done, plan_.rows(), checkpoint_->path());
+        }
+        return kResumable;
+    }
+
+    const RunOptions& options_;
+    const Scene& scene_;
+    const Ranks& ranks_;
+    const Study& study_;
+    const TilePlan plan_;
+    std::unique_ptr<Checkpoint> checkpoint_;
+    PdWatch watch_;
+    const double setup_s_;
+    int threads_ = 0;
+    std::size_t complete_ = 0;
+    double snapshot_s_ = 0.0;
+    Clock::time_point last_snapshot_ = Clock::now();
+};
+
+// The other ranks' run: computing tiles.
+void help(const Scene& scene, const Ranks& ranks, const Interruption& interruption) {
+    const Ensemble& ensemble = scene.study().ensemble;
+    const TilePlan plan(ensemble.threshold_instances, ensemble.instances);
+    MemoryRows nothing(0);
+    Progress silent(1, true);
+    run_tiles(
+        scene, plan,
+        {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options) {
     const auto start = Clock::now();
-    const std::string out = options.out.empty()
-                                ? std::filesystem::path(options.study.path).stem().string() + ".h5"
-                                : options.out;
-    const auto scene = load_scene(options.study);
-    const bool writable = can_write(out);
-    if (!scene || !writable) {
+    std::optional<std::chrono::seconds> limit;
+    const bool good_limit = check_time_limit(options, limit);
+    const Interruption interruption(limit);
+    const Ranks ranks;
+    const auto scene = load_scene_together(ranks, options.study);
+    std::unique_ptr<Checkpoint> checkpoint;
+    if (ranks.leads()) {
+        const bool writable = can_write(results_path(options));
+        if (scene && writable && good_limit && check_watch(options, scene->study()) &&
+            check_signals(options, scene->study())) {
+            const Ensemble& ensemble = scene->study().ensemble;
+            try {
+                checkpoint = open_checkpoint(
+                    *scene, TilePlan(ensemble.threshold_instances, ensemble.instances),
+                    results_path(options), options.resume, options.quiet);
+            } catch (const std::exception& error) {
+                fmt::print(stderr, "{}\n", error.what());
+            }
+        }
+    }
+    if (ranks.from_leader(checkpoint ? "go" : "").empty()) {
         return kBadInput;
     }
-    const Study& study = scene->study();
-    if (!options.quiet) {
-        fmt::print(stderr, "{}: {}\n", options.study.path, study.title);
+    if (!ranks.leads()) {
+        help(*scene, ranks, interruption);
+        return std::stoi(ranks.from_leader(""));
     }
-    const double setup = seconds_since(start);
-    Progress progress(study.ensemble.instances + study.ensemble.threshold_instances, options.quiet);
-    Results results = run_ensemble(*scene, progress);
-    progress.finish();
-
-    const auto after = Clock::now();
-    results.detection = detect_all(results);
-    results.provenance = provenance(study);
-    results.timing.push_back({"setup_s", setup});
-    results.timing.push_back({"detection_s", seconds_since(after)});
-    try {
-        write_results(out, results);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return kBadInput;
-    }
-    results.timing.push_back({"output_s", seconds_since(after)});
-    if (!options.quiet) {
-        fmt::print("{}\n", analysis::detection_text(results.detection, results.request));
-        print_failures(results, scene->max_meshes());
-        print_times(results, study);
-        fmt::print("results: {}\n", out);
-    }
-    return count_status(results, Status::ok) == static_cast<long>(results.status.size())
-               ? kDone
-               : kSomeFailed;
+    const int code =
+        Run(options, *scene, ranks, std::move(checkpoint), seconds_since(start)).run(interruption);
+    ranks.from_leader(std::to_string(code));
+    return code;
 }
 
 }  // namespace gearpod::mc

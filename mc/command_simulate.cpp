@@ -13,32 +13,14 @@
 #include "mc/hdf5_data.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/provenance.hpp"
+#include "mc/simulation.hpp"
 #include "signals/sensor.hpp"
 #include "signals/sensor_noise.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// One instance's signals, one value a sample.
-struct Column {
-    std::string name;
-    std::string unit;
-    std::vector<double> values;
-};
-
-struct Simulation {
-    std::vector<Column> columns;
-    std::vector<double> noise_levels;
-    std::vector<std::string> feature_names;
-    std::vector<double> features;  // [feature * levels + level], as in a results file
-};
-
-GearboxId id_of_row(const Study& study, long row) {
-    const long thresholds = study.ensemble.threshold_instances;
-    return row < thresholds
-               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
-               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
-}
+using Column = SignalColumn;
 
 // Values that repeat with the recorded mesh periods: value(record, sample) over `meshes` meshes.
 template <typename Value>
@@ -90,6 +72,15 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
     }
 }
 
+}  // namespace
+
+GearboxId id_of_row(const Study& study, long row) {
+    const long thresholds = study.ensemble.threshold_instances;
+    return row < thresholds
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
+}
+
 Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
     const Sampler sampler(scene.study());
@@ -127,6 +118,8 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     return out;
 }
 
+namespace {
+
 std::string csv_text(const Simulation& simulation) {
     std::string text;
     for (const Column& column : simulation.columns) {
@@ -145,7 +138,7 @@ std::string csv_text(const Simulation& simulation) {
 
 void write_hdf5(const std::string& path, const Simulation& simulation, const Study& study) {
     const Hdf5Handle file = create_memory_file();
-    for (const auto& [name, value] : provenance(study)) {
+    for (const auto& [name, value] : provenance(study, 1, 1)) {
         write_text(file.get(), ".", name, value);
     }
     const Hdf5Handle signals = create_group(file.get(), "signals");

@@ -40,29 +40,40 @@ std::optional<Study> load_study(const StudyOptions& options) {
     return std::move(reading.study);
 }
 
-std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
-    const auto study = load_study(options);
-    if (!study) {
+std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems) {
+    StudyReading reading = read_study(options.path, options.overrides);
+    if (!reading.study) {
+        problems = std::move(reading.problems);
         return nullptr;
     }
-    if (!has_gears(*study)) {
-        print_problems({{options.path, 0, "gearbox.sun_teeth",
-                         "no tooth numbers or no module (only modes and describe do without)",
-                         "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});
+    const Study& study = *reading.study;
+    if (!has_gears(study)) {
+        problems = {{options.path, 0, "gearbox.sun_teeth",
+                     "no tooth numbers or no module (only modes and describe do without)",
+                     "give sun_teeth, planet_teeth, ring_teeth and module_mm"}};
         return nullptr;
     }
     try {
-        choose_instruction_set(study->numerics.instruction_set);
+        choose_instruction_set(study.numerics.instruction_set);
     } catch (const std::exception& error) {
-        print_problems({{options.path, 0, "numerics.instruction_set", error.what(), "use auto"}});
+        problems = {{options.path, 0, "numerics.instruction_set", error.what(), "use auto"}};
         return nullptr;
     }
     try {
-        return std::make_unique<Scene>(*study);
+        return std::make_unique<Scene>(study);
     } catch (const SceneError& error) {
-        print_problems({{options.path, 0, error.key(), error.what(), error.remedy()}});
+        problems = {{options.path, 0, error.key(), error.what(), error.remedy()}};
         return nullptr;
     }
+}
+
+std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
+    Problems problems;
+    auto scene = make_scene(options, problems);
+    if (!scene) {
+        print_problems(problems);
+    }
+    return scene;
 }
 
 bool can_write(const std::string& path) {

@@ -16,6 +16,9 @@ void print_problems(const Problems& problems);
 // The study, or nothing after its problems were printed.
 std::optional<Study> load_study(const StudyOptions& options);
 
+// The scene of a study, or nothing and why; also sets the kernels' instruction set.
+std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems);
+
 // The scene of a study, or nothing after its problems were printed; also sets the kernels'
 // instruction set.
 std::unique_ptr<Scene> load_scene(const StudyOptions& options);

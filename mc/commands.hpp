@@ -1,4 +1,5 @@
-// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed.
+// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed, 4 stopped
+// before its end with a checkpoint to resume from.
 #pragma once
 
 #include <optional>
@@ -10,6 +11,7 @@ namespace gearpod::mc {
 inline constexpr int kDone = 0;
 inline constexpr int kBadInput = 2;
 inline constexpr int kSomeFailed = 3;
+inline constexpr int kResumable = 4;
 
 // A study file and what the command line changes in it.
 struct StudyOptions {
@@ -20,6 +22,10 @@ struct StudyOptions {
 struct RunOptions {
     StudyOptions study;
     std::string out;  // "": the study's name with .h5, in the working folder
+    bool resume = false;
+    std::string time_limit;  // "hh:mm:ss", "": none
+    std::string watch;       // feature whose Pd the progress shows, "": the study's first
+    std::vector<long> signals;  // rows whose signals the results hold as well
     bool quiet = false;
 };
 int run_command(const RunOptions& options);

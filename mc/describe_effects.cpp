@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
@@ -47,6 +48,21 @@ void print_motion(const Study& study) {
     }
 }
 
+// Where a gear lies outside what its foundation is fitted for.
+void print_foundation_warnings(const Study& study) {
+    std::set<Member> members;
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        members.insert({mesh.driver, mesh.driven});
+    }
+    for (const Member member : members) {
+        for (const std::string& warning : stiffness::foundation_warnings(
+                 gear_of(study, member), profile_of(study), study.effects.foundation,
+                 body_radius_m(study, member))) {
+            fmt::print("  warning: {}: {}\n", member_name(member), warning);
+        }
+    }
+}
+
 void print_meshes(const Study& study) {
     const Effects& e = study.effects;
     if (!stiffness_given(study)) {
@@ -54,6 +70,7 @@ void print_meshes(const Study& study) {
                                          e.shear ? "" : ", without shear energy"));
         if (e.foundation != Foundation::none) {
             print_entry("foundation", choice(study, "effects", "foundation"));
+            print_foundation_warnings(study);
         }
         if (e.contact == Contact::load_dependent) {
             print_entry("contact", "stiffens with the force it carries at the nominal torque");

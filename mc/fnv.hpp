@@ -6,8 +6,10 @@
 
 namespace gearpod::mc {
 
-constexpr std::uint64_t fnv1a(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
+inline constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u;
+
+// `hash` continues that of the bytes before.
+constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = kFnvStart) {
     for (const char c : bytes) {
         hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     }

@@ -1,6 +1,7 @@
 #include "mc/hdf5_data.hpp"
 
 #include <cstring>
+#include <limits>
 
 namespace gearpod::mc {
 namespace {
@@ -25,6 +26,18 @@ Hdf5Handle text_type() {
     check(H5Tset_size(type.get(), H5T_VARIABLE), "text type");
     check(H5Tset_cset(type.get(), H5T_CSET_UTF8), "text type");
     return type;
+}
+
+std::size_t count_of(const Shape& shape) {
+    std::size_t count = 1;
+    for (const hsize_t size : shape) {
+        count *= size;
+    }
+    return count;
+}
+
+hid_t stored_type(ColumnKind kind) {
+    return kind == ColumnKind::numbers ? H5T_IEEE_F64LE : H5T_STD_I64LE;
 }
 
 void write_dataset(hid_t parent, const std::string& name, const Shape& shape, hid_t stored,
@@ -68,14 +81,6 @@ Shape shape_of(const Hdf5Handle& dataset, const std::string& name, std::size_t m
     return shape;
 }
 
-std::size_t count_of(const Shape& shape) {
-    std::size_t count = 1;
-    for (const hsize_t size : shape) {
-        count *= size;
-    }
-    return count;
-}
-
 Hdf5Handle open_scalar(hid_t parent, const std::string& object, const std::string& name,
                        H5T_class_t kind) {
     Hdf5Handle attribute(
@@ -109,6 +114,28 @@ Hdf5Handle create_memory_file() {
     check(H5Pset_fapl_core(access.get(), increment, false), "file");
     return {H5Fcreate("gearpod-results", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
             "file"};
+}
+
+Hdf5Handle create_file(const std::string& path) {
+    const Hdf5Handle creation = ordered_properties(H5P_FILE_CREATE, "file");
+    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT), H5Fclose, "file"};
+}
+
+std::uint64_t create_column(hid_t parent, const std::string& name, const Shape& shape,
+                            ColumnKind kind) {
+    const Hdf5Handle properties = ordered_properties(H5P_DATASET_CREATE, name);
+    check(H5Pset_alloc_time(properties.get(), H5D_ALLOC_TIME_EARLY), name);
+    check(H5Pset_fill_time(properties.get(), H5D_FILL_TIME_NEVER), name);
+    const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                           H5Sclose, name);
+    const Hdf5Handle dataset(H5Dcreate2(parent, name.c_str(), stored_type(kind), space.get(),
+                                        H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                             H5Dclose, name);
+    const haddr_t place = H5Dget_offset(dataset.get());
+    if (place == HADDR_UNDEF && count_of(shape) > 0) {
+        throw Hdf5Error(name);
+    }
+    return place == HADDR_UNDEF ? 0 : place;
 }
 
 std::vector<std::byte> file_bytes(const Hdf5Handle& file) {
@@ -194,6 +221,51 @@ std::vector<std::int64_t> read_integers(hid_t parent, const std::string& name,
     check(H5Dread(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           name);
     return values;
+}
+
+namespace {
+
+template <class Value>
+void read_rows_as(hid_t type, hid_t parent, const std::string& name, const Shape& shape,
+                  RowRange range, std::vector<Value>& values) {
+    const Hdf5Handle dataset = open_dataset(parent, name);
+    if (shape_of(dataset, name, count_of(shape)) != shape) {
+        throw Hdf5Error(name);
+    }
+    Shape start(shape.size(), 0), count = shape;
+    start[0] = range.first;
+    count[0] = range.count;
+    values.resize(count_of(count));
+    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
+    check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                              nullptr),
+          name);
+    const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                            H5Sclose, name);
+    check(H5Dread(dataset.get(), type, memory.get(), space.get(), H5P_DEFAULT, values.data()),
+          name);
+}
+
+}  // namespace
+
+std::size_t row_count(hid_t parent, const std::string& name) {
+    const Hdf5Handle dataset = open_dataset(parent, name);
+    const Shape shape =
+        shape_of(dataset, name, static_cast<std::size_t>(std::numeric_limits<hssize_t>::max()));
+    if (shape.size() != 1) {
+        throw Hdf5Error(name);
+    }
+    return shape[0];
+}
+
+void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
+               std::vector<double>& values) {
+    read_rows_as(H5T_NATIVE_DOUBLE, parent, name, shape, range, values);
+}
+
+void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
+               std::vector<std::int64_t>& values) {
+    read_rows_as(H5T_NATIVE_INT64, parent, name, shape, range, values);
 }
 
 std::string read_text(hid_t parent, const std::string& object, const std::string& name) {

@@ -19,6 +19,14 @@ Hdf5Handle create_memory_file();
 // Its bytes, as a file on the disk would have them.
 std::vector<std::byte> file_bytes(const Hdf5Handle& file);
 
+// A new file on the disk of the same kind.
+Hdf5Handle create_file(const std::string& path);
+// A dataset of doubles or of 64-bit integers whose values, little-endian and row-major, the caller
+// writes into the closed file from this byte on. HDF5 keeps no copy of them. 0 if it has none.
+enum class ColumnKind { numbers, integers };
+std::uint64_t create_column(hid_t parent, const std::string& name, const Shape& shape,
+                            ColumnKind kind);
+
 Hdf5Handle create_group(hid_t parent, const std::string& name);
 void write_numbers(hid_t parent, const std::string& name, const Shape& shape,
                    const std::vector<double>& values);
@@ -41,6 +49,16 @@ struct Numbers {
 Numbers read_numbers(hid_t parent, const std::string& name, std::size_t most_values);
 std::vector<std::int64_t> read_integers(hid_t parent, const std::string& name,
                                         std::size_t most_values);
+// Values of a dataset of one dimension.
+std::size_t row_count(hid_t parent, const std::string& name);
+// Some rows of a dataset; it is damaged if it has not `shape`, which is rows or rows x columns.
+struct RowRange {
+    std::size_t first, count;
+};
+void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
+               std::vector<double>& values);
+void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRange range,
+               std::vector<std::int64_t>& values);
 std::string read_text(hid_t parent, const std::string& object, const std::string& name);
 double read_number(hid_t parent, const std::string& object, const std::string& name);
 

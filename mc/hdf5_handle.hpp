@@ -36,6 +36,13 @@ class Hdf5Handle {
 
     hid_t get() const { return id_; }
 
+    // Closes now; throws Hdf5Error if that fails.
+    void close_now(const std::string& attempted) {
+        if (close_(std::exchange(id_, -1)) < 0) {
+            throw Hdf5Error(attempted);
+        }
+    }
+
   private:
     hid_t id_;
     Close close_;

@@ -1,5 +1,6 @@
 #include "mc/instance_features.hpp"
 
+#include <chrono>
 #include <stdexcept>
 
 #include "signals/encoder_noise.hpp"
@@ -7,6 +8,21 @@
 
 namespace gearpod::mc {
 namespace {
+
+// Adds the time of its life to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+    ~Stopwatch() {
+        sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    double& sum_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 Philox stream(const Study& study, Group group, std::uint64_t instance, std::string_view purpose) {
     return {static_cast<std::uint64_t>(study.ensemble.seed), group, instance,
@@ -52,6 +68,29 @@ InstanceFeatures::InstanceFeatures(const Scene& scene)
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
+void InstanceFeatures::draw_noise(std::size_t bins, std::size_t te_samples, Group group,
+                                  std::uint64_t instance) {
+    const Stopwatch watch(noise_s_);
+    if (bins > 0) {
+        Philox sensor = sensor_noise_stream(scene_.study(), group, instance);
+        sensor_noise_.draw(sensor, bins, noise_.sensor);
+    }
+    Philox encoder = encoder_noise_stream(scene_.study(), group, instance);
+    noise_.encoder.resize(te_samples);
+    signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
+}
+
+void InstanceFeatures::add_noise(std::span<const double> folded, double sensor_noise,
+                                 std::span<const double> te_turn, double te_noise) {
+    const Stopwatch watch(noise_s_);
+    if (!folded.empty()) {
+        signals::add_sensor_noise(folded, noise_.sensor, sensor_noise, folded_);
+    }
+    for (std::size_t i = 0; i < te_.size(); ++i) {
+        te_[i] = te_turn[i] + te_noise * noise_.encoder[i];
+    }
+}
+
 std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
                                               std::span<const double> te_turn,
                                               const InstanceInputs& inputs, Group group,
@@ -59,13 +98,7 @@ std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
     const Study& study = scene_.study();
     const auto& levels = study.sensor.noise_levels;
     const bool sensed = !folded.empty();  // a quasi-static gearbox has no sensor
-    if (sensed) {
-        Philox sensor = sensor_noise_stream(study, group, instance);
-        sensor_noise_.draw(sensor, folded.size(), noise_.sensor);
-    }
-    Philox encoder = encoder_noise_stream(study, group, instance);
-    noise_.encoder.resize(te_turn.size());
-    signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
+    draw_noise(folded.size(), te_turn.size(), group, instance);
     spectrum_.load(te_turn, noise_.encoder);
     folded_.resize(folded.size());
     te_.resize(te_turn.size());
@@ -73,14 +106,10 @@ std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
     std::vector<double> values(features_.size() * levels.size());
     for (std::size_t level = 0; level < levels.size(); ++level) {
         const double te_noise = levels[level] * inputs.encoder_noise_rad;
-        for (std::size_t i = 0; i < te_.size(); ++i) {
-            te_[i] = te_turn[i] + te_noise * noise_.encoder[i];
-        }
+        add_noise(folded, levels[level] * inputs.noise_m_s2, te_turn, te_noise);
         spectrum_.amplitudes(te_noise, amplitude_);
         features::FeatureInput input;
         if (sensed) {
-            signals::add_sensor_noise(folded, noise_.sensor, levels[level] * inputs.noise_m_s2,
-                                      folded_);
             windowing_.search(folded_, tooth_rms_);
             input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
         }

@@ -44,8 +44,15 @@ class InstanceFeatures {
 
     // The noise that compute() used last.
     const NoiseOfInstance& noise() const { return noise_; }
+    // Seconds that drawing and adding noise has taken so far.
+    double noise_s() const { return noise_s_; }
 
   private:
+    void draw_noise(std::size_t bins, std::size_t te_samples, Group group, std::uint64_t instance);
+    // Into folded_ and te_; rms in m/s^2 and rad.
+    void add_noise(std::span<const double> folded, double sensor_noise,
+                   std::span<const double> te_turn, double te_noise);
+
     const Scene& scene_;
     std::vector<const features::Feature*> features_;
     signals::SensorNoise sensor_noise_;
@@ -53,6 +60,7 @@ class InstanceFeatures {
     signals::OrderSpectrum spectrum_;
     NoiseOfInstance noise_;
     std::vector<double> folded_, te_, amplitude_, tooth_rms_;
+    double noise_s_ = 0.0;
 };
 
 }  // namespace gearpod::mc

@@ -59,6 +59,19 @@ int run_program(int argc, char** argv) {
                   run.study);
     add_shorthand(*run_app, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
     run_app->add_option("--out", run.out, "results file (default: the study's name with .h5)");
+    run_app->add_flag("--resume", run.resume,
+                      "continue an interrupted run, or add gearboxes to a finished one");
+    run_app
+        ->add_option("--time-limit", run.time_limit,
+                     "finish, save and exit with 4 before this time is over")
+        ->type_name("HH:MM:SS");
+    run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
+    run_app
+        ->add_option("--signals", run.signals,
+                     "rows whose signals over a planet turn go into the results, e.g. 0,17")
+        ->type_name("ROW,ROW...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     run_app->add_flag("--quiet", run.quiet, "print nothing but problems");
     run_app->callback([&] { code = run_command(run); });
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 
@@ -14,20 +15,23 @@ using namespace std::chrono_literals;
 
 std::string duration_text(double seconds) {
     const long s = static_cast<long>(seconds + 0.5);
-    return s < 60 ? fmt::format("{} s", s) : fmt::format("{} min {:02} s", s / 60, s % 60);
+    return s < 60     ? fmt::format("{} s", s)
+           : s < 3600 ? fmt::format("{} min {:02} s", s / 60, s % 60)
+                      : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
 }  // namespace
 
-Progress::Progress(long total, bool quiet)
+Progress::Progress(long total, bool quiet, long done)
     : total_(total),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
-      shown_(start_) {}
+      shown_(start_),
+      before_(done),
+      done_(done) {}
 
 void Progress::advance(long count) {
-    const std::lock_guard lock(mutex_);
     done_ += count;
     const auto now = std::chrono::steady_clock::now();
     const auto interval = terminal_ ? 200ms : 5000ms;
@@ -37,19 +41,31 @@ void Progress::advance(long count) {
     }
 }
 
+void Progress::watch(std::string rate, std::optional<std::size_t> left) {
+    rate_ = std::move(rate);
+    wanted_ = left;
+}
+
 void Progress::show(std::chrono::steady_clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double rate = static_cast<double>(done_) / elapsed;
-    const double left = static_cast<double>(total_ - done_) / rate;
+    const double rate = static_cast<double>(done_ - before_) / elapsed;
+    // What the wanted interval still needs, if that is less.
+    const long missing = total_ - done_;
+    const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
-    const std::string numbers = fmt::format("{} of {} gearboxes, {:.0f} a second, {} left", done_,
-                                            total_, rate, duration_text(left));
+    std::string numbers = fmt::format("{} of {}{} gearboxes, {:.0f} a second, {} left", done_,
+                                      left < missing ? "at most " : "", total_, rate,
+                                      duration_text(static_cast<double>(left) / rate));
+    if (!rate_.empty()) {
+        numbers += ", " + rate_;
+    }
     if (terminal_) {
-        constexpr int kWidth = 30;
+        constexpr int kWidth = 20;
         const int filled = static_cast<int>(share * kWidth);
-        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}   ", "", filled, "", kWidth - filled, numbers);
+        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}\033[K", "", filled, "", kWidth - filled, numbers);
     } else {
-        fmt::print(stderr, "{:%H:%M:%S} {}\n", fmt::localtime(std::time(nullptr)), numbers);
+        fmt::print(stderr, "{:%Y-%m-%d %H:%M:%S} {}\n", fmt::localtime(std::time(nullptr)),
+                   numbers);
     }
     std::fflush(stderr);
 }

@@ -12,6 +12,7 @@
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /timing/<name>         seconds
+//   /signals/<row>/<name>  one value a sample, attribute `unit`: of the gearboxes asked for
 //
 // A checksum follows the HDF5 part (results_seal.hpp); other programs do not see it.
 #pragma once
@@ -48,6 +49,19 @@ struct Timing {
     double seconds = 0.0;
 };
 
+// One value a sample.
+struct SignalColumn {
+    std::string name;
+    std::string unit;
+    std::vector<double> values;
+};
+
+// The signals of one gearbox.
+struct RowSignals {
+    std::size_t row = 0;
+    std::vector<SignalColumn> columns;
+};
+
 // A row is a gearbox: the threshold group in order of instance, then the graded group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
@@ -61,18 +75,28 @@ struct Results {
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
     std::vector<Timing> timing;
+    std::vector<RowSignals> signals;  // of chosen gearboxes; not read back
 
     // The value of a provenance entry, "" if absent.
     std::string provenance_value(const std::string& name) const;
 };
 
-// Writes to a temporary in the same folder, flushes, fsyncs and renames: the file at `path` is
-// either the old or the complete new one. Throws std::runtime_error naming the path and the reason
-// (not writable, disk full), std::invalid_argument if the shapes in `results` disagree.
+class RowSource;  // row_source.hpp
+
+// Writes to F.h5.new in the same folder, flushes, fsyncs and renames: the file at `path` is either
+// the old or the complete new one. Takes the rows from `rows` and everything else from `frame`,
+// whose columns are not looked at; memory does not grow with the rows. Throws std::runtime_error
+// naming the path and the reason (not writable, disk full).
+void write_results(const std::string& path, const Results& frame, const RowSource& rows);
+
+// The same with the columns in `results`. Throws std::invalid_argument if their shapes disagree.
 void write_results(const std::string& path, const Results& results);
 
 // Throws std::runtime_error naming the path and the reason: missing, not HDF5, not a gearpod
 // results file, damaged or truncated, written by a newer version.
 Results read_results(const std::string& path);
+
+// The same without the columns, whose rows FileRows (results_rows.hpp) reads.
+Results read_frame(const std::string& path);
 
 }  // namespace gearpod::mc

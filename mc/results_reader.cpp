@@ -33,7 +33,8 @@ void require_count(std::size_t count, std::size_t expected, const std::string& n
 class Reader {
   public:
     // No dataset holds more values than the file has bytes.
-    Reader(hid_t root, std::size_t file_size) : root_(root), most_(file_size) {}
+    Reader(hid_t root, std::size_t file_size, bool with_columns)
+        : root_(root), most_(file_size), with_columns_(with_columns) {}
 
     Results read() {
         read_provenance();
@@ -52,6 +53,10 @@ class Reader {
   private:
     std::vector<double> numbers(hid_t parent, const std::string& name) {
         return read_numbers(parent, name, most_).values;
+    }
+
+    std::vector<double> column(hid_t parent, const std::string& name) {
+        return with_columns_ ? numbers(parent, name) : std::vector<double>{};
     }
 
     std::vector<int> small_integers(hid_t parent, const std::string& name) {
@@ -73,15 +78,17 @@ class Reader {
 
     void read_instances() {
         const Hdf5Handle group = open_group(root_, "instances");
-        results_.group = small_integers(group.get(), "group");
-        results_.status = small_integers(root_, "status");
-        require_count(results_.status.size(), results_.group.size(), "status");
+        if (with_columns_) {
+            results_.group = small_integers(group.get(), "group");
+            results_.status = small_integers(root_, "status");
+            require_count(results_.status.size(), results_.group.size(), "status");
+        }
         for (const std::string& name : link_names(group.get())) {
             if (name == "group") {
                 continue;
             }
             results_.parameters.push_back(
-                {name, read_text(group.get(), name, "unit"), numbers(group.get(), name)});
+                {name, read_text(group.get(), name, "unit"), column(group.get(), name)});
             require_count(results_.parameters.back().values.size(), results_.group.size(), name);
         }
     }
@@ -92,7 +99,7 @@ class Reader {
         for (const std::string& name : link_names(group.get())) {
             results_.features.push_back({name, read_text(group.get(), name, "unit"),
                                          alarm_of(read_text(group.get(), name, "alarm")),
-                                         numbers(group.get(), name)});
+                                         column(group.get(), name)});
             require_count(results_.features.back().values.size(),
                           results_.group.size() * results_.noise_levels.size(), name);
         }
@@ -176,6 +183,7 @@ class Reader {
 
     hid_t root_;
     std::size_t most_;
+    bool with_columns_;
     Results results_;
 };
 
@@ -211,9 +219,7 @@ void check_format(const std::string& path, hid_t root) {
     }
 }
 
-}  // namespace
-
-Results read_results(const std::string& path) {
+Results read(const std::string& path, bool with_columns) {
     const SilentHdf5 silent;
     check_readable(path);
     const Seal seal = check_seal(path);
@@ -229,10 +235,20 @@ Results read_results(const std::string& path) {
             refuse(path,
                    "is truncated, or another program has changed it (no checksum at its end)");
         }
-        return Reader(root.get(), std::filesystem::file_size(path)).read();
+        return Reader(root.get(), std::filesystem::file_size(path), with_columns).read();
     } catch (const Hdf5Error& error) {
         refuse(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");
     }
+}
+
+}  // namespace
+
+Results read_results(const std::string& path) {
+    return read(path, true);
+}
+
+Results read_frame(const std::string& path) {
+    return read(path, false);
 }
 
 }  // namespace gearpod::mc

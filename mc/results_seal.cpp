@@ -1,47 +1,77 @@
 #include "mc/results_seal.hpp"
 
-#include <fstream>
-#include <iterator>
-#include <string_view>
+#include <fcntl.h>
+#include <sys/stat.h>
 
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "mc/file_descriptor.hpp"
 #include "mc/fnv.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 constexpr std::string_view kMark = "gearpod\n";
-constexpr std::size_t kSealBytes = 16;
+constexpr off_t kSealBytes = 16;
 
-std::string seal_of(std::string_view content) {
+std::string seal_of(std::uint64_t sum) {
     std::string seal(kMark);
-    const std::uint64_t sum = fnv1a(content);
     for (int byte = 0; byte < 8; ++byte) {
         seal += static_cast<char>((sum >> (8 * byte)) & 0xff);
     }
     return seal;
 }
 
+std::optional<off_t> size_of(int fd) {
+    struct stat status {};
+    return ::fstat(fd, &status) == 0 ? std::optional(status.st_size) : std::nullopt;
+}
+
+// Of the first `size` bytes, read in pieces.
+std::optional<std::uint64_t> sum_of(int fd, off_t size) {
+    std::vector<std::byte> piece(std::size_t{1} << 20);
+    std::uint64_t sum = kFnvStart;
+    for (off_t at = 0; at < size;) {
+        const auto length =
+            std::min<std::size_t>(piece.size(), static_cast<std::size_t>(size - at));
+        if (read_at(fd, std::span(piece).first(length), at) != static_cast<ssize_t>(length)) {
+            return std::nullopt;
+        }
+        sum = fnv1a({reinterpret_cast<const char*>(piece.data()), length}, sum);
+        at += static_cast<off_t>(length);
+    }
+    return sum;
+}
+
 }  // namespace
 
-void append_seal(std::vector<std::byte>& bytes) {
-    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (const char c : seal_of(content)) {
-        bytes.push_back(static_cast<std::byte>(c));
+bool append_seal(int fd) {
+    const auto size = size_of(fd);
+    const auto sum = size ? sum_of(fd, *size) : std::nullopt;
+    if (!sum) {
+        return false;
     }
+    const std::string seal = seal_of(*sum);
+    return write_at(fd, std::as_bytes(std::span(seal)), *size);
 }
 
 Seal check_seal(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (text.size() < kSealBytes) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const auto size = size_of(file.get());
+    if (!size || *size < kSealBytes) {
         return Seal::missing;
     }
-    const std::string_view content(text.data(), text.size() - kSealBytes);
-    const std::string_view seal(text.data() + content.size(), kSealBytes);
-    if (!seal.starts_with(kMark)) {
+    std::string seal(kSealBytes, '\0');
+    const off_t end = *size - kSealBytes;
+    if (read_at(file.get(), std::as_writable_bytes(std::span(seal)), end) != kSealBytes ||
+        !seal.starts_with(kMark)) {
         return Seal::missing;
     }
-    return seal == seal_of(content) ? Seal::intact : Seal::broken;
+    const auto sum = sum_of(file.get(), end);
+    return sum && seal == seal_of(*sum) ? Seal::intact : Seal::broken;
 }
 
 }  // namespace gearpod::mc

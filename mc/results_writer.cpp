@@ -1,9 +1,15 @@
 // write_results().
-#include <algorithm>
+#include <fcntl.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <span>
+
+#include "mc/file_descriptor.hpp"
 #include "mc/hdf5_data.hpp"
 #include "mc/results_layout.hpp"
 #include "mc/results_seal.hpp"
+#include "mc/row_source.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -32,29 +38,42 @@ void check_shapes(const Results& results) {
     }
 }
 
-std::vector<std::int64_t> as_int64(const std::vector<int>& values) {
-    return {values.begin(), values.end()};
-}
+// Where a column's values go in the file.
+struct Place {
+    std::uint64_t begin;  // byte of its first row
+    std::size_t at;       // its first value in a row's values
+    std::size_t width;    // values a row
+};
 
-void write_instances(hid_t root, const Results& results) {
+// The places of all that grows with the rows.
+struct Places {
+    std::vector<Place> numbers;
+    std::uint64_t group = 0, status = 0;
+};
+
+void create_instances(hid_t root, const Results& frame, hsize_t rows, Places& places) {
     const Hdf5Handle group = create_group(root, "instances");
-    const hsize_t rows = results.group.size();
-    write_integers(group.get(), "group", {rows}, as_int64(results.group));
+    places.group = create_column(group.get(), "group", {rows}, ColumnKind::integers);
     write_text(group.get(), "group", "meanings", kGroupMeanings);
-    for (const ParameterResult& parameter : results.parameters) {
-        write_numbers(group.get(), parameter.name, {rows}, parameter.values);
+    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
+        const ParameterResult& parameter = frame.parameters[p];
+        places.numbers.push_back(
+            {create_column(group.get(), parameter.name, {rows}, ColumnKind::numbers), p, 1});
         write_text(group.get(), parameter.name, "unit", parameter.unit);
     }
-    write_integers(root, "status", {rows}, as_int64(results.status));
+    places.status = create_column(root, "status", {rows}, ColumnKind::integers);
     write_text(root, "status", "meanings", kStatusMeanings);
 }
 
-void write_features(hid_t root, const Results& results) {
-    const hsize_t levels = results.noise_levels.size();
-    write_numbers(root, "noise_levels", {levels}, results.noise_levels);
+void create_features(hid_t root, const Results& frame, hsize_t rows, Places& places) {
+    const RowShape shape = row_shape(frame);
+    write_numbers(root, "noise_levels", {shape.levels}, frame.noise_levels);
     const Hdf5Handle group = create_group(root, "features");
-    for (const FeatureResult& feature : results.features) {
-        write_numbers(group.get(), feature.name, {results.group.size(), levels}, feature.values);
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        const FeatureResult& feature = frame.features[f];
+        places.numbers.push_back(
+            {create_column(group.get(), feature.name, {rows, shape.levels}, ColumnKind::numbers),
+             shape.value_of(f, 0), shape.levels});
         write_text(group.get(), feature.name, "unit", feature.unit);
         write_text(group.get(), feature.name, "alarm", alarm_text(feature.alarm));
     }
@@ -135,23 +154,110 @@ void write_detection(hid_t root, const Results& results) {
     }
 }
 
-std::vector<std::byte> image(const Results& results) {
-    const Hdf5Handle file = create_memory_file();
-    const Hdf5Handle root = open_group(file.get(), "/");
-    write_text(root.get(), ".", "format", kResultsFormat);
-    write_text(root.get(), ".", "format_version", std::to_string(kResultsFormatVersion));
-    for (const auto& [name, value] : results.provenance) {
-        write_text(root.get(), ".", name, value);
+void write_all_signals(hid_t root, const Results& frame) {
+    if (frame.signals.empty()) {
+        return;
     }
-    write_instances(root.get(), results);
-    write_features(root.get(), results);
-    write_detection(root.get(), results);
-    const Hdf5Handle timing = create_group(root.get(), "timing");
-    for (const Timing& entry : results.timing) {
-        write_numbers(timing.get(), entry.name, {}, {entry.seconds});
-        write_text(timing.get(), entry.name, "unit", "s");
+    const Hdf5Handle group = create_group(root, "signals");
+    for (const RowSignals& signals : frame.signals) {
+        const Hdf5Handle row = create_group(group.get(), std::to_string(signals.row));
+        for (const SignalColumn& column : signals.columns) {
+            write_numbers(row.get(), column.name, {column.values.size()}, column.values);
+            write_text(row.get(), column.name, "unit", column.unit);
+        }
     }
-    return file_bytes(file);
+}
+
+// Everything but the rows, which have their places reserved.
+Places write_frame(const std::string& path, const Results& frame, std::size_t rows) {
+    Hdf5Handle file = create_file(path);
+    Places places;
+    {
+        const Hdf5Handle root = open_group(file.get(), "/");
+        write_text(root.get(), ".", "format", kResultsFormat);
+        write_text(root.get(), ".", "format_version", std::to_string(kResultsFormatVersion));
+        for (const auto& [name, value] : frame.provenance) {
+            write_text(root.get(), ".", name, value);
+        }
+        create_instances(root.get(), frame, rows, places);
+        create_features(root.get(), frame, rows, places);
+        write_detection(root.get(), frame);
+        write_all_signals(root.get(), frame);
+        const Hdf5Handle timing = create_group(root.get(), "timing");
+        for (const Timing& entry : frame.timing) {
+            write_numbers(timing.get(), entry.name, {}, {entry.seconds});
+            write_text(timing.get(), entry.name, "unit", "s");
+        }
+    }
+    file.close_now("file");
+    return places;
+}
+
+// Writes rows to their places, some thousand at a time.
+class RowWriter {
+  public:
+    RowWriter(const PendingFile& file, int fd, const Places& places, const RowShape& shape)
+        : file_(file), fd_(fd), places_(places), shape_(shape) {}
+
+    void add(const RowBlock& block) {
+        pending_.group.insert(pending_.group.end(), block.group.begin(), block.group.end());
+        pending_.status.insert(pending_.status.end(), block.status.begin(), block.status.end());
+        pending_.values.insert(pending_.values.end(), block.values.begin(), block.values.end());
+        constexpr std::size_t kRows = 4096;
+        if (pending_.count() >= kRows) {
+            flush();
+        }
+    }
+
+    void flush() {
+        const std::size_t rows = pending_.count();
+        for (const Place& place : places_.numbers) {
+            std::vector<double> column;
+            for (std::size_t row = 0; row < rows; ++row) {
+                const auto from = pending_.values.begin() +
+                                  static_cast<std::ptrdiff_t>(row * shape_.values() + place.at);
+                column.insert(column.end(), from, from + static_cast<std::ptrdiff_t>(place.width));
+            }
+            write(column, place.begin, place.width);
+        }
+        write(std::vector<std::int64_t>(pending_.group.begin(), pending_.group.end()),
+              places_.group, 1);
+        write(std::vector<std::int64_t>(pending_.status.begin(), pending_.status.end()),
+              places_.status, 1);
+        const std::size_t next = pending_.first + rows;
+        pending_ = {};
+        pending_.first = next;
+    }
+
+  private:
+    template <class Value>
+    void write(const std::vector<Value>& column, std::uint64_t begin, std::size_t width) {
+        const auto at = static_cast<off_t>(begin + 8 * pending_.first * width);
+        if (!write_at(fd_, std::as_bytes(std::span(column)), at)) {
+            file_.fail(errno);
+        }
+    }
+
+    const PendingFile& file_;
+    int fd_;
+    const Places& places_;
+    const RowShape shape_;
+    RowBlock pending_;
+};
+
+// HDF5 does not take a full disk well, so ask for the room first. Some file systems cannot say.
+void require_room(const PendingFile& file, const RowShape& shape, std::size_t rows) {
+    constexpr std::size_t kFrame = std::size_t{1} << 20;
+    const Descriptor trial(
+        ::open(file.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (trial.get() < 0) {
+        file.fail(errno);
+    }
+    const auto bytes = static_cast<off_t>(kFrame + 8 * rows * (shape.values() + 2));
+    if (::fallocate(trial.get(), 0, 0, bytes) != 0 && errno != EOPNOTSUPP && errno != ENOSYS &&
+        errno != EINVAL) {
+        file.fail(errno);
+    }
 }
 
 }  // namespace
@@ -162,18 +268,34 @@ std::string Results::provenance_value(const std::string& name) const {
     return found == provenance.end() ? "" : found->second;
 }
 
+void write_results(const std::string& path, const Results& frame, const RowSource& rows) {
+    const SilentHdf5 silent;
+    PendingFile file(path);
+    const RowShape shape = row_shape(frame);
+    require_room(file, shape, rows.rows());
+    Places places;
+    try {
+        places = write_frame(file.name(), frame, rows.rows());
+    } catch (const Hdf5Error& error) {
+        throw std::runtime_error(path + ": cannot be written (HDF5 failed at \"" + error.what() +
+                                 "\")");
+    }
+    const Descriptor opened(::open(file.name().c_str(), O_RDWR | O_CLOEXEC));
+    if (opened.get() < 0) {
+        file.fail(errno);
+    }
+    RowWriter writer(file, opened.get(), places, shape);
+    rows.visit([&](const RowBlock& block) { writer.add(block); });
+    writer.flush();
+    if (!append_seal(opened.get())) {
+        file.fail(errno);
+    }
+    file.commit(opened.get());
+}
+
 void write_results(const std::string& path, const Results& results) {
     check_shapes(results);
-    const SilentHdf5 silent;
-    std::vector<std::byte> bytes;
-    try {
-        bytes = image(results);
-    } catch (const Hdf5Error& error) {
-        throw std::runtime_error(path + ": the results could not be laid out (HDF5 failed at \"" +
-                                 error.what() + "\")");
-    }
-    append_seal(bytes);
-    write_file(path, bytes);
+    write_results(path, results, ColumnRows(results));
 }
 
 }  // namespace gearpod::mc

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mc/scene_error.hpp"
+#include "mc/study_sizes.hpp"
 #include "stiffness/faults/broken.hpp"
 #include "stiffness/faults/chip.hpp"
 #include "stiffness/faults/pitting.hpp"
@@ -83,6 +85,15 @@ std::unique_ptr<const ToothFaultFamily> make_family(const Study& study, const Sc
     }
 }
 
+void check_sizes(const Study& study, const ToothFaultFamily& family) {
+    for (const double size : fault_sizes(study)) {
+        const std::vector<std::string> problems = family.problems(size);
+        if (!problems.empty()) {
+            throw SceneError(fault_size_key(study).path(), problems.front(), "");
+        }
+    }
+}
+
 lockstep::PlanetTurns planet_turns(const Study& study) {
     const gears::PlanetPlaces places = gears::planet_places(planetary_train(study));
     lockstep::PlanetTurns turns;
@@ -128,13 +139,18 @@ SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
     }
     for (const FaultPlace& place : places_of(study.fault)) {
         const SceneMesh& mesh = meshes[place.mesh];
-        laws_.push_back({mesh.stiffness.get(), make_family(study, mesh, place.gear)});
+        try {
+            laws_.push_back({mesh.stiffness.get(), make_family(study, mesh, place.gear)});
+        } catch (const std::invalid_argument& error) {
+            throw SceneError("fault.kind", error.what(), "");
+        }
+        check_sizes(study, *laws_.back().family);
     }
     pattern_ = make_pattern(study, pairs);
 }
 
 std::shared_ptr<const stiffness::FaultyMesh> SceneFault::mesh(int curve, double size) const {
-    if (size <= 0.0) {
+    if (size <= 0.0 || laws_.empty()) {
         return nullptr;
     }
     const Law& law = laws_[static_cast<std::size_t>(curve)];

@@ -51,25 +51,6 @@ std::unique_ptr<const stiffness::MeshStiffness> given_mesh(const Study& study, M
         factor * levels.low_N_m, factor * levels.high_N_m, levels.contact_ratio);
 }
 
-// The circle on which a gear's body is held: half of the diameter given, 0 if none is.
-double body_radius_m(const Study& study, Member member) {
-    const auto diameter = [&] {
-        switch (member) {
-            case Member::sun:
-                return study.gearbox.sun_bore_m;
-            case Member::planet:
-                return study.gearbox.planet_bore_m;
-            case Member::ring:
-                return study.gearbox.ring_outer_m;
-            case Member::pinion:
-                return study.fixed_shaft.pinion_bore_m;
-            default:
-                return study.fixed_shaft.gear_bore_m;
-        }
-    }();
-    return 0.5 * diameter.value_or(0.0);
-}
-
 void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     stiffness::CoupledMeshOptions options;
     options.foundation = study.effects.foundation;
@@ -91,6 +72,24 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
 }
 
 }  // namespace
+
+double body_radius_m(const Study& study, Member member) {
+    const auto diameter = [&] {
+        switch (member) {
+            case Member::sun:
+                return study.gearbox.sun_bore_m;
+            case Member::planet:
+                return study.gearbox.planet_bore_m;
+            case Member::ring:
+                return study.gearbox.ring_outer_m;
+            case Member::pinion:
+                return study.fixed_shaft.pinion_bore_m;
+            default:
+                return study.fixed_shaft.gear_bore_m;
+        }
+    }();
+    return 0.5 * diameter.value_or(0.0);
+}
 
 stiffness::Material material_of(const Study& study) {
     const Gearbox& g = study.gearbox;

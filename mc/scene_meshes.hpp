@@ -25,6 +25,8 @@ struct SceneMesh {
 };
 
 stiffness::Material material_of(const Study& study);
+// The circle on which a gear's body is held: half of the diameter given, 0 if none is.
+double body_radius_m(const Study& study, Member member);
 
 // One for each of meshes_of(kind); `force_N` is what a pair carries on average, for contacts that
 // stiffen with it. Throws SceneError.

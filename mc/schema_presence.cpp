@@ -279,4 +279,14 @@ Presence number_edges(const Study& s) {
                           {"fault.kind"}};
 }
 
+Presence until_part(const Study& s) {
+    constexpr std::string_view governor = "ensemble.until.half_width";
+    return s.ensemble.until.half_width
+               ? Presence{Need::required, "until.half_width is given", governor}
+               : Presence{Need::forbidden, "only with until.half_width", governor};
+}
+Presence until_level(const Study& s) {
+    return s.ensemble.until.half_width ? may(s) : until_part(s);
+}
+
 }  // namespace gearpod::mc

@@ -61,4 +61,7 @@ Presence fault_may(const Study& s) {
     return of_fault(s, Kind, Need::optional);
 }
 
+Presence until_part(const Study&);   // only with until.half_width, and then required
+Presence until_level(const Study&);  // only with until.half_width
+
 }  // namespace gearpod::mc

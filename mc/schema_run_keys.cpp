@@ -1,4 +1,5 @@
 // Keys of [sensor], [features], [detection], [numerics] and [ensemble].
+#include "features/feature.hpp"
 #include "mc/schema_table.hpp"
 
 namespace gearpod::mc {
@@ -12,6 +13,17 @@ constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march",
 constexpr ChoiceName kInstructionSets[] = {
     name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
     name("x86-64-v3", InstructionSet::x86_64_v3), name("x86-64-v4", InstructionSet::x86_64_v4)};
+
+std::span<const ChoiceName> feature_names() {
+    static const std::vector<ChoiceName> names = [] {
+        std::vector<ChoiceName> all;
+        for (const features::Feature& feature : features::all_features()) {
+            all.push_back({feature.name, static_cast<int>(all.size())});
+        }
+        return all;
+    }();
+    return names;
+}
 
 // clang-format off
 const Key kKeys[] = {
@@ -46,6 +58,11 @@ const Key kKeys[] = {
     {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "gearboxes over all fault sizes"},
     {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "further healthy gearboxes that set the thresholds"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
+    {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, from_to(0, 1e6), may, kShared, "seconds between two checkpoints"},
+    {"ensemble", "until.half_width", number<&Until::half_width>, kNone, inside(0, 0.5), may, kShared, "stop once Pd is known within this half width of its interval"},
+    {"ensemble", "until.feature", choice<&Until::feature>(feature_names()), kNone, kAny, until_part, kShared, "feature whose Pd that is"},
+    {"ensemble", "until.size", number<&Until::size>, kNone, kNotNegative, until_part, kShared, "fault size whose Pd that is, in the unit of the fault's size"},
+    {"ensemble", "until.noise_level", number<&Until::noise_level>, kNone, kNotNegative, until_level, kShared, "noise level of that Pd, one of sensor.noise_levels"},
 };
 // clang-format on
 

@@ -221,10 +221,22 @@ struct Numerics {
     bool operator==(const Numerics&) const = default;
 };
 
+// When a detection rate is known well enough to stop; never without a half_width.
+struct Until {
+    std::optional<double> half_width;  // of the interval of Pd
+    std::optional<int> feature;        // place in features::all_features()
+    std::optional<double> size;        // of the fault, in the unit of its key
+    double noise_level = 1.0;
+
+    bool operator==(const Until&) const = default;
+};
+
 struct Ensemble {
     std::int64_t instances = 0;            // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
     std::int64_t seed = 0;                 // 0..2^63-1
+    double checkpoint_s = 30.0;            // how often finished gearboxes are made safe
+    Until until;
 
     bool operator==(const Ensemble&) const = default;
 };

@@ -52,6 +52,9 @@ void check_consistency(StudyDraft& draft);
 // study_fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
 void check_fault(StudyDraft& draft);
 
+// study_until_checks.cpp: whether the study has the rate that ensemble.until speaks of.
+void check_until(StudyDraft& draft);
+
 // study_reader.cpp: rejects an unknown key of a section, "random." + section in [random]. The key
 // that was probably meant counts as bad, not as missing.
 void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,

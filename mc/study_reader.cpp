@@ -94,15 +94,36 @@ void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std:
 
 namespace {
 
-void read_section(StudyDraft& draft, const Entry& section) {
-    for (const Entry& entry : section.value.entries) {
-        const Key* key = find_key(section.name, entry.name);
+// Whether keys of the section begin with `name` and a dot: a table within the section.
+bool is_subsection(const std::string& section, const std::string& name) {
+    const auto keys = schema();
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+        return key.section == section && key.name.starts_with(name + ".");
+    });
+}
+
+// `prefix` is that of a table within the section, with its dot.
+void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
+                  const std::vector<Entry>& entries) {
+    for (Entry entry : entries) {
+        entry.name = prefix + entry.name;
+        const Key* key = find_key(section, entry.name);
         if (key != nullptr) {
             read_value(draft, *key, entry);
+        } else if (!is_subsection(section, entry.name)) {
+            reject_unknown_key(draft, "", section, entry);
+        } else if (entry.value.kind == Value::Kind::table) {
+            read_entries(draft, section, entry.name + ".", entry.value.entries);
         } else {
-            reject_unknown_key(draft, "", section.name, entry);
+            draft.reject(entry.position, section + "." + entry.name,
+                         fmt::format("must be a table, but is {}", entry.value.kind_name()),
+                         fmt::format("write {} = {{ key = value, ... }}", entry.name));
         }
     }
+}
+
+void read_section(StudyDraft& draft, const Entry& section) {
+    read_entries(draft, section.name, "", section.value.entries);
 }
 
 void read_title(StudyDraft& draft, const Entry& entry) {
@@ -205,6 +226,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     check_gears(draft);
     check_consistency(draft);
     check_fault(draft);
+    check_until(draft);
     sort_problems(draft.problems);
     StudyReading reading;
     if (draft.problems.empty()) {

@@ -1,5 +1,7 @@
 #include "mc/study_sizes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gearpod::mc {
@@ -86,6 +88,18 @@ std::vector<analysis::SizeGroup> size_groups(const Study& study) {
         groups.push_back({size, size});
     }
     return groups;
+}
+
+double size_in_si(const Study& study, double in_file) {
+    return in_file * fault_size_key(study).unit.to_si;
+}
+
+std::string size_text(const Study& study, const analysis::SizeGroup& group) {
+    const Unit& unit = fault_size_key(study).unit;
+    const std::string name = unit.suffix.empty() ? "" : " " + std::string(unit.name);
+    return group.low == group.high ? fmt::format("{:g}{}", group.low / unit.to_si, name)
+                                   : fmt::format("{:g} to {:g}{}", group.low / unit.to_si,
+                                                 group.high / unit.to_si, name);
 }
 
 analysis::DetectionRequest detection_request(const Study& study) {

@@ -1,6 +1,7 @@
 // The fault sizes of a study, and the detection rates it asks for.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/detection.hpp"
@@ -28,6 +29,11 @@ std::string size_edges_key(const Study& study);
 // exactly the values that the sampler gives. A continuous size: between size_edges(). One group at
 // 0 without a fault.
 std::vector<analysis::SizeGroup> size_groups(const Study& study);
+
+// A fault size in the unit of its key (mm) in the unit of the groups.
+double size_in_si(const Study& study, double in_file);
+// "3 mm", "2 to 3 mm", "0.1".
+std::string size_text(const Study& study, const analysis::SizeGroup& group);
 
 analysis::DetectionRequest detection_request(const Study& study);
 

@@ -11,6 +11,9 @@ namespace {
 
 // The shortest decimal number in the file's unit that converts back to exactly `si`.
 std::string number_text(double si, double to_si) {
+    if (si == 0.0) {
+        return "0";  // without the sign, which "-0", an integer, would lose
+    }
     const double near = si / to_si;
     for (const int digits : {15, 16, 17}) {
         const std::string text = fmt::format("{:.{}g}", near, digits);

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "mc/study_draft.hpp"
 #include "mc/study_spelling.hpp"
+#include "mc/study_tones.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -96,61 +96,14 @@ class ValueReader {
     }
 
     void operator()(const TonesAccess& access) {
-        std::vector<Tone> tones;
-        if (!nonempty_list("tones")) {
-            return;
+        if (nonempty_list("tones")) {
+            access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
+                           reject(std::move(what), std::move(remedy));
+                       }));
         }
-        for (std::size_t i = 0; i < value_.elements.size(); ++i) {
-            tones.push_back(tone(value_.elements[i], fmt::format("tone {}", i + 1)));
-        }
-        access.set(draft_.study, tones);
     }
 
   private:
-    // One tone; each of its problems names it by its place in the list.
-    Tone tone(const Value& element, const std::string& which) {
-        constexpr std::string_view kExample = "{ frequency_Hz = 50, amplitude_m_s2 = 0.1 }";
-        Tone result;
-        if (element.kind != Value::Kind::table) {
-            reject(fmt::format("{} must be a table, but is {}", which, element.kind_name()),
-                   fmt::format("write {}", kExample));
-            return result;
-        }
-        const std::vector<std::string_view> names{"frequency_Hz", "amplitude_m_s2"};
-        double* const numbers[] = {&result.frequency_Hz, &result.amplitude_m_s2};
-        bool spelled = true;
-        for (const Entry& entry : element.entries) {
-            if (std::find(names.begin(), names.end(), entry.name) == names.end()) {
-                spelled = false;
-                reject(fmt::format("{}: unknown key {}", which, entry.name),
-                       suggest(entry.name, names));
-            }
-        }
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const Entry* entry = element.find(names[i]);
-            if (entry == nullptr) {
-                if (spelled) {
-                    reject(fmt::format("{} has no {}", which, names[i]),
-                           fmt::format("write {}", kExample));
-                }
-                continue;
-            }
-            const bool number = entry->value.kind == Value::Kind::number ||
-                                entry->value.kind == Value::Kind::integer;
-            *numbers[i] = entry->value.number;
-            if (!number) {
-                reject(fmt::format("{}: {} must be a number, but is {}", which, names[i],
-                                   entry->value.kind_name()),
-                       "");
-            } else if (!std::isfinite(*numbers[i]) || *numbers[i] <= 0.0) {
-                reject(fmt::format("{}: {} must be > 0 and finite, but is {}", which, names[i],
-                                   *numbers[i]),
-                       "");
-            }
-        }
-        return result;
-    }
-
     bool finite(const Value& value) {
         if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
             reject(fmt::format("must be a number, but is {}", value.kind_name()),
@@ -159,6 +112,12 @@ class ValueReader {
         }
         if (!std::isfinite(value.number)) {
             reject(fmt::format("must be a finite number, but is {}", value.number),
+                   key_.range.hint());
+            return false;
+        }
+        const double si = value.number * key_.unit.to_si;
+        if (!std::isfinite(si) || (value.number != 0.0 && !std::isnormal(si))) {
+            reject(fmt::format("{} is beyond the numbers that can be computed with", value.number),
                    key_.range.hint());
             return false;
         }

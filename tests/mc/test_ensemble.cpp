@@ -1,32 +1,16 @@
 // Ensembles: the same bits however they are computed, reuse against the full march, and detection
 // rates that behave as rates must.
-#include <bit>
 #include <cmath>
 
 #include "machine/dispatch.hpp"
+#include "program.hpp"
 #include "study_file.hpp"
 
 using namespace gearpod;
+using test::bits;
 using test::shipped_study;
 
 namespace {
-
-// The bits of all columns, so that NaN equals NaN.
-std::vector<std::uint64_t> bits(const mc::Results& results) {
-    std::vector<std::uint64_t> all;
-    for (const auto& parameter : results.parameters) {
-        for (const double value : parameter.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
-    for (const auto& feature : results.features) {
-        for (const double value : feature.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
-    all.insert(all.end(), results.status.begin(), results.status.end());
-    return all;
-}
 
 const std::vector<std::string> kSmall{"ensemble.instances=11", "ensemble.threshold_instances=6"};
 

@@ -1,60 +1,20 @@
 // The program as a user runs it: exit codes, what it prints and what it leaves behind.
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
-#include <catch2/catch.hpp>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "program.hpp"
+
+using gearpod::test::Folder;
+using gearpod::test::program;
+using gearpod::test::Outcome;
+using gearpod::test::study;
+namespace fs = std::filesystem;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-    int code = 0;
-    std::string output;  // both streams
-};
-
-class Folder {
-  public:
-    Folder() : path_(fs::temp_directory_path() / ("gearpod-test-" + std::to_string(getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-    bool empty() const { return fs::is_empty(path_); }
-
-  private:
-    fs::path path_;
-};
-
-Outcome gearpod(const std::string& arguments) {
-    const std::string command = std::string(GEARPOD_PROGRAM) + " " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    REQUIRE(pipe != nullptr);
-    Outcome outcome;
-    std::array<char, 4096> buffer;
-    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
-        outcome.output += buffer.data();
-    }
-    outcome.code = WEXITSTATUS(pclose(pipe));
-    return outcome;
-}
-
-std::string study(const std::string& name) {
-    return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
-}
-
 bool mentions(const Outcome& outcome, const std::string& text) {
-    return outcome.output.find(text) != std::string::npos;
+    return outcome.mentions(text);
 }
 
 }  // namespace
@@ -63,16 +23,16 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const Outcome run =
-        gearpod("run " + study("planet-crack.toml") +
+        program("run " + study("planet-crack.toml") +
                 " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
     CHECK(run.code == 0);
     CHECK(mentions(run, "window_ratio"));
     CHECK(mentions(run, "where the time went"));
     CHECK(mentions(run, out));
-    const Outcome text = gearpod("report " + out);
+    const Outcome text = program("report " + out);
     CHECK(text.code == 0);
     CHECK(run.output.find(text.output) != std::string::npos);
-    const Outcome json = gearpod("report " + out + " --json -");
+    const Outcome json = program("report " + out + " --json -");
     const auto parsed = nlohmann::json::parse(json.output);
     CHECK(parsed["gearboxes"] == 54);
     CHECK(parsed["failed"] == 0);
@@ -81,7 +41,7 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
 }
 
 TEST_CASE("Natural frequencies come as JSON, with the published value") {
-    const Outcome modes = gearpod("modes " + study("lin-parker-n4.toml") + " --json -");
+    const Outcome modes = program("modes " + study("lin-parker-n4.toml") + " --json -");
     CHECK(modes.code == 0);
     const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
     REQUIRE(frequencies.size() == 21);
@@ -90,10 +50,43 @@ TEST_CASE("Natural frequencies come as JSON, with the published value") {
 
 TEST_CASE("Stiffness curves have the contract's columns and the mean that the summary prints") {
     const Outcome csv =
-        gearpod("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
+        program("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
     CHECK(csv.code == 0);
     CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
     CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
+}
+
+TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and description") {
+    const std::string chip = study("tian-fig-4-6.toml");
+    const Outcome csv = program("stiffness " + chip + " --csv - --points 50");
+    CHECK(csv.code == 0);
+    CHECK(csv.output.rfind("phase,m1,m1_chip_8mm_period1,m1_chip_8mm_period2", 0) == 0);
+    const Outcome modes = program("modes " + chip + " --json -");
+    CHECK(modes.code == 0);
+    const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
+    REQUIRE(frequencies.size() == 8);
+    CHECK(frequencies[0].get<double>() < 1e-2);
+    // Across the line of action either gear swings on its bearing alone.
+    for (const double mass_kg : {0.96, 2.88}) {
+        const double bearing = std::sqrt(6.56e7 / mass_kg) / (2 * M_PI);
+        CHECK(std::any_of(frequencies.begin(), frequencies.end(), [&](const auto& f) {
+            return std::abs(f.template get<double>() - bearing) < 1e-6 * bearing;
+        }));
+    }
+    const Outcome described = program("describe " + chip);
+    CHECK(described.code == 0);
+    CHECK(mentions(described, "torques out of balance"));
+    CHECK(mentions(described, "sdirk3"));
+    const Outcome refused = program("run " + chip + " --set numerics.integrator=rk4");
+    CHECK(refused.code == 2);
+    CHECK(mentions(refused, "the damper of the motor coupling"));
+}
+
+TEST_CASE("The keys of study files are described without a study") {
+    const Outcome keys = program("describe --keys");
+    CHECK(keys.code == 0);
+    CHECK(mentions(keys, "growth_depth_mm"));
+    CHECK(program("describe").code == 2);
 }
 
 TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
@@ -122,7 +115,7 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
         {"simulate " + good + " --instance 1 --out " + folder.file("s.xyz"), ".csv"},
     };
     for (const auto& c : cases) {
-        const Outcome outcome = gearpod(c.arguments);
+        const Outcome outcome = program(c.arguments);
         INFO(c.arguments << "\n" << outcome.output);
         CHECK(outcome.code == 2);
         CHECK(mentions(outcome, c.words));
@@ -131,7 +124,7 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
 }
 
 TEST_CASE("Problems of the study and of the output are told together") {
-    const Outcome outcome = gearpod("run " + study("planet-crack.toml") +
+    const Outcome outcome = program("run " + study("planet-crack.toml") +
                                     " --set gearbox.sun_mass_kg=-1 --set gearbox.frob=1"
                                     " --out /nonexistent-folder/r.h5");
     CHECK(outcome.code == 2);
@@ -142,7 +135,7 @@ TEST_CASE("Problems of the study and of the output are told together") {
 
 TEST_CASE("Gearboxes that fail are counted, exit with 3 and leave a file") {
     const Folder folder;
-    const Outcome outcome = gearpod("run " + study("planet-crack.toml") +
+    const Outcome outcome = program("run " + study("planet-crack.toml") +
                                     " --instances 7 --set ensemble.threshold_instances=20"
                                     " --set numerics.max_meshes=1 --out " +
                                     folder.file("r.h5"));
@@ -155,9 +148,9 @@ TEST_CASE("A simulated gearbox has the features that the ensemble found for its 
     const Folder folder;
     const std::string small = " --set ensemble.instances=14 --set ensemble.threshold_instances=5";
     const std::string good = study("planet-crack.toml");
-    CHECK(gearpod("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
+    CHECK(program("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
     CHECK(
-        gearpod("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5")).code ==
+        program("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5")).code ==
         0);
     // The row's five noise levels as h5dump prints them, from either file.
     const auto values = [&](const std::string& file, const std::string& subset) {
@@ -181,11 +174,11 @@ TEST_CASE("The C library's choice of elementary functions leaves no trace in the
     const Folder folder;
     const std::string run = "run " + study("planet-crack.toml") +
                             " --quiet --instances 10 --set ensemble.threshold_instances=6 --out ";
-    CHECK(gearpod(run + folder.file("a.h5")).code == 0);
+    CHECK(program(run + folder.file("a.h5")).code == 0);
     REQUIRE(setenv("GLIBC_TUNABLES",
                    "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable",
                    1) == 0);
-    CHECK(gearpod(run + folder.file("b.h5")).code == 0);
+    CHECK(program(run + folder.file("b.h5")).code == 0);
     unsetenv("GLIBC_TUNABLES");
     for (const char* group : {"/features", "/instances"}) {
         const std::string command =

@@ -16,29 +16,17 @@
 
 #include "mc/hdf5_data.hpp"
 #include "mc/results_file.hpp"
+#include "mc/results_rows.hpp"
+#include "program.hpp"
 
 using namespace gearpod;
 using namespace gearpod::mc;
+using test::bytes_of;
+using test::Folder;
+using test::write_bytes;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own that goes with the test.
-class Folder {
-  public:
-    Folder() : path_(fs::temp_directory_path() / ("gearpod-test-" + std::to_string(::getpid()))) {
-        fs::remove_all(path_);
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-    long files() const {
-        return std::distance(fs::directory_iterator(path_), fs::directory_iterator{});
-    }
-
-  private:
-    fs::path path_;
-};
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -86,15 +74,6 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-std::string bytes_of(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write_bytes(const std::string& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-
 }  // namespace
 
 TEST_CASE("Results read back as they were written") {
@@ -134,6 +113,40 @@ TEST_CASE("Results read back as they were written") {
     REQUIRE(back.timing.size() == 2);
     CHECK(back.timing[0].name == "march");
     CHECK(back.timing[1].seconds == 2.5);
+}
+
+TEST_CASE("Rows read some at a time are those of the whole file") {
+    const Folder folder;
+    Results large = example();
+    large.group.clear();
+    large.status.clear();
+    for (auto& parameter : large.parameters) {
+        parameter.values.clear();
+    }
+    for (auto& feature : large.features) {
+        feature.values.clear();
+    }
+    // More than both the writer and the reader take at once.
+    for (int row = 0; row < 9001; ++row) {
+        large.group.push_back(row < 100 ? 0 : 1);
+        large.status.push_back(row % 3);
+        for (auto& parameter : large.parameters) {
+            parameter.values.push_back(row + 0.25);
+        }
+        for (auto& feature : large.features) {
+            feature.values.push_back(row);
+            feature.values.push_back(-row);
+        }
+    }
+    const std::string path = folder.file("r.h5");
+    write_results(path, large);
+    CHECK(test::bits(read_results(path)) == test::bits(large));
+    Results frame = read_frame(path);
+    CHECK(frame.status.empty());
+    const FileRows rows(path, frame);
+    CHECK(rows.rows() == 9001);
+    fill_columns(frame, rows);
+    CHECK(test::bits(frame) == test::bits(large));
 }
 
 TEST_CASE("The same results give the same bytes") {

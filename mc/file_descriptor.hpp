@@ -1,0 +1,69 @@
+// A POSIX file that closes itself, and reading and writing that go on after an interruption.
+#pragma once
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace gearpod::mc {
+
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() { close(); }
+
+    int get() const { return fd_; }
+    bool close() {
+        const int fd = std::exchange(fd_, -1);
+        return fd < 0 || ::close(fd) == 0;
+    }
+
+  private:
+    int fd_;
+};
+
+// False with errno if not all bytes could be written at `offset`.
+inline bool write_at(int fd, std::span<const std::byte> bytes, off_t offset) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(fd, bytes.data(), bytes.size(), offset);
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written <= 0) {
+            errno = written == 0 ? ENOSPC : errno;
+            return false;
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+        offset += written;
+    }
+    return true;
+}
+
+// Bytes read at `offset`: fewer than asked for at the file's end, -1 with errno on failure.
+inline ssize_t read_at(int fd, std::span<std::byte> bytes, off_t offset) {
+    ssize_t total = 0;
+    while (!bytes.empty()) {
+        const ssize_t got = ::pread(fd, bytes.data(), bytes.size(), offset);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            return -1;
+        }
+        if (got == 0) {
+            break;
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(got));
+        offset += got;
+        total += got;
+    }
+    return total;
+}
+
+}  // namespace gearpod::mc

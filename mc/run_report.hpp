@@ -1,0 +1,23 @@
+// What a run says at its end, beside its detection rates.
+#pragma once
+
+#include "mc/ensemble.hpp"
+#include "mc/row_source.hpp"
+
+namespace gearpod::mc {
+
+// All rows, and those without a value.
+struct RowCounts {
+    std::size_t all = 0, diverged = 0, not_settled = 0;
+
+    std::size_t failed() const { return diverged + not_settled; }
+};
+
+RowCounts count_rows(const RowSource& rows);
+
+void print_failures(const RowCounts& rows, int max_meshes);
+
+// Where the time went: of the threads of all ranks, and the least, mean and most of a rank.
+void print_times(const EnsembleOutcome& outcome);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,93 @@
+#include "mc/tile_worker.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "mc/results_file.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+int status_of(lockstep::LaneStatus status) {
+    switch (status) {
+        case lockstep::LaneStatus::diverged:
+            return static_cast<int>(Status::diverged);
+        case lockstep::LaneStatus::unsettled:
+            return static_cast<int>(Status::not_settled);
+        case lockstep::LaneStatus::ok:
+            break;
+    }
+    return static_cast<int>(Status::ok);
+}
+
+}  // namespace
+
+Seconds& Seconds::operator+=(const Seconds& other) {
+    sampling += other.sampling;
+    stiffness += other.stiffness;
+    march += other.march;
+    signals += other.signals;
+    noise += other.noise;
+    features += other.features;
+    return *this;
+}
+
+RowShape row_shape(const Sampler& sampler, const Study& study) {
+    return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size()};
+}
+
+TileWorker::TileWorker(const TileTask& task)
+    : task_(task), features_(task.scene), shape_(row_shape(task.sampler, task.scene.study())) {}
+
+TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
+    std::vector<GearboxId> ids;
+    for (std::size_t i = 0; i < tile.count; ++i) {
+        ids.push_back({tile.group, tile.first_index + i});
+    }
+    TileRows rows;
+    const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
+    for (std::size_t first = 0; first < ids.size(); first += lanes) {
+        add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), rows, seconds);
+    }
+    return rows;
+}
+
+// As many gearboxes as there are lanes.
+void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds) {
+    const GearboxTile computed = run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
+                                               task_.scene.study().numerics.lanes);
+    const auto start = std::chrono::steady_clock::now();
+    const double noise_before = features_.noise_s();
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        add_row(ids[lane], computed, static_cast<int>(lane), rows);
+    }
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const double noise = features_.noise_s() - noise_before;
+    seconds +=
+        {computed.sampling_s,  computed.stiffness_s, computed.march_s, computed.signals_s, noise,
+         spent.count() - noise};
+}
+
+void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,
+                         TileRows& rows) {
+    const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
+    rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+    const auto status = computed.march.status[static_cast<std::size_t>(lane)];
+    rows.status.push_back(status_of(status));
+
+    std::vector<double> values(shape_.features * shape_.levels,
+                               std::numeric_limits<double>::quiet_NaN());
+    if (status == lockstep::LaneStatus::ok) {
+        const auto lanes = static_cast<std::size_t>(computed.views.lanes);
+        std::vector<double> folded(computed.folded.size() / lanes);
+        std::vector<double> te(computed.te_turn.size() / lanes);
+        signals::copy_lane(computed.folded, computed.views.lanes, lane, folded);
+        signals::copy_lane(computed.te_turn, computed.views.lanes, lane, te);
+        values = features_.compute(folded, te, computed.inputs[static_cast<std::size_t>(lane)],
+                                   id.group, id.index);
+    }
+    rows.values.insert(rows.values.end(), values.begin(), values.end());
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,113 @@
+// The built program, run as a user runs it, and what it left behind.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "mc/results_file.hpp"
+
+namespace gearpod::test {
+
+// A folder of its own that goes with the test.
+class Folder {
+  public:
+    Folder() {
+        std::string name =
+            (std::filesystem::temp_directory_path() / "gearpod-test-XXXXXX").string();
+        REQUIRE(mkdtemp(name.data()) != nullptr);
+        path_ = name;
+        std::filesystem::permissions(path_, std::filesystem::perms(0755));
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::string path() const { return path_.string(); }
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+    bool empty() const { return std::filesystem::is_empty(path_); }
+    long files() const {
+        return std::distance(std::filesystem::directory_iterator(path_),
+                             std::filesystem::directory_iterator{});
+    }
+
+  private:
+    std::filesystem::path path_;
+};
+
+struct Outcome {
+    int code = 0;
+    std::string output;  // both streams
+
+    bool mentions(const std::string& text) const { return output.find(text) != std::string::npos; }
+};
+
+inline Outcome shell(const std::string& command) {
+    FILE* pipe = popen(("exec 2>&1; " + command).c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    Outcome outcome;
+    std::array<char, 4096> buffer;
+    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
+        outcome.output += buffer.data();
+    }
+    outcome.code = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+inline Outcome program(const std::string& arguments) {
+    return shell(std::string(GEARPOD_PROGRAM) + " " + arguments);
+}
+
+// As a container's root may, and with more ranks than processors.
+inline std::string mpirun(int ranks) {
+    return std::string("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ") +
+           GEARPOD_MPIEXEC + " --oversubscribe -n " + std::to_string(ranks) + " ";
+}
+
+inline std::string study(const std::string& name) {
+    return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
+}
+
+inline std::string bytes_of(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void write_bytes(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// All datasets of the gearboxes bit by bit, so that NaN equals NaN.
+inline std::vector<std::uint64_t> bits(const mc::Results& results) {
+    std::vector<std::uint64_t> all;
+    for (const auto& parameter : results.parameters) {
+        for (const double value : parameter.values) {
+            all.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+    }
+    for (const auto& feature : results.features) {
+        for (const double value : feature.values) {
+            all.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+    }
+    all.insert(all.end(), results.group.begin(), results.group.end());
+    all.insert(all.end(), results.status.begin(), results.status.end());
+    return all;
+}
+
+inline std::vector<std::uint64_t> bits(const std::string& path) {
+    return bits(mc::read_results(path));
+}
+
+}  // namespace gearpod::test
