@@ -25,6 +25,17 @@ const std::vector<Golden>& goldens() {
         {"lin-parker-n3", "modes studies/lin-parker-n3.toml --json -", Source::json, {"frequencies_Hz"}, 1, kMarched},
         {"lin-parker-n4", "modes studies/lin-parker-n4.toml --json -", Source::json, {"frequencies_Hz"}, 1, kMarched},
         {"lin-parker-n5", "modes studies/lin-parker-n5.toml --json -", Source::json, {"frequencies_Hz"}, 1, kMarched},
+        {"tian-stiffness", "stiffness studies/tian-fig-4-3.toml --csv - --points 100", Source::csv, {}, 1, kFitted},
+        {"tian-stiffness-chip", "stiffness studies/tian-fig-4-6.toml --csv - --points 100", Source::csv, {}, 1, kFitted},
+        {"tian-stiffness-crack", "stiffness studies/tian-fig-4-9.toml --csv - --points 100", Source::csv, {}, 1, kFitted},
+        {"tian-stiffness-broken", "stiffness studies/tian-fig-4-12.toml --csv - --points 100", Source::csv, {}, 1, kFitted},
+        {"tian-fig-4-3", "simulate studies/tian-fig-4-3.toml --instance 1 --meshes 2", Source::results, {"signals/mesh_phase", "signals/sensor", "signals/pinion_y"}, 1, kMarched},
+        {"park-fig-9", "simulate studies/park-fig-9.toml --instance 1", Source::results, {"signals/mesh_phase", "signals/te"}, 9, kMarched},
+        {"park-fig-10", "simulate studies/park-fig-10.toml --instance 1", Source::results, {"signals/mesh_phase", "signals/te"}, 9, kMarched},
+        {"park-fig-11-70", "simulate studies/park-fig-11.toml --instance 4", Source::results, {"signals/mesh_phase", "signals/te"}, 9, kMarched},
+        {"park-fig-12", "run studies/park-fig-12.toml --quiet", Source::results, {"instances/torque_N_m", "instances/fault_reduction", "features/te_rms", "features/te_kurtosis", "features/te_fc", "features/te_fm0"}, 1, kMarched},
+        {"park-fig-13", "run studies/park-fig-13.toml --quiet", Source::results, {"instances/fault_reduction", "features/te_rms", "features/te_kurtosis", "features/te_fc", "features/te_fm0"}, 1, kMarched},
+        {"park-dynamic", "run studies/park-dynamic.toml --quiet", Source::results, {"instances/fault_reduction", "features/te_rms", "features/te_kurtosis", "features/te_fc", "features/te_fm0"}, 1, kMarched},
     };
     // clang-format on
     return table;

@@ -197,7 +197,7 @@ TEST_CASE("Tian's gearbox as printed agrees with a dense solution of his equatio
 
 TEST_CASE(
     "The 7th harmonic of 570 Hz dominates the pinion's y acceleration; the 10th without shear") {
-    // The thesis reads the 6th and the 8th off solutions with loose tolerances.
+    // The thesis reads the 6th and the 8th off its plots; see tests/peers/tian-loose-tolerances.
     const TianGearbox shearless(false);
     CHECK(dominant(harmonics(
               along_y(orbit(TianGearbox::instance(), 1200, Integrator::sdirk3).records[0]), 15)) ==

@@ -17,12 +17,13 @@ std::vector<double> lowest_stiffness(const mc::Scene& scene, const std::vector<d
     const auto& healthy = scene.pairs().curve(scene.faulty_pair());
     std::vector<double> lowest;
     for (const double depth : depths_m) {
-        const auto cracked = depth > 0 ? scene.faulty_mesh(depth) : nullptr;
+        const auto cracked = depth > 0 ? scene.fault().mesh(0, depth) : nullptr;
         double least = stiffness::total_at(healthy, 0.0);
         for (int i = 0; i < 1000; ++i) {
             const double tau = healthy.contact_ratio() * (i + 0.5) / 1000.0;
-            least = std::min(least, cracked ? total_at(*cracked, healthy.transitions(), tau)
-                                            : total_at(healthy, tau));
+            least =
+                std::min(least, cracked ? stiffness::total_at(*cracked, healthy.transitions(), tau)
+                                        : total_at(healthy, tau));
         }
         lowest.push_back(least);
     }

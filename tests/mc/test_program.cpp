@@ -101,6 +101,8 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
         {"run " + good + " --set gearbox.sun_mass_kg=-1 --out " + out, "sun_mass_kg"},
         {"run " + good + " --set gearbox.ring_teeth=80 --out " + out, "ring"},
         {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
+        {"run " + study("tian-fig-4-3.toml") + " --set 'numerics.integrator=\"rk4\"' --out " + out,
+         "damper of the motor coupling"},
         {"run " + good + " --instances none --out " + out, "instances"},
         {"run " + good + " --out " + folder.file("no/such/folder/r.h5"), "no/such/folder"},
         {"run " + good + " --frobnicate", "frobnicate"},
