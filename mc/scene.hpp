@@ -35,6 +35,10 @@ class Scene {
     const lockstep::FaultPattern& pattern() const { return fault_->pattern(); }
     // The pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
+    // That pair with the faulty tooth of that size; null if it is 0.
+    std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
+        return fault_->mesh(0, size);
+    }
     // Of the pitch errors of single teeth; null without them.
     const lockstep::LoadShares* load_shares() const { return load_shares_.get(); }
 

@@ -134,7 +134,7 @@ SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
 }
 
 std::shared_ptr<const stiffness::FaultyMesh> SceneFault::mesh(int curve, double size) const {
-    if (size <= 0.0) {
+    if (size <= 0.0 || laws_.empty()) {
         return nullptr;
     }
     const Law& law = laws_[static_cast<std::size_t>(curve)];

@@ -19,7 +19,7 @@ class SceneFault {
     const lockstep::FaultPattern& pattern() const { return pattern_; }
     // One for each mesh that the tooth weakens.
     int curves() const { return static_cast<int>(laws_.size()); }
-    // A mesh with the faulty tooth of that size; null if it is 0.
+    // A mesh with the faulty tooth of that size; null if it is 0 or there is no fault.
     std::shared_ptr<const stiffness::FaultyMesh> mesh(int curve, double size) const;
     // The size at which the tooth carries nothing, or beyond which it has no meaning.
     double largest_size() const;

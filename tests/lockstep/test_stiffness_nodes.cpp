@@ -26,7 +26,7 @@ MarchPlan stiffness_plan(const PairSet& pairs, std::vector<double> cuts, int ste
         cuts.push_back(cut);
     }
     plan.grid = make_phase_grid(10, steps, cuts);
-    plan.nodes = tabulate(pairs, plan.grid, plan.layout.mesh_damping);
+    plan.nodes = tabulate(pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -94,6 +95,39 @@ TEST_CASE("Stiffness curves have the contract's columns and the mean that the su
     CHECK(csv.code == 0);
     CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
     CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
+}
+
+TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and description") {
+    const std::string chip = study("tian-fig-4-6.toml");
+    const Outcome csv = gearpod("stiffness " + chip + " --csv - --points 50");
+    CHECK(csv.code == 0);
+    CHECK(csv.output.rfind("phase,m1,m1_chip_8mm_period1,m1_chip_8mm_period2", 0) == 0);
+    const Outcome modes = gearpod("modes " + chip + " --json -");
+    CHECK(modes.code == 0);
+    const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
+    REQUIRE(frequencies.size() == 8);
+    CHECK(frequencies[0].get<double>() < 1e-2);
+    // Across the line of action either gear swings on its bearing alone.
+    for (const double mass_kg : {0.96, 2.88}) {
+        const double bearing = std::sqrt(6.56e7 / mass_kg) / (2 * M_PI);
+        CHECK(std::any_of(frequencies.begin(), frequencies.end(), [&](const auto& f) {
+            return std::abs(f.template get<double>() - bearing) < 1e-6 * bearing;
+        }));
+    }
+    const Outcome described = gearpod("describe " + chip);
+    CHECK(described.code == 0);
+    CHECK(mentions(described, "torques out of balance"));
+    CHECK(mentions(described, "sdirk3"));
+    const Outcome refused = gearpod("run " + chip + " --set numerics.integrator=rk4");
+    CHECK(refused.code == 2);
+    CHECK(mentions(refused, "the damper of the motor coupling"));
+}
+
+TEST_CASE("The keys of study files are described without a study") {
+    const Outcome keys = gearpod("describe --keys");
+    CHECK(keys.code == 0);
+    CHECK(mentions(keys, "growth_depth_mm"));
+    CHECK(gearpod("describe").code == 2);
 }
 
 TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
