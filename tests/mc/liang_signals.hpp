@@ -29,9 +29,8 @@ inline std::vector<double> sensor_signal(const mc::Scene& scene, int meshes,
                                mc::path_grid(scene), tile.inputs[0].path_exponent, 0, meshes);
 }
 
-// Amplitudes of that signal; line i lies at i f_m / meshes.
-inline std::vector<double> spectrum(const mc::Scene& scene, int meshes, std::uint64_t number = 0) {
-    const auto signal = sensor_signal(scene, meshes, number);
+// Amplitudes of a signal's lines; line 0 is twice its mean.
+inline std::vector<double> lines(const std::vector<double>& signal) {
     std::vector<std::complex<double>> in(signal.begin(), signal.end()), out(signal.size());
     kissfft<double> fft(signal.size(), false);
     fft.transform(in.data(), out.data());
@@ -40,6 +39,11 @@ inline std::vector<double> spectrum(const mc::Scene& scene, int meshes, std::uin
         amplitudes.push_back(2.0 * std::abs(out[i]) / static_cast<double>(out.size()));
     }
     return amplitudes;
+}
+
+// Of that sensor signal; line i lies at i f_m / meshes.
+inline std::vector<double> spectrum(const mc::Scene& scene, int meshes, std::uint64_t number = 0) {
+    return lines(sensor_signal(scene, meshes, number));
 }
 
 // Lines that must vanish do so to the tolerance at which orbit and decay count as reached (1e-10 of
