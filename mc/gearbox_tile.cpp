@@ -83,6 +83,8 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     tile.sampling_s = lap(start);
     if (lanes == 1) {
         march<1>(scene, ids, with_motion, tile);
+    } else if (lanes == 4) {
+        march<4>(scene, ids, with_motion, tile);
     } else {
         march<8>(scene, ids, with_motion, tile);
     }

@@ -51,7 +51,7 @@ const Key kKeys[] = {
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
-    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 8), may, kShared, "gearboxes in lockstep: 8 or 1"},
+    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 8), may, kShared, "gearboxes in lockstep: 8, 4 or 1"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for all"},
     {"numerics", "instruction_set", choice<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
 

@@ -214,7 +214,7 @@ struct Numerics {
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;
-    int lanes = 8;    // 8 or 1
+    int lanes = 8;    // 8, 4 or 1
     int threads = 0;  // 0: all
     InstructionSet instruction_set = InstructionSet::automatic;
 

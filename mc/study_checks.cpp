@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "features/feature.hpp"
+#include "machine/lanes.hpp"
 #include "mc/study_draft.hpp"
 #include "mc/study_gears.hpp"
 #include "mc/study_spelling.hpp"
@@ -144,9 +145,9 @@ void check_features(StudyDraft& draft) {
 
 void check_lanes(StudyDraft& draft) {
     const int lanes = draft.study.numerics.lanes;
-    if (lanes != 1 && lanes != 8) {
-        draft.reject("numerics.lanes", fmt::format("must be 8 or 1, but is {}", lanes),
-                     "8 is fast, 1 is for comparison");
+    if (!machine::is_lane_count(lanes)) {
+        draft.reject("numerics.lanes", fmt::format("must be 8, 4 or 1, but is {}", lanes),
+                     "8 fills AVX-512 registers, 4 those of AVX2; 1 is for comparison");
     }
 }
 

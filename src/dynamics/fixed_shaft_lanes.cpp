@@ -33,6 +33,8 @@ FixedShaftLanes<W> make_lanes(const FixedShaftLayout& layout,
 
 template FixedShaftLanes<1> make_lanes<1>(const FixedShaftLayout&,
                                           std::span<const FixedShaftInputs>);
+template FixedShaftLanes<4> make_lanes<4>(const FixedShaftLayout&,
+                                          std::span<const FixedShaftInputs>);
 template FixedShaftLanes<8> make_lanes<8>(const FixedShaftLayout&,
                                           std::span<const FixedShaftInputs>);
 

@@ -30,6 +30,8 @@ FixedShaftLanes<W> make_lanes(const FixedShaftLayout& layout,
 
 extern template FixedShaftLanes<1> make_lanes<1>(const FixedShaftLayout&,
                                                  std::span<const FixedShaftInputs>);
+extern template FixedShaftLanes<4> make_lanes<4>(const FixedShaftLayout&,
+                                                 std::span<const FixedShaftInputs>);
 extern template FixedShaftLanes<8> make_lanes<8>(const FixedShaftLayout&,
                                                  std::span<const FixedShaftInputs>);
 

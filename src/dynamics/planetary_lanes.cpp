@@ -72,6 +72,7 @@ PlanetaryLanes<W> make_lanes(const PlanetaryLayout& layout,
 }
 
 template PlanetaryLanes<1> make_lanes<1>(const PlanetaryLayout&, std::span<const PlanetaryInputs>);
+template PlanetaryLanes<4> make_lanes<4>(const PlanetaryLayout&, std::span<const PlanetaryInputs>);
 template PlanetaryLanes<8> make_lanes<8>(const PlanetaryLayout&, std::span<const PlanetaryInputs>);
 
 }  // namespace gearpod::dynamics

@@ -39,6 +39,8 @@ PlanetaryLanes<W> make_lanes(const PlanetaryLayout& layout,
 
 extern template PlanetaryLanes<1> make_lanes<1>(const PlanetaryLayout&,
                                                 std::span<const PlanetaryInputs>);
+extern template PlanetaryLanes<4> make_lanes<4>(const PlanetaryLayout&,
+                                                std::span<const PlanetaryInputs>);
 extern template PlanetaryLanes<8> make_lanes<8>(const PlanetaryLayout&,
                                                 std::span<const PlanetaryInputs>);
 

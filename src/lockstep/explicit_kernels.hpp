@@ -1,5 +1,5 @@
 // GEARPOD_MARCHES(linear, dynamics::LinearMesh) defines the explicit kernels of one mesh law: every
-// gearbox model, both widths. One file a law, so that none compiles for long.
+// gearbox model, all widths. One file a law, so that none compiles for long.
 #pragma once
 
 #include "dynamics/fixed_shaft_motion.hpp"
@@ -25,6 +25,7 @@
     GEARPOD_MARCH(DEFINE, LAW##_fixed_shaft_##W, dynamics::FixedShaftLanes<W>,            \
                   dynamics::FixedShaftMotions<MESH, W>)
 
-#define GEARPOD_MARCHES(LAW, MESH)                         \
-    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_KERNEL, LAW, MESH, 8) \
+#define GEARPOD_MARCHES(LAW, MESH)                                \
+    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_KERNEL, LAW, MESH, 8)        \
+    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_NARROW_KERNEL, LAW, MESH, 4) \
     GEARPOD_MARCHES_OF_WIDTH(GEARPOD_NARROW_KERNEL, LAW, MESH, 1)

@@ -14,10 +14,13 @@ namespace gearpod::lockstep {
     MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_torsional_##W;              \
     MarchKernel<dynamics::FixedShaftLanes<W>> LAW##_fixed_shaft_##W;
 GEARPOD_EXPLICIT_MARCHES(linear, 1)
+GEARPOD_EXPLICIT_MARCHES(linear, 4)
 GEARPOD_EXPLICIT_MARCHES(linear, 8)
 GEARPOD_EXPLICIT_MARCHES(with_error, 1)
+GEARPOD_EXPLICIT_MARCHES(with_error, 4)
 GEARPOD_EXPLICIT_MARCHES(with_error, 8)
 GEARPOD_EXPLICIT_MARCHES(separating, 1)
+GEARPOD_EXPLICIT_MARCHES(separating, 4)
 GEARPOD_EXPLICIT_MARCHES(separating, 8)
 #undef GEARPOD_EXPLICIT_MARCHES
 

@@ -1,5 +1,5 @@
 // GEARPOD_MARCHES(linear, dynamics::LinearMesh) defines the implicit kernels of one mesh law: both
-// integrators, both widths. One file a law, so that none compiles for long.
+// integrators, all widths. One file a law, so that none compiles for long.
 #pragma once
 
 #include "lockstep/implicit_march.hpp"
@@ -18,5 +18,7 @@
 #define GEARPOD_MARCHES(LAW, MESH)                                          \
     GEARPOD_MARCH(GEARPOD_KERNEL, LAW##_newmark_8, Newmark, MESH, 8)        \
     GEARPOD_MARCH(GEARPOD_KERNEL, LAW##_sdirk3_8, Sdirk3, MESH, 8)          \
+    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_newmark_4, Newmark, MESH, 4) \
+    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_sdirk3_4, Sdirk3, MESH, 4)   \
     GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_newmark_1, Newmark, MESH, 1) \
     GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_sdirk3_1, Sdirk3, MESH, 1)

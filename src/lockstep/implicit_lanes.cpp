@@ -118,6 +118,8 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
 
 template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&, double,
                                                  std::span<const dynamics::GearboxInputs>);
+template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&, double,
+                                                 std::span<const dynamics::GearboxInputs>);
 template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&, double,
                                                  std::span<const dynamics::GearboxInputs>);
 

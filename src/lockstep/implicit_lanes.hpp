@@ -59,6 +59,8 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
 
 extern template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&, double,
                                                         std::span<const dynamics::GearboxInputs>);
+extern template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&, double,
+                                                        std::span<const dynamics::GearboxInputs>);
 extern template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&, double,
                                                         std::span<const dynamics::GearboxInputs>);
 

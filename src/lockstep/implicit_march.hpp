@@ -10,10 +10,13 @@ namespace gearpod::lockstep {
     MarchKernel<ImplicitLanes<W>> LAW##_newmark_##W; \
     MarchKernel<ImplicitLanes<W>> LAW##_sdirk3_##W;
 GEARPOD_IMPLICIT_MARCHES(linear, 1)
+GEARPOD_IMPLICIT_MARCHES(linear, 4)
 GEARPOD_IMPLICIT_MARCHES(linear, 8)
 GEARPOD_IMPLICIT_MARCHES(with_error, 1)
+GEARPOD_IMPLICIT_MARCHES(with_error, 4)
 GEARPOD_IMPLICIT_MARCHES(with_error, 8)
 GEARPOD_IMPLICIT_MARCHES(separating, 1)
+GEARPOD_IMPLICIT_MARCHES(separating, 4)
 GEARPOD_IMPLICIT_MARCHES(separating, 8)
 #undef GEARPOD_IMPLICIT_MARCHES
 

@@ -13,18 +13,18 @@ template <class Lanes>
 using Kernel = MarchKernel<Lanes>*;
 
 // The kernel NAME of the plan's mesh law and of width W.
-#define GEARPOD_KERNEL_OF(PLAN, NAME)                            \
-    [](dynamics::MeshLaw law) {                                  \
-        const bool error = law == dynamics::MeshLaw::with_error; \
-        const bool linear = law == dynamics::MeshLaw::linear;    \
-        if constexpr (W == 1)                                    \
-            return linear  ? linear_##NAME##_1                   \
-                   : error ? with_error_##NAME##_1               \
-                           : separating_##NAME##_1;              \
-        else                                                     \
-            return linear  ? linear_##NAME##_8                   \
-                   : error ? with_error_##NAME##_8               \
-                           : separating_##NAME##_8;              \
+#define GEARPOD_KERNEL_OF_LAW(LAW, NAME, WIDTH)                           \
+    (LAW == dynamics::MeshLaw::linear       ? linear_##NAME##_##WIDTH     \
+     : LAW == dynamics::MeshLaw::with_error ? with_error_##NAME##_##WIDTH \
+                                            : separating_##NAME##_##WIDTH)
+#define GEARPOD_KERNEL_OF(PLAN, NAME)                   \
+    [](dynamics::MeshLaw law) {                         \
+        if constexpr (W == 1)                           \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 1); \
+        else if constexpr (W == 4)                      \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 4); \
+        else                                            \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 8); \
     }(PLAN.mesh_law)
 
 template <int W>
@@ -50,6 +50,7 @@ Kernel<ImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
 }
 
 #undef GEARPOD_KERNEL_OF
+#undef GEARPOD_KERNEL_OF_LAW
 
 template <int W, class Lanes>
 class KernelMarch final : public MeshMarch<W> {
@@ -124,6 +125,8 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
 }
 
 template std::unique_ptr<const MeshMarch<1>> make_mesh_march<1>(
+    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+template std::unique_ptr<const MeshMarch<4>> make_mesh_march<4>(
     const MarchPlan&, std::span<const dynamics::GearboxInputs>);
 template std::unique_ptr<const MeshMarch<8>> make_mesh_march<8>(
     const MarchPlan&, std::span<const dynamics::GearboxInputs>);

@@ -29,6 +29,8 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
 
 extern template std::unique_ptr<const MeshMarch<1>> make_mesh_march<1>(
     const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+extern template std::unique_ptr<const MeshMarch<4>> make_mesh_march<4>(
+    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
 extern template std::unique_ptr<const MeshMarch<8>> make_mesh_march<8>(
     const MarchPlan&, std::span<const dynamics::GearboxInputs>);
 

@@ -13,6 +13,9 @@ namespace {
 void solve_static(const StaticLanes<1>& lanes, StaticState<1>& state) {
     solve_static_1(lanes, state);
 }
+void solve_static(const StaticLanes<4>& lanes, StaticState<4>& state) {
+    solve_static_4(lanes, state);
+}
 void solve_static(const StaticLanes<8>& lanes, StaticState<8>& state) {
     solve_static_8(lanes, state);
 }
@@ -168,6 +171,8 @@ TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::Gea
 }
 
 template TileResult run_quasi_static<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+                                        const FaultCurves&, const TileSettings&);
+template TileResult run_quasi_static<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                         const FaultCurves&, const TileSettings&);
 template TileResult run_quasi_static<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                         const FaultCurves&, const TileSettings&);

@@ -21,6 +21,9 @@ TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::Gea
 extern template TileResult run_quasi_static<1>(const MarchPlan&,
                                                std::span<const dynamics::GearboxInputs>,
                                                const FaultCurves&, const TileSettings&);
+extern template TileResult run_quasi_static<4>(const MarchPlan&,
+                                               std::span<const dynamics::GearboxInputs>,
+                                               const FaultCurves&, const TileSettings&);
 extern template TileResult run_quasi_static<8>(const MarchPlan&,
                                                std::span<const dynamics::GearboxInputs>,
                                                const FaultCurves&, const TileSettings&);

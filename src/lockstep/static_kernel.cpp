@@ -199,6 +199,8 @@ GEARPOD_INLINE void solve(const StaticLanes<W>& lanes, StaticState<W>& s) {
 
 GEARPOD_KERNEL(solve_static_8, (const StaticLanes<8>& lanes, StaticState<8>& state), (lanes, state),
                solve<8>(lanes, state))
+GEARPOD_NARROW_KERNEL(solve_static_4, (const StaticLanes<4>& lanes, StaticState<4>& state),
+                      (lanes, state), solve<4>(lanes, state))
 GEARPOD_NARROW_KERNEL(solve_static_1, (const StaticLanes<1>& lanes, StaticState<1>& state),
                       (lanes, state), solve<1>(lanes, state))
 

@@ -60,6 +60,8 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
 
 template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
                                              std::span<const dynamics::GearboxInputs>, double);
+template StaticLanes<4> make_static_lanes<4>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
+                                             std::span<const dynamics::GearboxInputs>, double);
 template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
                                              std::span<const dynamics::GearboxInputs>, double);
 
@@ -77,6 +79,7 @@ StaticState<W>::StaticState(const StaticLanes<W>& lanes)
       right_hand(q.size()) {}
 
 template struct StaticState<1>;
+template struct StaticState<4>;
 template struct StaticState<8>;
 
 }  // namespace gearpod::lockstep

@@ -36,6 +36,10 @@ extern template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayou
                                                     dynamics::MeshLaw,
                                                     std::span<const dynamics::GearboxInputs>,
                                                     double);
+extern template StaticLanes<4> make_static_lanes<4>(const dynamics::GearboxLayout&,
+                                                    dynamics::MeshLaw,
+                                                    std::span<const dynamics::GearboxInputs>,
+                                                    double);
 extern template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&,
                                                     dynamics::MeshLaw,
                                                     std::span<const dynamics::GearboxInputs>,
@@ -55,12 +59,14 @@ struct StaticState {
 };
 
 extern template struct StaticState<1>;
+extern template struct StaticState<4>;
 extern template struct StaticState<8>;
 
 // Solves for state.q with state.k and state.e. A body that no stiffness holds and no load moves
 // stays where it is, at zero; a load that meets no stiffness marks its lane `loose`, whose q is of
 // no use then. Lanes never mix.
 void solve_static_1(const StaticLanes<1>& lanes, StaticState<1>& state);
+void solve_static_4(const StaticLanes<4>& lanes, StaticState<4>& state);
 void solve_static_8(const StaticLanes<8>& lanes, StaticState<8>& state);
 
 }  // namespace gearpod::lockstep

@@ -39,6 +39,8 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
 
 extern template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                        const FaultCurves&, const TileSettings&);
+extern template TileResult run_tile<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+                                       const FaultCurves&, const TileSettings&);
 extern template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
                                        const FaultCurves&, const TileSettings&);
 

@@ -32,7 +32,8 @@ std::string_view name(InstructionSet set);
 // GEARPOD_KERNEL(march, (State& s, int n), (s, n), march_steps<8>(s, n))
 // defines void march(State&, int), which runs the last argument built for the active instruction
 // set.
-// GEARPOD_NARROW_KERNEL: the same for kernels of one lane, which wider registers cannot help.
+// GEARPOD_NARROW_KERNEL: the same for kernels of one lane, or of four, which fill a 256-bit
+// register: wider registers cannot help either.
 #if defined(__x86_64__)
 #    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                  \
         namespace {                                                                  \

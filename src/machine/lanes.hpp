@@ -7,8 +7,11 @@
 
 namespace gearpod::machine {
 
-// Lanes of a tile on the widest vector unit: 8 doubles fill one 512-bit register.
-inline constexpr int kLanes = 8;
+// The numbers of lanes that kernels are built for: 8 doubles fill a 512-bit register, 4 one of 256
+// bits; 1 is for comparison.
+constexpr bool is_lane_count(int lanes) {
+    return lanes == 8 || lanes == 4 || lanes == 1;
+}
 
 template <typename T>
 struct CacheLineAllocator {

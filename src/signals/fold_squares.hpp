@@ -24,6 +24,7 @@ struct FoldArguments {
 };
 
 void fold_squares_1(const FoldArguments& a);
+void fold_squares_4(const FoldArguments& a);
 void fold_squares_8(const FoldArguments& a);
 
 }  // namespace gearpod::signals

@@ -62,8 +62,10 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     a.pairs = pairs.data();
     a.totals = totals.data();
     a.folded = folded.data();
-    if (tile.lanes == machine::kLanes) {
+    if (tile.lanes == 8) {
         fold_squares_8(a);
+    } else if (tile.lanes == 4) {
+        fold_squares_4(a);
     } else {
         fold_squares_1(a);
     }

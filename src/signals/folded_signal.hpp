@@ -57,7 +57,7 @@ class FoldPlan {
 };
 
 // F in (m/s^2)^2, [b][lane], Z_p P bins, for every lane's path exponent (1/rad^2, one per lane).
-// A lane's values do not depend on its neighbours, and are the same bits for 8 lanes and for 1.
+// A lane's values do not depend on its neighbours, and are the same bits for 8 lanes, 4 and 1.
 // Throws std::invalid_argument if the shapes disagree.
 void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid& path,
                   std::span<const double> path_exponent, machine::AlignedVector& folded);

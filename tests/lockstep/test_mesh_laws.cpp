@@ -153,17 +153,30 @@ TEST_CASE("A loaded train that never separates keeps the linear march's bits") {
     for (const auto motion :
          {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
         MarchPlan plan = train.plan(24, 1200, motion);
-        const auto faults =
-            train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3});
-        const TileResult linear = run_tile<8>(plan, eight_trains(1e-5), faults, {});
+        const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3};
+        const auto faults = train.ring_side_cracks(depths);
+        const auto cracks_of_four = train.ring_side_cracks({depths.begin() + 4, depths.end()});
+        const auto trains = eight_trains(1e-5);
+        const TileResult linear = run_tile<8>(plan, trains, faults, {});
         for (const auto law : {MeshLaw::with_error, MeshLaw::separating}) {
             plan.mesh_law = law;
-            const TileResult other = run_tile<8>(plan, eight_trains(1e-5), faults, {});
+            const TileResult other = run_tile<8>(plan, trains, faults, {});
+            const TileResult four =
+                run_tile<4>(plan, std::span(trains).last(4), cracks_of_four, {});
             CHECK(other.content == linear.content);
             REQUIRE(other.records.size() == linear.records.size());
             for (std::size_t r = 0; r < linear.records.size(); ++r) {
                 CHECK(other.records[r].te == linear.records[r].te);
                 CHECK(other.records[r].acceleration == linear.records[r].acceleration);
+            }
+            REQUIRE(four.content == linear.content);
+            for (std::size_t r = 0; r < four.records.size(); ++r) {
+                const auto &own = four.records[r].acceleration,
+                           &all = linear.records[r].acceleration;
+                REQUIRE(2 * own.size() == all.size());
+                for (std::size_t i = 0; i < own.size(); ++i) {
+                    CHECK(own[i] == all[8 * (i / 4) + 4 + i % 4]);
+                }
             }
         }
     }

@@ -103,8 +103,8 @@ const BadFile kBadFiles[] = {
      "must ascend"},
     {"noise_levels = [0, 0.5, 1]", "noise_levels = []", "noise_levels", "sensor.noise_levels",
      "is an empty list"},
-    {"[operation]", "[numerics]\nlanes = 4\n[operation]", "lanes", "numerics.lanes",
-     "must be 8 or 1, but is 4"},
+    {"[operation]", "[numerics]\nlanes = 2\n[operation]", "lanes", "numerics.lanes",
+     "must be 8, 4 or 1, but is 2"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
      "not below half of sampling_Hz"},
     // Missing.

@@ -21,9 +21,10 @@ std::vector<std::string> with(std::vector<std::string> overrides, const std::str
 
 }  // namespace
 
-TEST_CASE("One lane or eight, one thread or two, any instruction set: the same bits") {
+TEST_CASE("One lane, four or eight, one thread or two, any instruction set: the same bits") {
     const auto reference = bits(test::run(shipped_study("planet-crack.toml", kSmall)));
-    for (const char* change : {"numerics.lanes=1", "numerics.threads=1", "numerics.threads=2"}) {
+    for (const char* change :
+         {"numerics.lanes=1", "numerics.lanes=4", "numerics.threads=1", "numerics.threads=2"}) {
         INFO(change);
         CHECK(bits(test::run(shipped_study("planet-crack.toml", with(kSmall, change)))) ==
               reference);

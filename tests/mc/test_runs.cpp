@@ -70,7 +70,7 @@ void await_tiles(const std::string& part, std::uintmax_t before) {
 
 }  // namespace
 
-TEST_CASE("One to four ranks, one or two threads, one lane or eight: the same bits") {
+TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     for (const int ranks : {1, 2, 3, 4}) {
@@ -83,7 +83,8 @@ TEST_CASE("One to four ranks, one or two threads, one lane or eight: the same bi
         CHECK(bits(out) == reference());
         fs::remove(out);
     }
-    for (const char* change : {" --set numerics.lanes=1", " --set numerics.threads=2"}) {
+    for (const char* change :
+         {" --set numerics.lanes=1", " --set numerics.lanes=4", " --set numerics.threads=2"}) {
         INFO(change);
         CHECK(test::program(run_of(out) + change).code == 0);
         CHECK(bits(out) == reference());

@@ -122,25 +122,30 @@ TEST_CASE("A planet tooth weakened on both sides meets sun and ring half a turn 
     CHECK(te.folded.empty());
 }
 
-TEST_CASE("Fixed-shaft, quasi-static and pitch-error scenes give the same bits in one lane or 8") {
+TEST_CASE(
+    "Fixed-shaft, quasi-static and pitch-error scenes give the same bits in 1, 4 and 8 lanes") {
     const std::vector<std::vector<std::string>> changes{
         {},
         {"random.gearbox.gear_mass_kg={distribution='uniform', low=2.5, high=3}",
          "sensor.tones=[{frequency_Hz=360, amplitude_m_s2=2}, {frequency_Hz=20.5, "
          "amplitude_m_s2=0.3}]"}};
     for (const auto& change : changes) {
-        auto one = change;
-        one.push_back("numerics.lanes=1");
-        CHECK(feature_bits(study_of(kFixedShaftStudy, change)) ==
-              feature_bits(study_of(kFixedShaftStudy, one)));
+        const auto eight = feature_bits(study_of(kFixedShaftStudy, change));
+        for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
+            auto narrow = change;
+            narrow.push_back(lanes);
+            CHECK(feature_bits(study_of(kFixedShaftStudy, narrow)) == eight);
+        }
     }
     const std::vector<std::string> pitch{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
     const auto perfect = feature_bits(study_of(kQuasiStaticStudy));
     const auto eight = feature_bits(study_of(kQuasiStaticStudy, pitch));
-    auto lane = pitch;
-    lane.push_back("numerics.lanes=1");
-    CHECK(feature_bits(study_of(kQuasiStaticStudy, lane)) == eight);
-    CHECK(feature_bits(study_of(kQuasiStaticStudy, {"numerics.lanes=1"})) == perfect);
+    for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
+        auto narrow = pitch;
+        narrow.push_back(lanes);
+        CHECK(feature_bits(study_of(kQuasiStaticStudy, narrow)) == eight);
+        CHECK(feature_bits(study_of(kQuasiStaticStudy, {lanes})) == perfect);
+    }
     CHECK(eight != perfect);
 }
 

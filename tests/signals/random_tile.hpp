@@ -1,12 +1,22 @@
 // A tile of random mesh periods, for tests of the signal chain.
 #pragma once
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::signals {
+
+// `count` of eight lanes, from lane `first` on.
+inline machine::AlignedVector lanes_of(const machine::AlignedVector& eight, int first, int count) {
+    machine::AlignedVector part(eight.size() / 8 * count);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        part[i] = eight[i / count * 8 + first + i % count];
+    }
+    return part;
+}
 
 struct RandomTile {
     std::vector<machine::AlignedVector> accel, te;
@@ -29,6 +39,14 @@ struct RandomTile {
             }
             signals.accel.push_back(accel[mesh].data());
             signals.te.push_back(te[mesh].data());
+        }
+    }
+    // `count` lanes of a tile of eight, from lane `first` on.
+    RandomTile(const RandomTile& other, int first, int count)
+        : RandomTile(count, other.signals.planets, other.signals.phases, other.signals.meshes()) {
+        for (std::size_t mesh = 0; mesh < accel.size(); ++mesh) {
+            std::ranges::copy(lanes_of(other.accel[mesh], first, count), accel[mesh].begin());
+            std::ranges::copy(lanes_of(other.te[mesh], first, count), te[mesh].begin());
         }
     }
     RandomTile(const RandomTile&) = delete;

@@ -119,7 +119,9 @@ TEST_CASE("Without tones the folded squares keep their bits") {
     CHECK(plain == none);
 }
 
-TEST_CASE("A gearbox with tones folds to the same bits alone and on every instruction set") {
+TEST_CASE(
+    "A gearbox with tones folds to the same bits alone, among four or eight and on every "
+    "instruction set") {
     const RandomTile tile(8, 4, 12, 5);
     const SpanLayout layout{31, 81, 81};
     const FoldPlan plan(event_timeline(31, 2, 4), layout);
@@ -133,27 +135,18 @@ TEST_CASE("A gearbox with tones folds to the same bits alone and on every instru
         machine::AlignedVector folded;
         fold_squares(tile.signals, plan, path, kExponents, tones, folded);
         CHECK(folded == reference);
+        for (const auto& [first, count] : {std::pair{0, 4}, {4, 4}, {5, 1}}) {
+            const RandomTile part(tile, first, count);
+            const Tones own{lanes_of(tones.mesh_period_s, first, count),
+                            lanes_of(tones.frequency_Hz, first, count),
+                            lanes_of(tones.amplitude_m_s2, first, count),
+                            lanes_of(tones.phase_rad, first, count)};
+            fold_squares(part.signals, plan, path, std::span(kExponents).subspan(first, count), own,
+                         folded);
+            CHECK(folded == lanes_of(reference, first, count));
+        }
     }
     machine::use_instruction_set(best);
-
-    const int lane = 5;
-    RandomTile alone(1, 4, 12, 5);
-    for (int mesh = 0; mesh < 5; ++mesh) {
-        copy_lane(tile.accel[mesh], 8, lane, alone.accel[mesh]);
-    }
-    Tones own{{tones.mesh_period_s[lane]}, {}, {}, {}};
-    for (const int i : {lane, 8 + lane, 16 + lane}) {
-        own.frequency_Hz.push_back(tones.frequency_Hz[i]);
-        own.amplitude_m_s2.push_back(tones.amplitude_m_s2[i]);
-        own.phase_rad.push_back(tones.phase_rad[i]);
-    }
-    machine::AlignedVector folded;
-    fold_squares(alone.signals, plan, path, std::vector{kExponents[lane]}, own, folded);
-    bool same = true;
-    for (std::size_t b = 0; b < folded.size(); ++b) {
-        same = same && folded[b] == reference[b * 8 + lane];
-    }
-    CHECK(same);
 }
 
 TEST_CASE("The synthesized time signal has the tones, whole and in parts, and folds to the bits") {
