@@ -7,12 +7,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/clopper_pearson.hpp"
+#include "analysis/false_alarm_rate.hpp"
 #include "analysis/threshold.hpp"
 #include "analysis/wilson.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
@@ -74,13 +77,15 @@ void count(DetectionCell& cell, double value, double threshold, Alarm alarm) {
 // Without a threshold there is no rate, but the gearboxes are still counted.
 void rate(DetectionCell& cell, bool has_threshold, double confidence) {
     if (!has_threshold || cell.tested == 0) {
-        cell.pd = cell.lower = cell.upper = std::numeric_limits<double>::quiet_NaN();
+        cell.pd = cell.lower = cell.upper = kNan;
+        cell.exact = {kNan, kNan};
         return;
     }
     const Interval bounds = wilson_interval(cell.detected, cell.tested, confidence);
     cell.pd = static_cast<double>(cell.detected) / static_cast<double>(cell.tested);
     cell.lower = bounds.lower;
     cell.upper = bounds.upper;
+    cell.exact = clopper_pearson_interval(cell.detected, cell.tested, confidence);
 }
 
 std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
@@ -90,6 +95,61 @@ std::vector<double> column(const FeatureSample& sample, std::size_t level, std::
         values.push_back(sample.values[i * levels + level]);
     }
     return values;
+}
+
+// The cell of the graded gearboxes without a fault, or nullptr.
+const DetectionCell* healthy_cell(const LevelDetection& level) {
+    return !level.cells.empty() && level.cells.front().size.high_m == 0.0 ? &level.cells.front()
+                                                                          : nullptr;
+}
+
+void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
+    level.threshold_rate = threshold_rate_interval(level.threshold_sample, request.false_alarm_rate,
+                                                   request.confidence);
+    level.healthy_rate = kNan;
+    level.healthy_rate_bounds = level.expected_rate = {kNan, kNan};
+    if (std::isnan(level.threshold)) {
+        return;
+    }
+    const DetectionCell* healthy = healthy_cell(level);
+    const long alarms = healthy != nullptr ? healthy->detected : 0;
+    const long tested = healthy != nullptr ? healthy->tested : 0;
+    const HealthyRate rate = healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms,
+                                          tested, request.confidence);
+    level.healthy_rate = rate.rate;
+    level.healthy_rate_bounds = rate.bounds;
+    level.expected_rate =
+        expected_rate_interval(level.threshold_sample, alarms, tested, request.confidence);
+}
+
+void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
+                  std::vector<std::string>& warnings) {
+    const double rate = request.false_alarm_rate;
+    if (level.threshold_rate.upper > 2.0 * rate) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} healthy gearboxes fix the false-alarm rate of {:g} "
+                        "only to within "
+                        "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
+                        level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
+                        level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+    }
+    // A warning in a thousand tables, not in twenty.
+    constexpr double kSurprising = 0.999;
+    const DetectionCell* healthy = healthy_cell(level);
+    if (healthy == nullptr || std::isnan(level.threshold)) {
+        return;
+    }
+    const Interval expected = expected_rate_interval(level.threshold_sample, healthy->detected,
+                                                     healthy->tested, kSurprising);
+    if (expected.lower > rate || expected.upper < rate) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} of {} graded healthy gearboxes alarm, which a false-alarm rate "
+            "of "
+            "{:g} does not explain even with the threshold's own scatter (it would be in "
+            "[{:.2g}, {:.2g}])",
+            level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
+            expected.upper));
+    }
 }
 
 void warn(const LevelDetection& level, std::size_t healthy, double rate,
@@ -141,7 +201,9 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         for (DetectionCell& cell : level.cells) {
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
+        rate_healthy(level, request);
         warn(level, healthy.fault_size_m.size(), request.false_alarm_rate, result.warnings);
+        warn_of_rate(level, request, result.warnings);
         result.levels.push_back(std::move(level));
     }
     if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {

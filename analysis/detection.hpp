@@ -1,10 +1,12 @@
 // Detection rates: alarms per fault size at a threshold taken from an independent healthy sample.
-// MIL-HDBK-1823A, section 4; intervals: Wilson (1927).
+// MIL-HDBK-1823A, section 4; intervals: Wilson (1927), Clopper and Pearson (1934).
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
+
+#include "analysis/interval.hpp"
 
 namespace gearpod::analysis {
 
@@ -12,7 +14,7 @@ namespace gearpod::analysis {
 enum class Alarm { high, low };
 
 // One group of gearboxes whose fault sizes lie in [low_m, high_m]; both are equal for a fixed
-// level.
+// level. SI: metres if the size is a length, else the pure number (see SizeUnit).
 struct SizeGroup {
     double low_m = 0.0;
     double high_m = 0.0;
@@ -27,6 +29,7 @@ struct DetectionCell {
     double pd = 0.0;     // detected / tested; NaN if none was tested
     double lower = 0.0;  // Wilson bounds at the confidence asked for
     double upper = 0.0;
+    Interval exact = {};  // Clopper-Pearson bounds, wider
 };
 
 // One feature at one noise level.
@@ -36,6 +39,14 @@ struct LevelDetection {
     long threshold_sample = 0;         // healthy gearboxes that set it
     long threshold_alarms = 0;         // of these, how many lie beyond it
     std::vector<DetectionCell> cells;  // ascending size
+    // What the healthy sample alone says of this threshold's false-alarm rate, whatever the
+    // feature's distribution (false_alarm_rate.hpp).
+    Interval threshold_rate;
+    // The same with the graded healthy gearboxes, and the expected rate over repeated studies that
+    // they speak for, with the threshold's own scatter; NaN without graded healthy gearboxes.
+    double healthy_rate = 0.0;
+    Interval healthy_rate_bounds;
+    Interval expected_rate;
 };
 
 struct FeatureDetection {
@@ -45,11 +56,19 @@ struct FeatureDetection {
     std::vector<std::string> warnings;   // e.g. a threshold sample too small for the rate asked for
 };
 
+// How a fault size is called and shown: shown = SI value / per_unit.
+struct SizeUnit {
+    std::string name = "crack depth";
+    std::string unit = "mm";  // "" or "1" for a pure number
+    double per_unit = 1e-3;   // SI value of one unit shown
+};
+
 struct DetectionRequest {
     double false_alarm_rate = 0.05;
     double confidence = 0.95;
     std::vector<double> noise_levels;
     std::vector<SizeGroup> groups;  // ascending; from levels or from edges
+    SizeUnit size = {};
 };
 
 // Values of one feature for one set of gearboxes, row-major: values[i * levels + level].

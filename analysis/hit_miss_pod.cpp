@@ -1,0 +1,162 @@
+#include "analysis/hit_miss_pod.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kLackOfFit = 0.05;
+
+// Why no curve can be fitted to these outcomes at all, or "".
+std::string outcome_refusal(const HitMissTable& table) {
+    if (table.empty()) {
+        return "no faulty gearbox gave a value";
+    }
+    const double hits = total_hits(table);
+    if (hits == 0.0) {
+        return "no faulty gearbox was detected: not reached at any tested size";
+    }
+    if (hits == total_tests(table)) {
+        return "every faulty gearbox was detected: a90 lies below the smallest tested size";
+    }
+    if (table.size() < 2) {
+        return "one fault size only, a curve needs two at least";
+    }
+    return {};
+}
+
+// The maximum of the likelihood without a floor exists only if hits and misses overlap:
+// A. Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
+bool separated(const HitMissTable& table) {
+    const double smallest_miss = [&] {
+        for (const HitMissRow& row : table) {
+            if (row.hits < row.tests) {
+                return row.size;
+            }
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    }();
+    double largest_hit = std::numeric_limits<double>::quiet_NaN();
+    for (const HitMissRow& row : table) {
+        if (row.hits > 0.0) {
+            largest_hit = row.size;
+        }
+    }
+    return smallest_hit(table) >= largest_miss(table) || smallest_miss >= largest_hit;
+}
+
+struct Fitted {
+    HitMissFit fit;
+    PodLikelihood::Maximum maximum;
+};
+
+Fitted fit_form(const HitMissTable& table, const PodForm& form) {
+    Fitted result;
+    HitMissFit& fit = result.fit;
+    fit.curve.form = form;
+    fit.log_likelihood = fit.aic = std::numeric_limits<double>::quiet_NaN();
+    fit.refusal = outcome_refusal(table);
+    if (!fit.refusal.empty()) {
+        return result;
+    }
+    if (form.floor == 0.0 && !form.free_ceiling && separated(table)) {
+        fit.refusal = "hits and misses do not overlap, any slope from some value on fits";
+        return result;
+    }
+    if (static_cast<int>(table.size()) < form.parameters()) {
+        fit.refusal = "fewer sizes than parameters";
+        return result;
+    }
+    const PodLikelihood likelihood(table, form);
+    std::optional<PodLikelihood::Parameters> start;
+    if (form.free_ceiling) {
+        PodForm without = form;
+        without.free_ceiling = false;
+        start = PodLikelihood(table, without).maximise().parameters;
+        (*start)[2] = 0.98;
+    }
+    result.maximum = likelihood.maximise(start);
+    const PodLikelihood::Maximum& maximum = result.maximum;
+    fit.curve = likelihood.curve(maximum.parameters);
+    fit.log_likelihood = maximum.log_likelihood;
+    fit.aic = 2.0 * form.parameters() - 2.0 * maximum.log_likelihood;
+    if (likelihood.sizes_in_transition(maximum.parameters) < 2) {
+        fit.refusal = "the rate steps up between two tested sizes, any steeper slope fits as well";
+    } else if (!maximum.converged) {
+        fit.refusal = "the likelihood has no maximum within reach";
+    } else if (form.free_ceiling && fit.curve.ceiling >= 1.0 - 1e-9) {
+        fit.refusal = "the ceiling is 1";
+    } else {
+        fit.fit = goodness_of_fit(table, fit.curve);
+    }
+    return result;
+}
+
+std::vector<PodForm> forms(double floor) {
+    std::vector<PodForm> all;
+    for (const Link link : {Link::logit, Link::probit}) {
+        for (const bool log_size : {false, true}) {
+            all.push_back({link, log_size, 0.0, false});
+            if (floor > 0.0) {
+                all.push_back({link, log_size, floor, false});
+            }
+            all.push_back({link, log_size, floor, true});
+        }
+    }
+    return all;
+}
+
+std::vector<double> band_sizes(const HitMissPod& pod, int points) {
+    std::vector<double> sizes;
+    for (int i = 0; i < points; ++i) {
+        sizes.push_back(pod.smallest + (pod.largest - pod.smallest) * i / (points - 1));
+    }
+    return sizes;
+}
+
+}  // namespace
+
+HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form) {
+    return fit_form(table, form).fit;
+}
+
+HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request) {
+    HitMissPod pod;
+    pod.tests = std::lround(total_tests(table));
+    pod.hits = std::lround(total_hits(table));
+    pod.smallest = table.empty() ? 0.0 : table.front().size;
+    pod.largest = table.empty() ? 0.0 : table.back().size;
+    pod.refusal = outcome_refusal(table);
+    if (!pod.refusal.empty()) {
+        return pod;
+    }
+    std::optional<Fitted> best;
+    for (const PodForm& form : forms(request.floor)) {
+        const Fitted fitted = fit_form(table, form);
+        pod.candidates.push_back(fitted.fit);
+        if (fitted.fit.refusal.empty() && (!best || fitted.fit.aic < best->fit.aic)) {
+            best = fitted;
+        }
+    }
+    if (!best) {
+        pod.refusal = pod.candidates.front().refusal;
+        return pod;
+    }
+    pod.chosen = best->fit;
+    if (!(best->fit.curve.slope > 0.0)) {
+        pod.refusal = "the rate does not rise with the fault size";
+        return pod;
+    }
+    pod.doubtful = best->fit.fit.p_value < kLackOfFit;
+    const PodLikelihood likelihood(table, best->fit.curve.form);
+    pod.a50 = size_bounds(table, likelihood, best->maximum, 0.5, request.confidence);
+    pod.a90 = size_bounds(table, likelihood, best->maximum, 0.9, request.confidence);
+    pod.band = pod_band(likelihood, best->maximum, band_sizes(pod, request.band_points),
+                        request.confidence);
+    return pod;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,47 @@
+// Hit/miss POD of one feature at one noise level (MIL-HDBK-1823A, appendix G.3; ASTM E2862): logit
+// and probit, on size and on log size, each with floor 0 and ceiling 1, with the healthy gearboxes'
+// rate as floor, and with a ceiling fitted besides; the curve of least AIC is taken
+// (H. Akaike, IEEE Trans. Autom. Control 19 (1974), 716-723).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/goodness_of_fit.hpp"
+#include "analysis/pod_bounds.hpp"
+
+namespace gearpod::analysis {
+
+// One form's maximum likelihood fit, or why there is none.
+struct HitMissFit {
+    PodCurve curve;
+    double log_likelihood = 0.0;  // without the binomial coefficients
+    double aic = 0.0;
+    GoodnessOfFit fit;
+    std::string refusal;  // empty if fitted
+};
+
+struct HitMissPod {
+    long tests = 0;  // faulty gearboxes with a value
+    long hits = 0;
+    double smallest = 0.0, largest = 0.0;  // sizes tested
+    std::string refusal;                   // why there is no curve, empty if there is one
+    HitMissFit chosen;
+    std::vector<HitMissFit> candidates;
+    SizeBounds a50, a90;         // a90.upper is a90/95 at a confidence of 95 %
+    std::vector<PodPoint> band;  // over the tested sizes
+    bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
+};
+
+struct HitMissRequest {
+    double floor = 0.0;        // the healthy gearboxes' rate; 0: only curves without floor
+    double confidence = 0.95;  // of each one-sided bound
+    int band_points = 21;
+};
+
+// One form alone; for comparison with other programs and for coverage.
+HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form);
+
+HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request);
+
+}  // namespace gearpod::analysis
