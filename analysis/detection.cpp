@@ -7,16 +7,14 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/clopper_pearson.hpp"
 #include "analysis/false_alarm_rate.hpp"
+#include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
-#include "analysis/wilson.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
     if (sample.values.size() != sample.fault_size_m.size() * levels) {
@@ -36,56 +34,6 @@ void check_request(const DetectionRequest& request) {
             throw std::invalid_argument("detection: the size groups must ascend");
         }
     }
-}
-
-// A fixed level takes its own size (up to a unit conversion's rounding). A range takes its lower
-// edge and leaves the upper one to the next group, unless no group begins there.
-std::size_t group_of(double size_m, const std::vector<SizeGroup>& groups) {
-    constexpr double kSameSize = 1e-9;
-    std::size_t found = kNoGroup;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        const double slack = kSameSize * std::abs(groups[g].high_m);
-        const bool level = groups[g].low_m == groups[g].high_m;
-        const double low = level ? groups[g].low_m - slack : groups[g].low_m;
-        const double high = level ? groups[g].high_m + slack : groups[g].high_m;
-        if (size_m >= low && size_m <= high) {
-            found = g;
-        }
-    }
-    return found;
-}
-
-std::vector<std::size_t> groups_of(std::span<const double> sizes_m,
-                                   const std::vector<SizeGroup>& groups) {
-    std::vector<std::size_t> out;
-    out.reserve(sizes_m.size());
-    for (const double size_m : sizes_m) {
-        out.push_back(group_of(size_m, groups));
-    }
-    return out;
-}
-
-void count(DetectionCell& cell, double value, double threshold, Alarm alarm) {
-    if (!std::isfinite(value)) {
-        ++cell.failed;
-        return;
-    }
-    ++cell.tested;
-    cell.detected += is_alarm(value, threshold, alarm) ? 1 : 0;
-}
-
-// Without a threshold there is no rate, but the gearboxes are still counted.
-void rate(DetectionCell& cell, bool has_threshold, double confidence) {
-    if (!has_threshold || cell.tested == 0) {
-        cell.pd = cell.lower = cell.upper = kNan;
-        cell.exact = {kNan, kNan};
-        return;
-    }
-    const Interval bounds = wilson_interval(cell.detected, cell.tested, confidence);
-    cell.pd = static_cast<double>(cell.detected) / static_cast<double>(cell.tested);
-    cell.lower = bounds.lower;
-    cell.upper = bounds.upper;
-    cell.exact = clopper_pearson_interval(cell.detected, cell.tested, confidence);
 }
 
 std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
