@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/clopper_pearson.hpp"
 #include "analysis/false_alarm_rate.hpp"
 #include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
@@ -51,9 +52,17 @@ const DetectionCell* healthy_cell(const LevelDetection& level) {
                                                                           : nullptr;
 }
 
+// Healthy values that equal the threshold raise no alarm: the rate is then below the order
+// statistic's, by an amount that the sample does not tell.
+bool tied(const LevelDetection& level, const DetectionRequest& request) {
+    const long rank = threshold_rank(level.threshold_sample, request.false_alarm_rate);
+    return level.threshold_alarms < level.threshold_sample - rank;
+}
+
 void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
-    level.threshold_rate = threshold_rate_interval(level.threshold_sample, request.false_alarm_rate,
-                                                   request.confidence);
+    const double confidence = request.confidence;
+    level.threshold_rate =
+        threshold_rate_interval(level.threshold_sample, request.false_alarm_rate, confidence);
     level.healthy_rate = kNan;
     level.healthy_rate_bounds = level.expected_rate = {kNan, kNan};
     if (std::isnan(level.threshold)) {
@@ -62,12 +71,20 @@ void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
     const DetectionCell* healthy = healthy_cell(level);
     const long alarms = healthy != nullptr ? healthy->detected : 0;
     const long tested = healthy != nullptr ? healthy->tested : 0;
-    const HealthyRate rate = healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms,
-                                          tested, request.confidence);
+    if (tied(level, request)) {
+        level.threshold_rate.lower = 0.0;
+        const long k = tested > 0 ? alarms : level.threshold_alarms;
+        const long n = tested > 0 ? tested : level.threshold_sample;
+        level.healthy_rate = static_cast<double>(k) / static_cast<double>(n);
+        level.healthy_rate_bounds = clopper_pearson_interval(k, n, confidence);
+        return;
+    }
+    const HealthyRate rate =
+        healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms, tested, confidence);
     level.healthy_rate = rate.rate;
     level.healthy_rate_bounds = rate.bounds;
     level.expected_rate =
-        expected_rate_interval(level.threshold_sample, alarms, tested, request.confidence);
+        expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
 }
 
 void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
@@ -80,6 +97,13 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                         "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
                         level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
                         level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+    }
+    if (!std::isnan(level.threshold) && tied(level, request)) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: healthy gearboxes share the threshold's value, the feature is "
+            "constant there or nearly so; the false-alarm rate is below {:g}",
+            level.noise_level, rate));
+        return;
     }
     // A warning in a thousand tables, not in twenty.
     constexpr double kSurprising = 0.999;

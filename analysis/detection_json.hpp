@@ -9,10 +9,12 @@
 
 namespace gearpod::analysis {
 
-// {"false_alarm_rate", "confidence", "features": [{"name", "alarm", "warnings": [...],
-//   "levels": [{"noise_level", "threshold", "threshold_sample", "threshold_alarms",
-//     "reliable_size_m": [low, high] or null, "sizes": [{"size_low_m", "size_high_m", "tested",
-//     "detected", "failed", "pd", "lower", "upper"}]}]}]}; lengths in metres.
+// {"false_alarm_rate", "confidence", "size": {"name", "unit", "per_unit"},
+//   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
+//     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "healthy_rate",
+//     "healthy_rate_bounds", "expected_rate", "reliable_size_m": [low, high] or null,
+//     "sizes": [{"size_low_m", "size_high_m", "tested", "detected", "failed", "pd", "lower",
+//     "upper", "exact": [lower, upper]}]}]}]}; sizes are SI values.
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request);
 

@@ -21,10 +21,14 @@ constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
 constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
 constexpr double kReliablePd = 0.9;
 
-std::string size_text(const SizeGroup& size) {
-    return size.low_m == size.high_m
-               ? fmt::format("{:.4g}", 1e3 * size.high_m)
-               : fmt::format("{:.4g}-{:.4g}", 1e3 * size.low_m, 1e3 * size.high_m);
+std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
+    const double low = size.low_m / unit.per_unit, high = size.high_m / unit.per_unit;
+    return low == high ? fmt::format("{:.4g}", high) : fmt::format("{:.4g}-{:.4g}", low, high);
+}
+
+// "mm", or "" for a pure number.
+std::string unit_text(const SizeUnit& unit) {
+    return unit.unit == "1" ? std::string() : unit.unit;
 }
 
 std::string rate_text(const DetectionCell& cell) {
@@ -68,20 +72,25 @@ long most_failed(Features features, std::size_t level, std::size_t cell) {
     return failed;
 }
 
-void add_level(std::string& out, Features features, std::size_t n) {
+void add_level(std::string& out, Features features, std::size_t n, const SizeUnit& unit) {
     add_row(out,
-            fmt::format("{:<{}}{:>{}}{:>{}}", "size mm", kSizeWidth, "boxes", kCountWidth, "failed",
-                        kCountWidth),
+            fmt::format("{:<{}}{:>{}}{:>{}}", "size " + unit_text(unit), kSizeWidth, "boxes",
+                        kCountWidth, "failed", kCountWidth),
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
     add_row(out, "healthy sample: alarms/boxes", features, [n](const FeatureDetection& f) {
         return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
     });
+    add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
+        const Interval& rate = f.levels[n].threshold_rate;
+        return std::isnan(rate.lower) ? std::string("-")
+                                      : fmt::format("[{:.3f}, {:.3f}]", rate.lower, rate.upper);
+    });
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const std::string label =
-            fmt::format("{:<{}}{:>{}}{:>{}}", size_text(cells[c].size), kSizeWidth,
+            fmt::format("{:<{}}{:>{}}{:>{}}", size_text(cells[c].size, unit), kSizeWidth,
                         cells[c].tested + cells[c].failed, kCountWidth, most_failed(features, n, c),
                         kCountWidth);
         add_row(out, label, features,
@@ -89,13 +98,17 @@ void add_level(std::string& out, Features features, std::size_t n) {
     }
 }
 
-void add_reliable_sizes(std::string& out, Features features) {
+void add_reliable_sizes(std::string& out, Features features, const SizeUnit& unit) {
     add_row(out, "noise", features, [](const FeatureDetection& f) { return f.feature; });
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
         add_row(out, fmt::format("x {:g}", features.front().levels[n].noise_level), features,
-                [n](const FeatureDetection& f) {
+                [n, &unit](const FeatureDetection& f) {
                     const auto size = reliable_size(f.levels[n], kReliablePd);
-                    return size ? size_text(*size) + " mm" : std::string("not reached");
+                    if (!size) {
+                        return std::string("not reached");
+                    }
+                    const std::string shown = unit_text(unit);
+                    return size_text(*size, unit) + (shown.empty() ? "" : " " + shown);
                 });
     }
 }
@@ -142,12 +155,12 @@ std::string detection_text(Features features, const DetectionRequest& request) {
         100.0 * request.confidence, 100.0 * request.false_alarm_rate);
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
         out += fmt::format("\nNoise x {:g}\n", features.front().levels[n].noise_level);
-        in_blocks(out, features, [&](Features block) { add_level(out, block, n); });
+        in_blocks(out, features, [&](Features block) { add_level(out, block, n, request.size); });
     }
     out += fmt::format(
         "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
         kReliablePd);
-    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block); });
+    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block, request.size); });
     add_warnings(out, features);
     return out;
 }

@@ -1,6 +1,5 @@
 #include "analysis/regression_line.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -94,8 +93,9 @@ CheckResult linearity_check(std::span<const double> x, std::span<const double> y
     const double line_squares = sum_of_squares(residuals(x, y, line));
     const auto sizes = static_cast<double>(groups.size());
     const double freedom = static_cast<double>(x.size()) - sizes;
-    // Replicated: as many repeats as sizes at least.
-    if (groups.size() < 3 || freedom < sizes) {
+    constexpr double kReplicates =
+        5.0;  // points an x, on average; with fewer the F test sees little
+    if (groups.size() < 3 || static_cast<double>(x.size()) < kReplicates * sizes) {
         return quadratic_term(x, y, line, line_squares);
     }
     double pure = 0.0;
@@ -138,7 +138,8 @@ CheckResult normality_check(std::span<const double> x, std::span<const double> y
         const double high = link_probability(Link::probit, -values[values.size() - 1 - i] / sd);
         sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(low) + std::log(high));
     }
-    const double a = (-n - sum / n) * (1.0 + 0.75 / n + 2.25 / (n * n));
+    const double statistic = -n - sum / n;
+    const double a = statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
     double p = 0.0;
     if (a < 0.2) {
         p = 1.0 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
@@ -149,7 +150,7 @@ CheckResult normality_check(std::span<const double> x, std::span<const double> y
     } else if (a < 13.0) {  // beyond, the formula no longer falls
         p = std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
     }
-    return {"Anderson-Darling", a, p};
+    return {"Anderson-Darling", statistic, p};
 }
 
 }  // namespace gearpod::analysis

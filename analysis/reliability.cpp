@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/reliable_size.hpp"
 #include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
 
@@ -86,10 +87,46 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     } else {
         level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);
     }
+    level.tested_size = reliable_size(detection, 0.9);
     return level;
 }
 
 }  // namespace
+
+std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level) {
+    using Where = SizeEstimate::Where;
+    const LevelReliability& at = feature.levels[level];
+    const HitMissPod& pod = at.hit_miss;
+    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
+        const bool inside = pod.a90.upper.where == Where::reached;
+        return SmallestFault{feature.feature, inside ? pod.a90.upper.size : pod.smallest, true};
+    }
+    if (at.tested_size) {
+        return SmallestFault{feature.feature, at.tested_size->high_m, false};
+    }
+    return std::nullopt;
+}
+
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
+    std::optional<SmallestFault> least;
+    const auto consider = [&](const FeatureReliability& feature) {
+        const auto found = smallest_fault(feature, level);
+        if (found && (!least || found->size < least->size)) {
+            least = found;
+        }
+    };
+    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
+        for (const FeatureReliability& feature : reliability.features) {
+            if (feature.feature == rank.name) {
+                consider(feature);
+            }
+        }
+    }
+    for (const FeatureReliability& feature : reliability.features) {
+        consider(feature);
+    }
+    return least;
+}
 
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,

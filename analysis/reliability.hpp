@@ -2,6 +2,7 @@
 // decides the misses, for every feature and noise level.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct LevelReliability {
     std::vector<Auc>
         auc_by_size;  // in the order of the request's groups; no faulty ones in one at 0
     MissSensitivity misses;
+    std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
 };
 
 struct FeatureReliability {
@@ -51,6 +53,19 @@ struct ReliabilityData {
     std::vector<InputColumn> inputs;         // of the graded gearboxes
     std::vector<ConditionColumn> condition;  // at most one
 };
+
+// The smallest fault that a feature finds with a probability of 90 % at the confidence asked for:
+// a90's upper bound where the curve fits, else the smallest tested size that the rates alone
+// vouch for, from which on their lower bounds stay at 0.9 or more.
+struct SmallestFault {
+    std::string feature;
+    double size = 0.0;
+    bool from_curve = false;
+};
+std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level);
+
+// Of all features, the least; of equal ones the better ranked.
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the
 // threshold sample and the graded ones of size 0.

@@ -65,7 +65,7 @@ TEST_CASE("The detection table is aligned and at most 120 columns wide") {
     }
     // Rows of one block are equally long: cells are aligned to their column's right edge.
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].starts_with("size mm")) {
+        if (all[i].starts_with("size mm ")) {
             for (std::size_t row = 1; row <= 6; ++row) {
                 CHECK(all[i + row].size() == all[i].size());
             }
