@@ -53,7 +53,8 @@ struct Fitted {
     PodLikelihood::Maximum maximum;
 };
 
-Fitted fit_form(const HitMissTable& table, const PodForm& form) {
+// `start`: the maximum of a form with fewer terms of its own, if there is one.
+Fitted fit_form(const HitMissTable& table, const PodForm& form, const Fitted* start = nullptr) {
     Fitted result;
     HitMissFit& fit = result.fit;
     fit.curve.form = form;
@@ -71,14 +72,15 @@ Fitted fit_form(const HitMissTable& table, const PodForm& form) {
         return result;
     }
     const PodLikelihood likelihood(table, form);
-    std::optional<PodLikelihood::Parameters> start;
-    if (form.free_ceiling) {
+    std::optional<PodLikelihood::Parameters> from;
+    if (start != nullptr && start->fit.refusal.empty()) {
+        from = start->maximum.parameters;
+    } else if (form.free_ceiling) {
         PodForm without = form;
         without.free_ceiling = false;
-        start = PodLikelihood(table, without).maximise().parameters;
-        (*start)[2] = 0.98;
+        from = PodLikelihood(table, without).maximise().parameters;
     }
-    result.maximum = likelihood.maximise(start);
+    result.maximum = likelihood.maximise(from);
     const PodLikelihood::Maximum& maximum = result.maximum;
     fit.curve = likelihood.curve(maximum.parameters);
     fit.log_likelihood = maximum.log_likelihood;
@@ -133,9 +135,12 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     if (!pod.refusal.empty()) {
         return pod;
     }
-    std::optional<Fitted> best;
+    std::optional<Fitted> best, last;
     for (const PodForm& form : forms(request.floor)) {
-        const Fitted fitted = fit_form(table, form);
+        const bool more = last && last->fit.curve.form.link == form.link &&
+                          last->fit.curve.form.log_size == form.log_size;
+        const Fitted fitted = fit_form(table, form, more ? &*last : nullptr);
+        last = fitted;
         pod.candidates.push_back(fitted.fit);
         if (fitted.fit.refusal.empty() && (!best || fitted.fit.aic < best->fit.aic)) {
             best = fitted;

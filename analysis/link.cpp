@@ -7,21 +7,27 @@
 
 namespace gearpod::analysis {
 
-double link_probability(Link link, double eta) {
+LinkValues link_values(Link link, double eta) {
+    const double away = std::abs(eta);
+    double small = 0.0, density = 0.0;
     if (link == Link::logit) {
-        // Without cancellation for small probabilities.
-        const double e = std::exp(-std::abs(eta));
-        return (eta > 0.0 ? 1.0 : e) / (1.0 + e);
+        const double e = std::exp(-away);
+        small = e / (1.0 + e);
+        density = small / (1.0 + e);
+    } else {
+        small = 0.5 * std::erfc(away / std::numbers::sqrt2);
+        density = std::exp(-0.5 * eta * eta) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
     }
-    return 0.5 * std::erfc(-eta / std::numbers::sqrt2);
+    return eta > 0.0 ? LinkValues{1.0 - small, small, density}
+                     : LinkValues{small, 1.0 - small, density};
+}
+
+double link_probability(Link link, double eta) {
+    return link_values(link, eta).up;
 }
 
 double link_density(Link link, double eta) {
-    if (link == Link::logit) {
-        const double e = std::exp(-std::abs(eta));
-        return e / ((1.0 + e) * (1.0 + e));
-    }
-    return std::exp(-0.5 * eta * eta) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+    return link_values(link, eta).density;
 }
 
 double link_quantile(Link link, double probability) {

@@ -122,6 +122,8 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
     Profile profile(likelihood, maximum, confidence);
     const Eigen::Matrix2d information = maximum.information.topLeftCorner<2, 2>();
     const Eigen::LDLT<Eigen::Matrix2d> solver(information);
+    const double least = maximum.log_likelihood - 0.5 * profile.limit() * profile.limit();
+    PodLikelihood::Parameters extremes[] = {maximum.parameters, maximum.parameters};
     std::vector<PodPoint> band;
     for (const double size : sizes) {
         const double u = likelihood.standardised(size);
@@ -135,6 +137,12 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
         const double start = std::isfinite(se) && se > 0.0 ? 1.2 * profile.limit() * se : 0.5;
         for (const double sign : {-1.0, 1.0}) {
+            double& bound = sign < 0.0 ? point.lower : point.upper;
+            if (const auto extreme = likelihood.extreme_zeta(u, least, sign < 0.0 ? -1 : 1,
+                                                             extremes[sign < 0.0 ? 0 : 1])) {
+                bound = pod_of(*extreme);
+                continue;
+            }
             profile.restart();
             const auto beyond = [&](double at) { return profile.beyond(u, pod_of(at)); };
             double inside = zeta, at_inside = -profile.limit();
@@ -145,8 +153,7 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                 }
                 const double value = beyond(outside);
                 if (value > 0.0) {
-                    (sign < 0.0 ? point.lower : point.upper) =
-                        pod_of(crossing(beyond, inside, outside, at_inside, value));
+                    bound = pod_of(crossing(beyond, inside, outside, at_inside, value));
                     break;
                 }
                 inside = outside;

@@ -50,25 +50,45 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
         const double eta = link_quantile(form_.link, (through->pod - floor) / rise);
         eta_by_ceiling = -(through->pod - floor) / (rise * rise * link_density(form_.link, eta));
     }
-    Slopes slopes;
+    // Plain sums: this loop is nearly all of the time of a report.
+    double value = 0.0, s0 = 0.0, s1 = 0.0, s2 = 0.0;
+    double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
+    const double origin = through ? through->u : 0.0;
     for (std::size_t i = 0; i < table_.size(); ++i) {
         const HitMissRow& row = table_[i];
-        const double eta = parameters[0] + parameters[1] * u_[i];
-        const double up = link_probability(form_.link, eta);
-        const double down = link_probability(form_.link, -eta);
-        const double hit = floor + rise * up;
-        const double miss = (1.0 - ceiling) + rise * down;
-        slopes.value += term(row.hits, hit) + term(row.tests - row.hits, miss);
+        const LinkValues link = link_values(form_.link, parameters[0] + parameters[1] * u_[i]);
+        const double hit = floor + rise * link.up;
+        const double miss = (1.0 - ceiling) + rise * link.down;
+        value += term(row.hits, hit) + term(row.tests - row.hits, miss);
         if (hit * miss < kTiny) {
             continue;
         }
-        const double by_eta = rise * link_density(form_.link, eta);
-        const Parameters gradient{through ? 0.0 : by_eta,
-                                  by_eta * (through ? u_[i] - through->u : u_[i]),
-                                  form_.free_ceiling ? up + by_eta * eta_by_ceiling : 0.0};
         const double weight = 1.0 / (hit * miss);
-        slopes.score += (row.hits - row.tests * hit) * weight * gradient;
-        slopes.information += row.tests * weight * gradient * gradient.transpose();
+        const double left = (row.hits - row.tests * hit) * weight;
+        const double by_eta = rise * link.density;
+        const double by_slope = by_eta * (u_[i] - origin);
+        const double bend = row.tests * weight;
+        s0 += left * by_eta;
+        s1 += left * by_slope;
+        i00 += bend * by_eta * by_eta;
+        i01 += bend * by_eta * by_slope;
+        i11 += bend * by_slope * by_slope;
+        if (form_.free_ceiling) {
+            const double by_ceiling = link.up + by_eta * eta_by_ceiling;
+            s2 += left * by_ceiling;
+            i02 += bend * by_eta * by_ceiling;
+            i12 += bend * by_slope * by_ceiling;
+            i22 += bend * by_ceiling * by_ceiling;
+        }
+    }
+    Slopes slopes;
+    slopes.value = value;
+    slopes.score = {s0, s1, s2};
+    slopes.information << i00, i01, i02, i01, i11, i12, i02, i12, i22;
+    if (through) {  // the intercept is not free
+        slopes.score[0] = 0.0;
+        slopes.information.row(0).setZero();
+        slopes.information.col(0).setZero();
     }
     return slopes;
 }
@@ -159,6 +179,44 @@ PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
         parameters[2] = 0.5 * (1.0 + pod);
     }
     return ascend(parameters, Point{u, pod});
+}
+
+std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
+                                                  Parameters& start) const {
+    constexpr int kMostSteps = 30;
+    constexpr double kSettled = 1e-6;  // of a standard error; the next move is far smaller
+    const double floor = form_.floor;
+    Parameters parameters = start;
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Slopes here = evaluate(parameters, std::nullopt);
+        // Gradient of zeta; it is eta itself with a ceiling of 1.
+        const double rise = parameters[2] - floor;
+        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
+        const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
+        const double scale = (1.0 - floor) * link_density(form_.link, zeta);
+        const double by_eta = form_.free_ceiling ? rise * at.density / scale : 1.0;
+        const Parameters gradient{by_eta, by_eta * u, form_.free_ceiling ? at.up / scale : 0.0};
+        Eigen::Matrix3d system = here.information;
+        if (!form_.free_ceiling) {
+            system(2, 2) = 1.0;
+        }
+        const Eigen::LDLT<Eigen::Matrix3d> solver(system);
+        // The extreme of zeta where the quadratic model of the log likelihood keeps its value.
+        const Parameters to_top = solver.solve(here.score);
+        const Parameters along = solver.solve(gradient);
+        const double height = here.value + 0.5 * here.score.dot(to_top) - log_likelihood;
+        const double length = std::sqrt(std::max(0.0, 2.0 * height / gradient.dot(along)));
+        const Parameters move = to_top + side * length * along;
+        if (!move.allFinite() || parameters[2] + move[2] > 1.0) {
+            return std::nullopt;
+        }
+        parameters += move;
+        if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
+            start = parameters;
+            return zeta;
+        }
+    }
+    return std::nullopt;
 }
 
 PodCurve PodLikelihood::curve(const Parameters& parameters) const {

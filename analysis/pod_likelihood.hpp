@@ -36,6 +36,13 @@ class PodLikelihood {
     // Among the curves with POD = `pod` at u; floor < pod < 1. `start` as a free maximum gives it.
     Maximum maximise_through(double u, double pod, const Parameters& start) const;
 
+    // Where among the curves no less likely than `log_likelihood` the POD at u is least (side -1)
+    // or most (side 1): its transform zeta, POD = floor + (1 - floor) F(zeta), from `start`. By
+    // quadratic programs after D. J. Venzon, S. H. Moolgavkar, Appl. Stat. 37 (1988), 87-94. Empty
+    // if they do not settle; `start` is left at the extreme curve.
+    std::optional<double> extreme_zeta(double u, double log_likelihood, int side,
+                                       Parameters& start) const;
+
     PodCurve curve(const Parameters& parameters) const;
 
     // Sizes at which the curve is neither at its floor nor at its ceiling: the slope is only

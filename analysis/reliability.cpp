@@ -1,6 +1,7 @@
 #include "analysis/reliability.hpp"
 
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 
 #include "analysis/reliable_size.hpp"
@@ -145,17 +146,37 @@ Reliability assess_reliability(const ReliabilityData& data,
                 {data.graded_size, feature.graded}, condition, request));
         }
     }
-    for (std::size_t n = 0; n < levels; ++n) {
-        std::vector<LevelValues> values;
-        std::vector<RankedFeature> ranked;
-        for (const FeatureColumns& feature : data.features) {
-            values.push_back(level_values(data, feature, group, request.groups.size(), n, levels));
+    const std::size_t features = data.features.size();
+    std::vector<LevelValues> values(features * levels);
+    for (std::size_t f = 0; f < features; ++f) {
+        result.features[f].levels.resize(levels);
+        for (std::size_t n = 0; n < levels; ++n) {
+            values[f * levels + n] =
+                level_values(data, data.features[f], group, request.groups.size(), n, levels);
         }
-        for (std::size_t f = 0; f < data.features.size(); ++f) {
-            const FeatureColumns& feature = data.features[f];
-            ranked.push_back({feature.name, feature.alarm, values[f].healthy, values[f].faulty});
-            result.features[f].levels.push_back(assess_level(
-                data, feature, values[f], detections[f].levels[n], request.confidence));
+    }
+    // Each entry on its own: the same numbers whatever the threads.
+    std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t f = i / levels, n = i % levels;
+        try {
+            result.features[f].levels[n] = assess_level(
+                data, data.features[f], values[i], detections[f].levels[n], request.confidence);
+        } catch (...) {
+#pragma omp critical(gearpod_reliability)
+            failure = std::current_exception();
+        }
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+    for (std::size_t n = 0; n < levels; ++n) {
+        std::vector<RankedFeature> ranked;
+        for (std::size_t f = 0; f < features; ++f) {
+            const LevelValues& at = values[f * levels + n];
+            ranked.push_back(
+                {data.features[f].name, data.features[f].alarm, at.healthy, at.faulty});
         }
         result.rankings.push_back(rank_features(ranked, request.confidence));
     }

@@ -124,6 +124,25 @@ TEST_CASE("Fits with a floor and a ceiling, and their bounds, agree with a gener
     CHECK(at_two.upper == Approx(0.5785730879).epsilon(1e-6));
 }
 
+TEST_CASE("Every bound of the band lies where the profile deviance is z squared") {
+    const HitMissTable table = levels();
+    const double z = link_quantile(Link::probit, 0.95);
+    for (const bool free : {false, true}) {
+        const PodForm form{Link::probit, true, 0.05, free};
+        const PodLikelihood likelihood(table, form);
+        const auto maximum = likelihood.maximise();
+        for (const PodPoint& point :
+             pod_band(likelihood, maximum, {0.7, 1.0, 1.6, 2.2, 3.0, 4.2}, 0.95)) {
+            for (const double pod : {point.lower, point.upper}) {
+                const auto held = likelihood.maximise_through(likelihood.standardised(point.size),
+                                                              pod, maximum.parameters);
+                CHECK(2.0 * (maximum.log_likelihood - held.log_likelihood) ==
+                      Approx(z * z).epsilon(1e-4));
+            }
+        }
+    }
+}
+
 TEST_CASE("The curve of least AIC keeps the floor and the ceiling that made the data") {
     const HitMissPod pod = hit_miss_pod(levels(), {0.05, 0.95, 9});
     CHECK(pod.refusal == "");
