@@ -41,14 +41,14 @@ struct LevelDetection {
     std::vector<DetectionCell> cells;  // ascending size
     // What the healthy sample alone says of this threshold's false-alarm rate, whatever the
     // feature's distribution (false_alarm_rate.hpp).
-    Interval threshold_rate;
+    Interval threshold_rate = {};
     // The same with the graded healthy gearboxes, and the expected rate over repeated studies that
     // they speak for, with the threshold's own scatter; NaN without graded healthy gearboxes. Where
     // healthy values tie with the threshold, only the upper end of the first holds, the second is
     // the graded ones' Clopper-Pearson interval and the third is NaN.
     double healthy_rate = 0.0;
-    Interval healthy_rate_bounds;
-    Interval expected_rate;
+    Interval healthy_rate_bounds = {};
+    Interval expected_rate = {};
 };
 
 struct FeatureDetection {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kLackOfFit = 0.05;
+constexpr double kSupported = 2.0;  // AIC
 
 // Why no curve can be fitted to these outcomes at all, or "".
 std::string outcome_refusal(const HitMissTable& table) {
@@ -119,6 +122,30 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
     return sizes;
 }
 
+// The first curve's bounds, or those so far widened to one more curve's.
+void add_bounds(HitMissPod& pod, const HitMissTable& table, const Fitted& fitted,
+                const HitMissRequest& request) {
+    const PodLikelihood likelihood(table, fitted.fit.curve.form);
+    const auto bounds = [&](double rate) {
+        return size_bounds(table, likelihood, fitted.maximum, rate, request.confidence);
+    };
+    const SizeBounds a50 = bounds(0.5), a90 = bounds(0.9);
+    const std::vector<PodPoint> band = pod_band(
+        likelihood, fitted.maximum, band_sizes(pod, request.band_points), request.confidence);
+    if (pod.supported++ == 0) {
+        pod.a50 = a50;
+        pod.a90 = a90;
+        pod.band = band;
+        return;
+    }
+    pod.a50 = widest(pod.a50, a50);
+    pod.a90 = widest(pod.a90, a90);
+    for (std::size_t i = 0; i < band.size(); ++i) {
+        pod.band[i].lower = std::min(pod.band[i].lower, band[i].lower);
+        pod.band[i].upper = std::max(pod.band[i].upper, band[i].upper);
+    }
+}
+
 }  // namespace
 
 HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form) {
@@ -135,18 +162,20 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     if (!pod.refusal.empty()) {
         return pod;
     }
-    std::optional<Fitted> best, last;
+    std::vector<Fitted> fitted;
+    const Fitted* best = nullptr;
+    fitted.reserve(forms(request.floor).size());
     for (const PodForm& form : forms(request.floor)) {
-        const bool more = last && last->fit.curve.form.link == form.link &&
-                          last->fit.curve.form.log_size == form.log_size;
-        const Fitted fitted = fit_form(table, form, more ? &*last : nullptr);
-        last = fitted;
-        pod.candidates.push_back(fitted.fit);
-        if (fitted.fit.refusal.empty() && (!best || fitted.fit.aic < best->fit.aic)) {
-            best = fitted;
+        const bool more = !fitted.empty() && fitted.back().fit.curve.form.link == form.link &&
+                          fitted.back().fit.curve.form.log_size == form.log_size;
+        fitted.push_back(fit_form(table, form, more ? &fitted.back() : nullptr));
+        const HitMissFit& fit = fitted.back().fit;
+        pod.candidates.push_back(fit);
+        if (fit.refusal.empty() && (best == nullptr || fit.aic < best->fit.aic)) {
+            best = &fitted.back();
         }
     }
-    if (!best) {
+    if (best == nullptr) {
         pod.refusal = pod.candidates.front().refusal;
         return pod;
     }
@@ -156,11 +185,13 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
         return pod;
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;
-    const PodLikelihood likelihood(table, best->fit.curve.form);
-    pod.a50 = size_bounds(table, likelihood, best->maximum, 0.5, request.confidence);
-    pod.a90 = size_bounds(table, likelihood, best->maximum, 0.9, request.confidence);
-    pod.band = pod_band(likelihood, best->maximum, band_sizes(pod, request.band_points),
-                        request.confidence);
+    add_bounds(pod, table, *best, request);
+    for (const Fitted& other : fitted) {
+        if (&other != best && other.fit.refusal.empty() && other.fit.curve.slope > 0.0 &&
+            other.fit.aic <= best->fit.aic + kSupported) {
+            add_bounds(pod, table, other, request);
+        }
+    }
     return pod;
 }
 

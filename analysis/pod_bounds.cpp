@@ -50,7 +50,7 @@ class Profile {
 template <typename Function>
 double crossing(Function beyond, double inside, double outside, double at_inside, double value) {
     std::uintmax_t steps = 60;
-    const boost::math::tools::eps_tolerance<double> tolerance(28);
+    const boost::math::tools::eps_tolerance<double> tolerance(22);
     const bool up = outside > inside;
     const auto bracket = up ? boost::math::tools::toms748_solve(beyond, inside, outside, at_inside,
                                                                 value, tolerance, steps)
@@ -163,6 +163,23 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         band.push_back(point);
     }
     return band;
+}
+
+SizeBounds widest(const SizeBounds& a, const SizeBounds& b) {
+    // Below the tested sizes < reached < not reached.
+    const auto place = [](const SizeEstimate& estimate) {
+        return estimate.where == Where::below_tested ? -std::numeric_limits<double>::infinity()
+               : estimate.where == Where::reached    ? estimate.size
+                                                     : std::numeric_limits<double>::infinity();
+    };
+    SizeBounds wide = a;
+    if (place(b.lower) < place(a.lower)) {
+        wide.lower = b.lower;
+    }
+    if (place(b.upper) > place(a.upper)) {
+        wide.upper = b.upper;
+    }
+    return wide;
 }
 
 }  // namespace gearpod::analysis

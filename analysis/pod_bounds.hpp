@@ -28,6 +28,9 @@ struct SizeBounds {
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
                        const PodLikelihood::Maximum& maximum, double pod, double confidence);
 
+// a's estimate, between the lower of the lower bounds and the upper of the upper ones.
+SizeBounds widest(const SizeBounds& a, const SizeBounds& b);
+
 struct PodPoint {
     double size = 0.0;
     double pod = 0.0;

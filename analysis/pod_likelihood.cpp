@@ -184,7 +184,7 @@ PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
 std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
                                                   Parameters& start) const {
     constexpr int kMostSteps = 30;
-    constexpr double kSettled = 1e-6;  // of a standard error; the next move is far smaller
+    constexpr double kSettled = 1e-3;  // of a standard error; what the move leaves is its square
     const double floor = form_.floor;
     Parameters parameters = start;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -213,7 +213,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         parameters += move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
             start = parameters;
-            return zeta;
+            return zeta + gradient.dot(move);
         }
     }
     return std::nullopt;

@@ -71,6 +71,7 @@ Json to_json(const HitMissPod& pod) {
     json["largest"] = pod.largest;
     json["refusal"] = text_or_null(pod.refusal);
     json["doubtful"] = pod.doubtful;
+    json["supported"] = pod.supported;
     json["a50"] = pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr);
     json["a90"] = pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr);
     json["band"] = to_json(pod.band);

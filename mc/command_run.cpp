@@ -6,10 +6,12 @@
 #include <filesystem>
 
 #include "analysis/detection_text.hpp"
+#include "analysis/reliability_text.hpp"
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/progress.hpp"
 #include "mc/provenance.hpp"
+#include "mc/reliability_of_results.hpp"
 #include "mc/results_file.hpp"
 
 namespace gearpod::mc {
@@ -94,7 +96,8 @@ int run_command(const RunOptions& options) {
     }
     results.timing.push_back({"output_s", seconds_since(after)});
     if (!options.quiet) {
-        fmt::print("{}\n", analysis::detection_text(results.detection, results.request));
+        fmt::print("{}\n{}\n", analysis::detection_text(results.detection, results.request),
+                   analysis::reliability_text(reliability_of(results, ""), results.request));
         print_failures(results, scene->max_meshes());
         print_times(results, study);
         fmt::print("results: {}\n", out);
