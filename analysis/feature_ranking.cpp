@@ -118,13 +118,4 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
     return ranking;
 }
 
-std::size_t indistinct_from_best(const FeatureRanking& ranking, double level) {
-    if (ranking.ranks.empty()) {
-        return 0;
-    }
-    const std::vector<double>& from_best = ranking.ranks.front().p_values;
-    return static_cast<std::size_t>(std::count_if(from_best.begin(), from_best.end(),
-                                                  [level](double p) { return !(p < level); }));
-}
-
 }  // namespace gearpod::analysis

@@ -38,7 +38,4 @@ struct FeatureRanking {
 // take these from the others.
 FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence);
 
-// How many of the first ranks the best feature cannot be told from at the level, itself included.
-std::size_t indistinct_from_best(const FeatureRanking& ranking, double level);
-
 }  // namespace gearpod::analysis

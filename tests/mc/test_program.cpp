@@ -78,6 +78,10 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
     CHECK(parsed["failed"] == 0);
     CHECK(parsed["detection"]["features"].size() == 7);
     CHECK(parsed["provenance"]["seed"] == "2");
+    CHECK(parsed["reliability"]["features"].size() == 7);
+    const Outcome by = gearpod("report --by gearbox_colour " + out);
+    CHECK(by.code == 2);
+    CHECK(mentions(by, "torque_N_m"));
 }
 
 TEST_CASE("Natural frequencies come as JSON, with the published value") {
