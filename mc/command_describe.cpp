@@ -98,8 +98,10 @@ void print_cost(const Scene& scene) {
                                                               scene.nominal_mesh_frequency_Hz()));
     if (!study.effects.quasi_static()) {
         constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+        const std::string least =
+            scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
         print_entry("steps a mesh period",
-                    fmt::format("{} (at least {}), {}", plan.grid.steps.size(), scene.least_steps(),
+                    fmt::format("{}{}, {}", plan.grid.steps.size(), least,
                                 kIntegrators[static_cast<int>(plan.integrator)]));
     }
     print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",

@@ -218,7 +218,12 @@ class TileMarch {
                 break;
             }
         }
-        mark_unsettled(settled);
+        // Teeth that separate may move without ever repeating; marched mesh by mesh they need not.
+        const bool may_wander =
+            settings_.march_meshes > 0 && plan_.mesh_law == dynamics::MeshLaw::separating;
+        if (!may_wander) {
+            mark_unsettled(settled);
+        }
         state_ = orbit_;
     }
 

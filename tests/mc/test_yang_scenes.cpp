@@ -117,6 +117,27 @@ TEST_CASE("Separating teeth: the response jumps below the linear resonance, and 
     CHECK(wide.deepest_m == Approx(front.deepest_m).epsilon(1e-9));
 }
 
+TEST_CASE("Separating teeth that never repeat are marched mesh by mesh, and only then") {
+    const auto status = [](const char* horizon) {
+        const mc::Scene scene(shipped_study(
+            "yang-separation.toml",
+            {"operation.sun_speed_rpm=5750", std::string("numerics.horizon=\"") + horizon + "\"",
+             "numerics.max_meshes=400"}));
+        return run_one(scene, false, 0);
+    };
+    CHECK(status("reuse").march.status[0] == lockstep::LaneStatus::unsettled);
+    const auto marched = status("march");
+    CHECK(marched.march.status[0] == lockstep::LaneStatus::ok);
+    const auto& records = marched.march.records;
+    double change = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < records[1].te.size(); ++i) {
+        change = std::max(change, std::abs(records[1].te[i] - records[2].te[i]));
+        largest = std::max(largest, std::abs(records[1].te[i]));
+    }
+    CHECK(change > 1e-5 * largest);
+    CHECK(std::isfinite(largest));
+}
+
 TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
     const mc::Scene scene(shipped_study("yang-test-rig.toml"));
     const auto inputs = scene.inputs(mc::Sampler(scene.study()).nominal());
