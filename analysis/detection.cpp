@@ -7,14 +7,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/clopper_pearson.hpp"
+#include "analysis/false_alarm_rate.hpp"
 #include "analysis/size_groups.hpp"
 #include "analysis/threshold.hpp"
-#include "analysis/wilson.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
-constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
     if (sample.values.size() != sample.fault_size.size() * levels) {
@@ -36,37 +37,6 @@ void check_request(const DetectionRequest& request) {
     }
 }
 
-std::vector<std::size_t> groups_of(std::span<const double> sizes,
-                                   const std::vector<SizeGroup>& groups) {
-    std::vector<std::size_t> out;
-    out.reserve(sizes.size());
-    for (const double size : sizes) {
-        out.push_back(group_of(size, groups).value_or(kNoGroup));
-    }
-    return out;
-}
-
-void count(DetectionCell& cell, double value, double threshold, Alarm alarm) {
-    if (!std::isfinite(value)) {
-        ++cell.failed;
-        return;
-    }
-    ++cell.tested;
-    cell.detected += is_alarm(value, threshold, alarm) ? 1 : 0;
-}
-
-// Without a threshold there is no rate, but the gearboxes are still counted.
-void rate(DetectionCell& cell, bool has_threshold, double confidence) {
-    if (!has_threshold || cell.tested == 0) {
-        cell.pd = cell.lower = cell.upper = std::numeric_limits<double>::quiet_NaN();
-        return;
-    }
-    const Interval bounds = wilson_interval(cell.detected, cell.tested, confidence);
-    cell.pd = static_cast<double>(cell.detected) / static_cast<double>(cell.tested);
-    cell.lower = bounds.lower;
-    cell.upper = bounds.upper;
-}
-
 std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
     std::vector<double> values;
     values.reserve(sample.fault_size.size());
@@ -74,6 +44,84 @@ std::vector<double> column(const FeatureSample& sample, std::size_t level, std::
         values.push_back(sample.values[i * levels + level]);
     }
     return values;
+}
+
+// The cell of the graded gearboxes without a fault, or nullptr.
+const DetectionCell* healthy_cell(const LevelDetection& level) {
+    return !level.cells.empty() && level.cells.front().size.high == 0.0 ? &level.cells.front()
+                                                                        : nullptr;
+}
+
+// Healthy values that equal the threshold raise no alarm: the rate is then below the order
+// statistic's, by an amount that the sample does not tell.
+bool tied(const LevelDetection& level, const DetectionRequest& request) {
+    const long rank = threshold_rank(level.threshold_sample, request.false_alarm_rate);
+    return level.threshold_alarms < level.threshold_sample - rank;
+}
+
+void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
+    const double confidence = request.confidence;
+    level.threshold_rate =
+        threshold_rate_interval(level.threshold_sample, request.false_alarm_rate, confidence);
+    level.healthy_rate = kNan;
+    level.healthy_rate_bounds = level.expected_rate = {kNan, kNan};
+    if (std::isnan(level.threshold)) {
+        return;
+    }
+    const DetectionCell* healthy = healthy_cell(level);
+    const long alarms = healthy != nullptr ? healthy->detected : 0;
+    const long tested = healthy != nullptr ? healthy->tested : 0;
+    if (tied(level, request)) {
+        level.threshold_rate.lower = 0.0;
+        const long k = tested > 0 ? alarms : level.threshold_alarms;
+        const long n = tested > 0 ? tested : level.threshold_sample;
+        level.healthy_rate = static_cast<double>(k) / static_cast<double>(n);
+        level.healthy_rate_bounds = clopper_pearson_interval(k, n, confidence);
+        return;
+    }
+    const HealthyRate rate =
+        healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms, tested, confidence);
+    level.healthy_rate = rate.rate;
+    level.healthy_rate_bounds = rate.bounds;
+    level.expected_rate =
+        expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
+}
+
+void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
+                  std::vector<std::string>& warnings) {
+    const double rate = request.false_alarm_rate;
+    if (level.threshold_rate.upper > 2.0 * rate) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} healthy gearboxes fix the false-alarm rate of {:g} "
+                        "only to within "
+                        "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
+                        level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
+                        level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+    }
+    if (!std::isnan(level.threshold) && tied(level, request)) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: healthy gearboxes share the threshold's value, the feature is "
+            "constant there or nearly so; the false-alarm rate is below {:g}",
+            level.noise_level, rate));
+        return;
+    }
+    // A warning in a thousand tables, not in twenty.
+    constexpr double kSurprising = 0.999;
+    const DetectionCell* healthy = healthy_cell(level);
+    if (healthy == nullptr || std::isnan(level.threshold)) {
+        return;
+    }
+    const Interval expected = expected_rate_interval(level.threshold_sample, healthy->detected,
+                                                     healthy->tested, kSurprising);
+    if (expected.lower > rate || expected.upper < rate) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} of {} graded healthy gearboxes alarm, which a false-alarm rate "
+            "of "
+            "{:g} does not explain even with the threshold's own scatter (it would be in "
+            "[{:.2g}, {:.2g}])",
+            level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
+            expected.upper));
+    }
 }
 
 void warn(const LevelDetection& level, std::size_t healthy, double rate,
@@ -125,7 +173,9 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         for (DetectionCell& cell : level.cells) {
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
+        rate_healthy(level, request);
         warn(level, healthy.fault_size.size(), request.false_alarm_rate, result.warnings);
+        warn_of_rate(level, request, result.warnings);
         result.levels.push_back(std::move(level));
     }
     if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {

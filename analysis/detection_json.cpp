@@ -14,10 +14,16 @@ nlohmann::json number(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
+nlohmann::json to_json(const Interval& bounds) {
+    return nlohmann::json::array({number(bounds.lower), number(bounds.upper)});
+}
+
 nlohmann::json to_json(const DetectionCell& cell) {
-    return {{"size_low", cell.size.low},   {"size_high", cell.size.high}, {"tested", cell.tested},
-            {"detected", cell.detected},   {"failed", cell.failed},       {"pd", number(cell.pd)},
-            {"lower", number(cell.lower)}, {"upper", number(cell.upper)}};
+    return {{"size_low", cell.size.low},   {"size_high", cell.size.high},
+            {"tested", cell.tested},       {"detected", cell.detected},
+            {"failed", cell.failed},       {"pd", number(cell.pd)},
+            {"lower", number(cell.lower)}, {"upper", number(cell.upper)},
+            {"exact", to_json(cell.exact)}};
 }
 
 nlohmann::json to_json(const LevelDetection& level) {
@@ -33,6 +39,10 @@ nlohmann::json to_json(const LevelDetection& level) {
             {"threshold", number(level.threshold)},
             {"threshold_sample", level.threshold_sample},
             {"threshold_alarms", level.threshold_alarms},
+            {"threshold_rate", to_json(level.threshold_rate)},
+            {"healthy_rate", number(level.healthy_rate)},
+            {"healthy_rate_bounds", to_json(level.healthy_rate_bounds)},
+            {"expected_rate", to_json(level.expected_rate)},
             {"reliable_size", reliable},
             {"sizes", sizes}};
 }
@@ -54,7 +64,7 @@ nlohmann::json detection_json(std::span<const FeatureDetection> features,
     }
     return {{"false_alarm_rate", request.false_alarm_rate},
             {"confidence", request.confidence},
-            {"size", {{"name", request.size_name}, {"unit", request.size_unit}}},
+            {"size", {{"name", request.size.name}, {"unit", request.size.unit}}},
             {"features", list}};
 }
 

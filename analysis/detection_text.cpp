@@ -21,18 +21,10 @@ constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
 constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
 constexpr double kReliablePd = 0.9;
 
-// How sizes are shown: lengths in mm.
-struct SizeScale {
-    explicit SizeScale(const DetectionRequest& request)
-        : factor(request.size_unit == "m" ? 1e3 : 1.0), unit(factor == 1.0 ? "" : " mm") {}
-    std::string text(const SizeGroup& size) const {
-        return size.low == size.high
-                   ? fmt::format("{:.4g}", factor * size.high)
-                   : fmt::format("{:.4g}-{:.4g}", factor * size.low, factor * size.high);
-    }
-    double factor;
-    std::string unit;
-};
+std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
+    const double low = size.low / unit.per_unit(), high = size.high / unit.per_unit();
+    return low == high ? fmt::format("{:.4g}", high) : fmt::format("{:.4g}-{:.4g}", low, high);
+}
 
 std::string rate_text(const DetectionCell& cell) {
     return std::isnan(cell.pd)
@@ -75,20 +67,25 @@ long most_failed(Features features, std::size_t level, std::size_t cell) {
     return failed;
 }
 
-void add_level(std::string& out, Features features, const SizeScale& scale, std::size_t n) {
+void add_level(std::string& out, Features features, std::size_t n, const SizeUnit& unit) {
     add_row(out,
-            fmt::format("{:<{}}{:>{}}{:>{}}", "size" + scale.unit, kSizeWidth, "boxes", kCountWidth,
-                        "failed", kCountWidth),
+            fmt::format("{:<{}}{:>{}}{:>{}}", "size " + unit.shown_unit(), kSizeWidth, "boxes",
+                        kCountWidth, "failed", kCountWidth),
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
     add_row(out, "healthy sample: alarms/boxes", features, [n](const FeatureDetection& f) {
         return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
     });
+    add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
+        const Interval& rate = f.levels[n].threshold_rate;
+        return std::isnan(rate.lower) ? std::string("-")
+                                      : fmt::format("[{:.3f}, {:.3f}]", rate.lower, rate.upper);
+    });
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const std::string label =
-            fmt::format("{:<{}}{:>{}}{:>{}}", scale.text(cells[c].size), kSizeWidth,
+            fmt::format("{:<{}}{:>{}}{:>{}}", size_text(cells[c].size, unit), kSizeWidth,
                         cells[c].tested + cells[c].failed, kCountWidth, most_failed(features, n, c),
                         kCountWidth);
         add_row(out, label, features,
@@ -96,13 +93,17 @@ void add_level(std::string& out, Features features, const SizeScale& scale, std:
     }
 }
 
-void add_reliable_sizes(std::string& out, Features features, const SizeScale& scale) {
+void add_reliable_sizes(std::string& out, Features features, const SizeUnit& unit) {
     add_row(out, "noise", features, [](const FeatureDetection& f) { return f.feature; });
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
         add_row(out, fmt::format("x {:g}", features.front().levels[n].noise_level), features,
-                [n, &scale](const FeatureDetection& f) {
+                [n, &unit](const FeatureDetection& f) {
                     const auto size = reliable_size(f.levels[n], kReliablePd);
-                    return size ? scale.text(*size) + scale.unit : std::string("not reached");
+                    if (!size) {
+                        return std::string("not reached");
+                    }
+                    const std::string shown = unit.shown_unit();
+                    return size_text(*size, unit) + (shown.empty() ? "" : " " + shown);
                 });
     }
 }
@@ -147,15 +148,14 @@ std::string detection_text(Features features, const DetectionRequest& request) {
         "Detection rates Pd [lower, upper] at {:g} % confidence (Wilson);\n"
         "thresholds for at most {:g} % expected false alarms\n",
         100.0 * request.confidence, 100.0 * request.false_alarm_rate);
-    const SizeScale scale(request);
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
         out += fmt::format("\nNoise x {:g}\n", features.front().levels[n].noise_level);
-        in_blocks(out, features, [&](Features block) { add_level(out, block, scale, n); });
+        in_blocks(out, features, [&](Features block) { add_level(out, block, n, request.size); });
     }
     out += fmt::format(
         "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
         kReliablePd);
-    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block, scale); });
+    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block, request.size); });
     add_warnings(out, features);
     return out;
 }

@@ -5,16 +5,15 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/false_alarm_rate.hpp"
+
 namespace gearpod::analysis {
 
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate) {
     std::erase_if(healthy, [](double value) { return !std::isfinite(value); });
     Threshold threshold;
     threshold.sample = static_cast<long>(healthy.size());
-    // (n+1)(1-rate) is a whole number for the usual rates: keep rounding from adding one to it.
-    constexpr double kRounding = 1e-9;
-    const double exact = static_cast<double>(threshold.sample + 1) * (1.0 - false_alarm_rate);
-    const long rank = std::max(1L, static_cast<long>(std::ceil(exact - kRounding)));
+    const long rank = threshold_rank(threshold.sample, false_alarm_rate);
     if (rank > threshold.sample) {
         threshold.value = std::numeric_limits<double>::quiet_NaN();
         return threshold;

@@ -2,12 +2,9 @@
 // its nominal coverage for small samples and for rates near 0 and 1, where detection rates lie.
 #pragma once
 
-namespace gearpod::analysis {
+#include "analysis/interval.hpp"
 
-struct Interval {
-    double lower = 0.0;
-    double upper = 1.0;
-};
+namespace gearpod::analysis {
 
 // Two-sided, without continuity correction. `confidence` in (0, 1), e.g. 0.95.
 // NaN bounds if tested is 0; throws std::invalid_argument unless 0 <= detected <= tested.

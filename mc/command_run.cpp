@@ -9,6 +9,7 @@
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/provenance.hpp"
+#include "mc/reliability_of_results.hpp"
 #include "mc/row_source.hpp"
 #include "mc/run_agreement.hpp"
 #include "mc/run_report.hpp"
@@ -152,7 +153,7 @@ class Run {
             threads_ += crew.threads;
         }
         const std::string path = results_path(options_);
-        std::string trouble = outcome.failure;
+        std::string trouble = outcome.failure, text;
         const StoredRows rows(*checkpoint_, plan_, outcome.tiles);
         Results all;
         if (trouble.empty()) {
@@ -163,6 +164,10 @@ class Run {
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
+                if (whole && !options_.quiet) {
+                    text = analysis::detection_text(all.detection, all.request) + "\n" +
+                           reliability_text(reliability_of(all, rows, ""), all);
+                }
             } catch (const std::exception& error) {
                 trouble = error.what();
             }
@@ -176,7 +181,7 @@ class Run {
         const RowCounts counts = count_rows(rows);
         checkpoint_->remove();
         if (!options_.quiet) {
-            fmt::print("{}\n", analysis::detection_text(all.detection, all.request));
+            fmt::print("{}\n", text);
             print_failures(counts, scene_.max_meshes());
             print_times(outcome);
             fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,

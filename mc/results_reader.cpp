@@ -109,8 +109,8 @@ class Reader {
         const Hdf5Handle group = open_group(root_, "detection");
         results_.request.false_alarm_rate = read_number(group.get(), ".", "false_alarm_rate");
         results_.request.confidence = read_number(group.get(), ".", "confidence");
-        results_.request.size_name = read_text(group.get(), ".", "size_name");
-        results_.request.size_unit = read_text(group.get(), ".", "size_unit");
+        results_.request.size.name = read_text(group.get(), ".", "size_name");
+        results_.request.size.unit = read_text(group.get(), ".", "size_unit");
         results_.request.noise_levels = results_.noise_levels;
         for (const std::string& name : link_names(group.get())) {
             const Hdf5Handle feature = open_group(group.get(), name);

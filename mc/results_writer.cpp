@@ -147,8 +147,8 @@ void write_detection(hid_t root, const Results& results) {
     const Hdf5Handle group = create_group(root, "detection");
     write_number(group.get(), ".", "false_alarm_rate", results.request.false_alarm_rate);
     write_number(group.get(), ".", "confidence", results.request.confidence);
-    write_text(group.get(), ".", "size_name", results.request.size_name);
-    write_text(group.get(), ".", "size_unit", results.request.size_unit);
+    write_text(group.get(), ".", "size_name", results.request.size.name);
+    write_text(group.get(), ".", "size_unit", results.request.size.unit);
     for (const analysis::FeatureDetection& detection : results.detection) {
         write_feature_detection(group.get(), detection, results.request.groups);
     }

@@ -17,7 +17,7 @@ struct Sample {
 std::size_t size_column(const Results& frame) {
     const auto found =
         std::find_if(frame.parameters.begin(), frame.parameters.end(),
-                     [&](const auto& p) { return p.name == frame.request.size_name; });
+                     [&](const auto& p) { return p.name == frame.request.size.name; });
     return static_cast<std::size_t>(found - frame.parameters.begin());
 }
 

@@ -103,9 +103,11 @@ std::string size_text(const Study& study, const analysis::SizeGroup& group) {
 }
 
 analysis::DetectionRequest detection_request(const Study& study) {
-    return {study.detection.false_alarm_rate, study.detection.confidence,
-            study.sensor.noise_levels,        size_groups(study),
-            fault_size_column(study),         std::string(fault_size_key(study).unit.si_name)};
+    return {study.detection.false_alarm_rate,
+            study.detection.confidence,
+            study.sensor.noise_levels,
+            size_groups(study),
+            {fault_size_column(study), std::string(fault_size_key(study).unit.si_name)}};
 }
 
 std::vector<double> fault_sizes(const Study& study) {

@@ -95,7 +95,8 @@ TEST_CASE("Alarms are counted per size and noise level, failures apart") {
     CHECK((cells[2].tested == 2 && cells[2].detected == 2 && cells[2].failed == 1));
     CHECK(cells[2].lower == Approx(2.0 / (2.0 + 3.841458820694124)));  // n/(n + z^2) at p = 1
     CHECK(result.levels[1].cells[2].detected == 0);
-    CHECK(result.warnings.empty());
+    REQUIRE(result.warnings.size() == 2);  // one a noise level
+    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 100"));
 }
 
 TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
@@ -106,8 +107,9 @@ TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
                                            request_for({{0.0, 1e-3}, {1e-3, 2e-3}}, {1.0}));
     CHECK(result.levels[0].cells[0].tested == 2);
     CHECK(result.levels[0].cells[1].tested == 3);
-    REQUIRE(result.warnings.size() == 1);
-    CHECK_THAT(result.warnings[0], Catch::Contains("1 of 6 gearboxes"));
+    REQUIRE(result.warnings.size() == 2);
+    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy gearboxes fix"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("1 of 6 gearboxes"));
 }
 
 TEST_CASE("A healthy sample too small for the rate gives no rates, and says so") {
@@ -131,8 +133,9 @@ TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported"
         detect("f", Alarm::low, {none, healthy}, {{}, {}}, request_for({{1e-3, 1e-3}}, {1.0}));
     CHECK(result.levels[0].threshold_sample == 19);
     CHECK(result.levels[0].threshold == 1.0);
-    REQUIRE(result.warnings.size() == 1);
+    REQUIRE(result.warnings.size() == 2);
     CHECK_THAT(result.warnings[0], Catch::Contains("1 of 20 healthy"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy gearboxes fix"));
 }
 
 TEST_CASE("Samples and groups that do not fit are refused") {

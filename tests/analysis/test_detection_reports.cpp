@@ -65,7 +65,7 @@ TEST_CASE("The detection table is aligned and at most 120 columns wide") {
     }
     // Rows of one block are equally long: cells are aligned to their column's right edge.
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].starts_with("size mm")) {
+        if (all[i].starts_with("size mm ")) {
             for (std::size_t row = 1; row <= 6; ++row) {
                 CHECK(all[i + row].size() == all[i].size());
             }
@@ -90,7 +90,7 @@ TEST_CASE("The table closes with the reliable sizes or says that they were not r
 
 TEST_CASE("Sizes that are pure numbers are shown as they are, without a unit") {
     DetectionRequest shares = request();
-    shares.size_unit = "1";
+    shares.size.unit = "1";
     const std::string text = detection_text(examples(), shares);
     CHECK_THAT(text, !Catch::Contains("mm"));
     CHECK_THAT(text, Catch::Contains("\n0.0043 "));

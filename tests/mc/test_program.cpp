@@ -6,8 +6,8 @@
 #include "program.hpp"
 
 using gearpod::test::Folder;
-using gearpod::test::program;
 using gearpod::test::Outcome;
+using gearpod::test::program;
 using gearpod::test::study;
 namespace fs = std::filesystem;
 
@@ -38,6 +38,10 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
     CHECK(parsed["failed"] == 0);
     CHECK(parsed["detection"]["features"].size() == 7);
     CHECK(parsed["provenance"]["seed"] == "2");
+    CHECK(parsed["reliability"]["features"].size() == 7);
+    const Outcome by = program("report --by gearbox_colour " + out);
+    CHECK(by.code == 2);
+    CHECK(mentions(by, "torque_N_m"));
 }
 
 TEST_CASE("Natural frequencies come as JSON, with the published value") {

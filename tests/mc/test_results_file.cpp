@@ -99,8 +99,8 @@ TEST_CASE("Results read back as they were written") {
     REQUIRE(back.request.groups.size() == 3);
     CHECK(back.request.groups[2].high == 0.003);
     CHECK(back.request.confidence == 0.95);
-    CHECK(back.request.size_name == "fault_depth_m");
-    CHECK(back.request.size_unit == "m");
+    CHECK(back.request.size.name == "fault_depth_m");
+    CHECK(back.request.size.unit == "m");
     REQUIRE(back.detection.size() == 2);
     CHECK(back.detection[0].feature == "te_rms");
     CHECK(back.detection[1].warnings == r.detection[1].warnings);

@@ -252,9 +252,9 @@ TEST_CASE("Each kind of fault has one size, with its unit") {
         study.fault.kind = kind;
         CHECK(fault_size_column(study) == column);
         CHECK(fault_size_key(study).may_be_random());
-        CHECK(detection_request(study).size_name == column);
+        CHECK(detection_request(study).size.name == column);
         const bool length = std::string_view(column).ends_with("_m");
-        CHECK(detection_request(study).size_unit == (length ? "m" : "1"));
+        CHECK(detection_request(study).size.unit == (length ? "m" : "1"));
     }
     const Study edges = study_of(
         kQuasiStaticStudy, {"random.fault.reduction={distribution='uniform', low=0, high=0.3}",

@@ -1,0 +1,46 @@
+// Straight line by least squares, and the checks that normal theory asks of its residuals.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace gearpod::analysis {
+
+struct RegressionLine {
+    double intercept = 0.0;
+    double slope = 0.0;
+    double sigma = 0.0;  // residual standard deviation, n - 2 degrees of freedom
+    double mean_x = 0.0;
+    double sum_xx = 0.0;  // about the mean
+    long count = 0;
+
+    double at(double x) const { return intercept + slope * x; }
+    // Variance of at(x) in units of sigma^2.
+    double leverage(double x) const;
+};
+
+// x and y of equal length, three at least, x not constant (else std::invalid_argument).
+RegressionLine regression_line(std::span<const double> x, std::span<const double> y);
+
+struct CheckResult {
+    std::string test;
+    double statistic = 0.0;
+    double p_value = 0.0;
+};
+
+// Lack of fit against the means of replicated x, F test (N. R. Draper, H. Smith, Applied Regression
+// Analysis (1998), section 2.1); a quadratic term's F test if x is not replicated.
+CheckResult linearity_check(std::span<const double> x, std::span<const double> y,
+                            const RegressionLine& line);
+
+// T. S. Breusch, A. R. Pagan, Econometrica 47 (1979), 1287-1294, studentised after R. Koenker,
+// J. Econometrics 17 (1981), 107-112: does not presume normal residuals.
+CheckResult constant_variance_check(std::span<const double> x, std::span<const double> y,
+                                    const RegressionLine& line);
+
+// Anderson-Darling with estimated mean and variance: R. B. D'Agostino, M. A. Stephens,
+// Goodness-of-Fit Techniques (1986), table 4.9.
+CheckResult normality_check(std::span<const double> x, std::span<const double> y,
+                            const RegressionLine& line);
+
+}  // namespace gearpod::analysis

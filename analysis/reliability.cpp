@@ -1,0 +1,210 @@
+#include "analysis/reliability.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "analysis/reliable_size.hpp"
+#include "analysis/size_groups.hpp"
+#include "analysis/threshold.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+std::vector<double> column(std::span<const double> values, std::size_t level, std::size_t levels) {
+    std::vector<double> out;
+    for (std::size_t i = level; i < values.size(); i += levels) {
+        out.push_back(values[i]);
+    }
+    return out;
+}
+
+// The values of one feature at one noise level.
+struct LevelValues {
+    std::vector<double> healthy, faulty;       // for areas and ranking
+    std::vector<double> graded;                // all graded gearboxes in order
+    std::vector<std::vector<double>> by_size;  // faulty ones by size group
+};
+
+LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feature,
+                         const std::vector<std::size_t>& group, std::size_t groups,
+                         std::size_t level, std::size_t levels) {
+    LevelValues values;
+    values.healthy = column(feature.healthy, level, levels);
+    values.graded = column(feature.graded, level, levels);
+    values.by_size.resize(groups);
+    for (std::size_t i = 0; i < values.graded.size(); ++i) {
+        if (data.graded_size[i] > 0.0) {
+            values.faulty.push_back(values.graded[i]);
+            if (group[i] != kNoGroup) {
+                values.by_size[group[i]].push_back(values.graded[i]);
+            }
+        } else {
+            values.healthy.push_back(values.graded[i]);
+        }
+    }
+    return values;
+}
+
+HitMissPod hit_miss_of(const ReliabilityData& data, const std::vector<int>& hit,
+                       const LevelDetection& detection, double confidence) {
+    HitMissPod pod;
+    if (std::isnan(detection.threshold)) {
+        pod.refusal = "no threshold";
+        return pod;
+    }
+    std::vector<double> sizes;
+    std::vector<char> outcomes;
+    for (std::size_t i = 0; i < hit.size(); ++i) {
+        if (hit[i] >= 0) {
+            sizes.push_back(data.graded_size[i]);
+            outcomes.push_back(hit[i] == 1 ? 1 : 0);
+        }
+    }
+    return hit_miss_pod(hit_miss_table(sizes, outcomes), {detection.healthy_rate, confidence});
+}
+
+LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns& feature,
+                              const LevelValues& values, const LevelDetection& detection,
+                              double confidence) {
+    LevelReliability level;
+    level.noise_level = detection.noise_level;
+    const bool high = feature.alarm == Alarm::high;
+    level.auc = auc(values.healthy, values.faulty, high, confidence);
+    for (const std::vector<double>& faulty : values.by_size) {
+        level.auc_by_size.push_back(auc(values.healthy, faulty, high, confidence));
+    }
+    std::vector<int> hit;
+    for (const double value : values.graded) {
+        hit.push_back(!std::isfinite(value)                                 ? -1
+                      : is_alarm(value, detection.threshold, feature.alarm) ? 1
+                                                                            : 0);
+    }
+    level.hit_miss = hit_miss_of(data, hit, detection, confidence);
+    level.signal_response = signal_response_pod(data.graded_size, values.graded,
+                                                detection.threshold, feature.alarm, confidence);
+    if (std::isnan(detection.threshold)) {
+        level.misses.refusal = "no threshold";
+    } else {
+        level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);
+    }
+    level.tested_size = reliable_size(detection, 0.9);
+    return level;
+}
+
+// Calls work(0) .. work(count - 1) from as many threads as there are processors; rethrows what one
+// of them threw.
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto take = [&] {
+        for (std::size_t i = next++; i < count; i = next++) {
+            try {
+                work(i);
+            } catch (...) {
+                const std::scoped_lock lock(mutex);
+                failure = std::current_exception();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+        for (std::size_t t = 1; t < std::min(most, count); ++t) {
+            threads.emplace_back(take);
+        }
+        take();
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+}  // namespace
+
+std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level) {
+    using Where = SizeEstimate::Where;
+    const LevelReliability& at = feature.levels[level];
+    const HitMissPod& pod = at.hit_miss;
+    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
+        const bool inside = pod.a90.upper.where == Where::reached;
+        return SmallestFault{feature.feature, inside ? pod.a90.upper.size : pod.smallest, true};
+    }
+    if (at.tested_size) {
+        return SmallestFault{feature.feature, at.tested_size->high, false};
+    }
+    return std::nullopt;
+}
+
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
+    std::optional<SmallestFault> least;
+    const auto consider = [&](const FeatureReliability& feature) {
+        const auto found = smallest_fault(feature, level);
+        if (found && (!least || found->size < least->size)) {
+            least = found;
+        }
+    };
+    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
+        for (const FeatureReliability& feature : reliability.features) {
+            if (feature.feature == rank.name) {
+                consider(feature);
+            }
+        }
+    }
+    for (const FeatureReliability& feature : reliability.features) {
+        consider(feature);
+    }
+    return least;
+}
+
+Reliability assess_reliability(const ReliabilityData& data,
+                               const std::vector<FeatureDetection>& detections,
+                               const DetectionRequest& request) {
+    if (detections.size() != data.features.size()) {
+        throw std::invalid_argument("reliability: one detection a feature is needed");
+    }
+    const std::size_t levels = request.noise_levels.size();
+    const std::vector<std::size_t> group = groups_of(data.graded_size, request.groups);
+    Reliability result;
+    for (const FeatureColumns& feature : data.features) {
+        result.features.push_back({feature.name, feature.alarm, {}});
+        for (const ConditionColumn& condition : data.condition) {
+            result.conditions.push_back(detect_by_condition(
+                feature.name, feature.alarm, {data.healthy_size, feature.healthy},
+                {data.graded_size, feature.graded}, condition, request));
+        }
+    }
+    const std::size_t features = data.features.size();
+    std::vector<LevelValues> values(features * levels);
+    for (std::size_t f = 0; f < features; ++f) {
+        result.features[f].levels.resize(levels);
+        for (std::size_t n = 0; n < levels; ++n) {
+            values[f * levels + n] =
+                level_values(data, data.features[f], group, request.groups.size(), n, levels);
+        }
+    }
+    // Each entry on its own: the same numbers whatever the threads.
+    for_each_index(values.size(), [&](std::size_t i) {
+        const std::size_t f = i / levels, n = i % levels;
+        result.features[f].levels[n] = assess_level(data, data.features[f], values[i],
+                                                    detections[f].levels[n], request.confidence);
+    });
+    for (std::size_t n = 0; n < levels; ++n) {
+        std::vector<RankedFeature> ranked;
+        for (std::size_t f = 0; f < features; ++f) {
+            const LevelValues& at = values[f * levels + n];
+            ranked.push_back(
+                {data.features[f].name, data.features[f].alarm, at.healthy, at.faulty});
+        }
+        result.rankings.push_back(rank_features(ranked, request.confidence));
+    }
+    return result;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,76 @@
+// What a study says of its features as detectors: POD curves, areas under the ROC, ranking and what
+// decides the misses, for every feature and noise level.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/condition_detection.hpp"
+#include "analysis/feature_ranking.hpp"
+#include "analysis/hit_miss_pod.hpp"
+#include "analysis/miss_sensitivity.hpp"
+#include "analysis/signal_response_pod.hpp"
+
+namespace gearpod::analysis {
+
+struct LevelReliability {
+    double noise_level = 0.0;
+    HitMissPod hit_miss;
+    SignalResponsePod signal_response;
+    Auc auc;  // all faulty gearboxes against all healthy ones
+    std::vector<Auc>
+        auc_by_size;  // in the order of the request's groups; no faulty ones in one at 0
+    MissSensitivity misses;
+    std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
+};
+
+struct FeatureReliability {
+    std::string feature;
+    Alarm alarm = Alarm::high;
+    std::vector<LevelReliability> levels;  // ascending noise
+};
+
+struct Reliability {
+    std::vector<FeatureReliability> features;
+    std::vector<FeatureRanking> rankings;  // one a noise level
+    std::vector<ConditionDetection>
+        conditions;  // one a feature; empty if no condition was asked for
+};
+
+struct FeatureColumns {
+    std::string name;
+    Alarm alarm = Alarm::high;
+    std::span<const double> healthy;  // threshold sample, gearboxes x noise levels
+    std::span<const double> graded;
+};
+
+struct ReliabilityData {
+    std::span<const double> healthy_size;  // threshold sample
+    std::span<const double> graded_size;
+    std::vector<FeatureColumns> features;
+    std::vector<InputColumn> inputs;         // of the graded gearboxes
+    std::vector<ConditionColumn> condition;  // at most one
+};
+
+// The smallest fault that a feature finds with a probability of 90 % at the confidence asked for:
+// a90's upper bound where the curve fits, else the smallest tested size that the rates alone
+// vouch for, from which on their lower bounds stay at 0.9 or more.
+struct SmallestFault {
+    std::string feature;
+    double size = 0.0;
+    bool from_curve = false;
+};
+std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level);
+
+// Of all features, the least; of equal ones the better ranked.
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
+
+// `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the
+// threshold sample and the graded ones of size 0.
+Reliability assess_reliability(const ReliabilityData& data,
+                               const std::vector<FeatureDetection>& detections,
+                               const DetectionRequest& request);
+
+}  // namespace gearpod::analysis

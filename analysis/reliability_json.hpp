@@ -1,0 +1,27 @@
+// POD curves, areas, ranking, misses and detection by condition as JSON. Numbers that do not exist
+// are null; refusals are texts beside them, null where there is none.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "analysis/reliability.hpp"
+
+namespace gearpod::analysis {
+
+// {"size": {"name", "unit"}, "confidence",
+//  "levels": [{"noise_level", "smallest_fault": {"feature", "size", "from_curve"} or null,
+//    "ranking": {"healthy", "faulty", "refusal", "left_out",
+//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}}],
+//  "features": [{"name", "alarm", "levels": [{"noise_level",
+//    "hit_miss": {"tests", "hits", "smallest", "largest", "refusal", "doubtful", "supported",
+//    "model", "link",
+//      "log_size", "floor", "ceiling", "intercept", "slope", "aic", "fit", "a50", "a90",
+//      "band": {"size", "pod", "lower", "upper"}, "candidates": [...]},
+//    "signal_response": {...}, "auc": {...}, "auc_by_size": [...], "misses": {...}}]}],
+//  "conditions": [...]}
+// Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
+// the bounds one-sided. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
+// or its natural logarithm.
+nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
+
+}  // namespace gearpod::analysis

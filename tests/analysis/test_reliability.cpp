@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "analysis/reliability_json.hpp"
+#include "analysis/reliability_text.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Features over gearboxes at two noise levels: a good one, one without value, one constant, one
+// that finds all and one that finds none.
+struct Study {
+    DetectionRequest request;
+    std::vector<double> healthy_size, graded_size, torque, healthy_torque;
+    std::vector<std::string> names{"good", "failed", "flat", "all", "none"};
+    std::vector<std::vector<double>> healthy{5}, graded{5};
+
+    explicit Study(int healthy_count = 400, int graded_count = 1400) {
+        request.noise_levels = {1.0, 4.0};
+        for (const double size : {0.0, 0.5e-3, 1e-3, 1.5e-3, 2e-3, 3e-3, 4e-3}) {
+            request.groups.push_back({size, size});
+        }
+        std::mt19937_64 engine(31);
+        std::normal_distribution<double> draw;
+        const auto add = [&](std::vector<std::vector<double>>& columns, double size,
+                             double drawn_torque) {
+            for (const double noise : request.noise_levels) {
+                columns[0].push_back(
+                    std::exp(1e3 * size / noise + 0.3 * drawn_torque + draw(engine)));
+                columns[1].push_back(kNan);
+                columns[2].push_back(2.0);
+                columns[3].push_back(draw(engine) + (size > 0.0 ? 100.0 : 0.0));
+                columns[4].push_back(draw(engine) - (size > 0.0 ? 100.0 : 0.0));
+            }
+        };
+        for (int i = 0; i < healthy_count; ++i) {
+            healthy_size.push_back(0.0);
+            healthy_torque.push_back(i % 2);
+            add(healthy, 0.0, healthy_torque.back());
+        }
+        for (int i = 0; i < graded_count; ++i) {
+            graded_size.push_back(request.groups[i % request.groups.size()].high);
+            torque.push_back((i / 7) % 2);
+            add(graded, graded_size.back(), torque.back());
+        }
+    }
+
+    std::vector<FeatureDetection> detections() const {
+        std::vector<FeatureDetection> all;
+        for (std::size_t f = 0; f < names.size(); ++f) {
+            all.push_back(detect(names[f], Alarm::high, {healthy_size, healthy[f]},
+                                 {graded_size, graded[f]}, request));
+        }
+        return all;
+    }
+
+    Reliability assess(bool by_torque = false) const {
+        ReliabilityData data;
+        data.healthy_size = healthy_size;
+        data.graded_size = graded_size;
+        data.inputs = {{"torque", "1", torque}};
+        if (by_torque) {
+            data.condition = {{"torque", "1", healthy_torque, torque}};
+        }
+        for (std::size_t f = 0; f < names.size(); ++f) {
+            data.features.push_back({names[f], Alarm::high, healthy[f], graded[f]});
+        }
+        return assess_reliability(data, detections(), request);
+    }
+};
+
+TEST_CASE("A good feature gets a curve, the others the reason why they have none") {
+    const Study study;
+    const Reliability result = study.assess();
+    REQUIRE(result.features.size() == 5);
+    const LevelReliability& good = result.features[0].levels[0];
+    CHECK(good.hit_miss.refusal == "");
+    CHECK(good.hit_miss.chosen.curve.form.floor >= 0.0);
+    // ln(feature) = a/mm + torque's part + normal scatter: half alarm where the mean meets the
+    // threshold, the 95 % quantile of the healthy ones, about 1.7 + 0.15 in the mean.
+    CHECK(good.hit_miss.a50.estimate.size == Approx(1.7e-3).margin(0.15e-3));
+    CHECK(good.hit_miss.a90.upper.size > good.hit_miss.a90.estimate.size);
+    CHECK(good.signal_response.refusal == "");
+    CHECK(good.signal_response.a90.estimate.size ==
+          Approx(good.hit_miss.a90.estimate.size).margin(0.2e-3));
+    CHECK(good.auc.healthy == 600);
+    CHECK(good.auc.faulty == 1200);
+    CHECK(std::isnan(good.auc_by_size[0].auc));
+    CHECK(good.auc_by_size[6].auc > good.auc_by_size[1].auc);
+    CHECK(good.misses.inputs[0].larger_in_misses < 0.5);  // torque helps detection
+    const auto refusal = [&](std::size_t f) {
+        return result.features[f].levels[0].hit_miss.refusal;
+    };
+    CHECK(refusal(1) == "no threshold");
+    CHECK_THAT(refusal(2), Catch::Contains("no faulty gearbox was detected"));
+    CHECK_THAT(refusal(3), Catch::Contains("every faulty gearbox was detected"));
+    CHECK_THAT(refusal(4), Catch::Contains("no faulty gearbox was detected"));
+    CHECK(result.rankings[0].ranks[0].name == "all");
+    CHECK(result.rankings[0].left_out.size() == 1);
+    CHECK(smallest_fault(result, 0)->feature == "all");
+    CHECK(!smallest_fault(result, 0)->from_curve);
+    CHECK(!smallest_fault(result.features[4], 0));
+}
+
+TEST_CASE("The text says everything within 120 columns and never an invented number") {
+    Study study;
+    study.request.size = {"fault_broken", "1"};
+    const std::string text = reliability_text(study.assess(true), study.request);
+    INFO(text);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        CHECK(line.size() <= 120);
+    }
+    CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf"));
+    CHECK_THAT(text, Catch::Contains("no curve: no threshold"));
+    CHECK_THAT(text, Catch::Contains("smallest fault found with 90 % probability"));
+    CHECK_THAT(text, Catch::Contains("not ranked: failed: no value for 1800 of 1800"));
+    CHECK_THAT(text, Catch::Contains("Thresholds by torque"));
+    CHECK_THAT(text, !Catch::Contains(" mm"));
+    CHECK(text.back() == '\n');
+    CHECK_THAT(reliability_text({}, {}), Catch::Contains("no POD curves"));
+}
+
+TEST_CASE("A handful of gearboxes gets one line, without an area or a rank") {
+    const auto lines = [](const Study& study) {
+        const std::string text = reliability_text(study.assess(), study.request);
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    CHECK(lines(Study(1, 7)) == 1);
+    CHECK(lines(Study(400, 7)) == 1);  // 6 faulty ones
+    CHECK(lines(Study(400, 14)) > 10);
+}
+
+TEST_CASE("The JSON holds curves, bounds and tests, null where there is no number") {
+    const Study study;
+    const auto json =
+        nlohmann::json::parse(reliability_json(study.assess(true), study.request).dump());
+    const auto& good = json["features"][0]["levels"][0];
+    CHECK(good["hit_miss"]["a90"]["upper"]["where"] == "reached");
+    CHECK(good["hit_miss"]["a90"]["upper"]["size"].is_number());
+    CHECK(good["hit_miss"]["refusal"].is_null());
+    CHECK(good["hit_miss"]["band"]["lower"].size() == 21);
+    CHECK(good["signal_response"]["candidates"].size() == 4);
+    CHECK(good["auc_by_size"].size() == 7);
+    const auto& failed = json["features"][1]["levels"][0];
+    CHECK(failed["hit_miss"]["a90"].is_null());
+    CHECK(failed["auc"]["auc"].is_null());
+    CHECK(failed["hit_miss"]["refusal"] == "no threshold");
+    CHECK(json["size"]["unit"] == "m");
+    CHECK(json["levels"][1]["ranking"]["ranks"].size() == 4);
+    CHECK(json["conditions"].size() == 5);
+    CHECK(json["conditions"][0]["levels"][0]["thresholds"].size() == 2);
+}
+
+TEST_CASE("Studies without gearboxes of a kind are stated, not computed") {
+    const std::pair<int, int> counts[] = {{0, 0}, {0, 70}, {50, 0}, {1, 7}, {400, 7}};
+    for (const auto& [healthy, graded] : counts) {
+        Study study(healthy, graded);
+        const Reliability result = study.assess(true);
+        const std::string text = reliability_text(result, study.request);
+        INFO(text);
+        CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf"));
+        const std::string json = reliability_json(result, study.request).dump();
+        CHECK(!json.empty());
+        if (healthy == 0) {
+            CHECK(result.features[0].levels[0].hit_miss.refusal == "no threshold");
+        } else if (graded == 0) {
+            CHECK(!result.features[0].levels[0].hit_miss.refusal.empty());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gearpod::analysis
