@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dynamics/planetary.hpp"
+#include "lin_parker.hpp"
 
 using namespace gearpod::dynamics;
 
@@ -16,15 +17,7 @@ const std::vector<double> kPositions{0, 2.2, 4.0};
 const std::vector<double> kStiffness{5e8, 3e8, 4e8, 7e8, 6e8, 8e8};
 
 PlanetaryInputs inputs() {
-    PlanetaryInputs in;
-    const double masses[] = {5.43, 2.35, 0.40, 0.66};
-    const double inertias[] = {6.29, 3.00, 0.39, 0.61};
-    for (int body = 0; body < body_count; ++body) {
-        in.mass_kg[body] = masses[body];
-        in.inertia_over_r2_kg[body] = inertias[body];
-        in.bearing_stiffness_N_m[body] = 1e8;
-    }
-    in.support_stiffness_N_m = 1e9;
+    PlanetaryInputs in = test_gearbox::lin_parker_inputs();
     in.force_N[sun] = 3000.0;
     in.force_N[carrier] = -2.0 * std::cos(kAlpha) * 3000.0;
     return in;

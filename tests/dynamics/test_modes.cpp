@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "dynamics/planetary.hpp"
+#include "lin_parker.hpp"
 
 using namespace gearpod::dynamics;
+using test_gearbox::lin_parker_inputs;
 
 namespace {
 
@@ -16,19 +18,6 @@ PlanetaryLayout lin_parker_layout(int planets) {
     layout.planets = planets;
     layout.pressure_angle_rad = 24.6 * std::numbers::pi / 180;
     return layout;
-}
-
-PlanetaryInputs lin_parker_inputs() {
-    PlanetaryInputs in;
-    const double masses[] = {5.43, 2.35, 0.40, 0.66};
-    const double inertias[] = {6.29, 3.00, 0.39, 0.61};
-    for (int body = 0; body < body_count; ++body) {
-        in.mass_kg[body] = masses[body];
-        in.inertia_over_r2_kg[body] = inertias[body];
-        in.bearing_stiffness_N_m[body] = 1e8;
-    }
-    in.support_stiffness_N_m = 1e9;
-    return in;
 }
 
 std::vector<double> frequencies(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
