@@ -25,7 +25,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostSamples = 2000;  // of a time signal as drawn
-constexpr std::size_t kMostLines = 1000;    // of a spectrum as drawn
+constexpr std::size_t kMostLines = 500;     // of a spectrum as drawn
+constexpr double kZoomMeshes = 2.5;         // mesh frequencies to either side of the largest line
 constexpr int kStiffnessPoints = 160;       // in a mesh period
 
 // A row of the results file.
@@ -80,19 +81,43 @@ Json time_json(std::span<const double> values, int samples_per_mesh) {
     return json;
 }
 
-// One-sided amplitudes over the whole span, the largest of each stretch of lines.
-Json spectrum_json(const std::vector<double>& signal, double duration_s) {
+// The largest line of each stretch of lines first to last - 1, `resolution_Hz` apart.
+Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_t last,
+                double resolution_Hz) {
+    const auto lines = amplitude.subspan(first, last - first);
+    const auto kept = maxima(lines, kMostLines);
+    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers(lines, kept)}};
+    for (const std::size_t i : kept) {
+        json["frequency_Hz"].push_back(static_cast<double>(first + i) * resolution_Hz);
+    }
+    return json;
+}
+
+// One-sided amplitudes over the whole span.
+std::vector<double> amplitudes_of(const std::vector<double>& signal) {
     signals::OrderSpectrum spectrum(static_cast<int>(signal.size()));
     spectrum.load(signal);
     std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
     spectrum.amplitudes(0.0, amplitude);
-    const std::span<const double> lines(amplitude.begin() + 1, amplitude.end());  // without mean
-    const auto kept = maxima(lines, kMostLines);
-    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers(lines, kept)}};
-    for (const std::size_t i : kept) {
-        json["frequency_Hz"].push_back(static_cast<double>(i + 1) / duration_s);
-    }
-    return json;
+    return amplitude;
+}
+
+// Of the whole band, and around the largest line without noise. `meshes`: lines per mesh
+// frequency.
+Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
+                   std::size_t meshes, double period_s) {
+    const double resolution_Hz = 1.0 / (static_cast<double>(meshes) * period_s);
+    const std::vector<double> without = amplitudes_of(clean), with = amplitudes_of(noisy);
+    const auto top = static_cast<std::size_t>(std::max_element(without.begin() + 1, without.end()) -
+                                              without.begin());
+    const auto reach = static_cast<std::size_t>(kZoomMeshes * static_cast<double>(meshes));
+    const std::size_t first = top > reach ? top - reach : 1;
+    const std::size_t last = std::min(without.size(), top + reach + 1);
+    const auto both = [&](std::size_t from, std::size_t to) {
+        return Json{{"clean", lines_json(without, from, to, resolution_Hz)},
+                    {"noisy", lines_json(with, from, to, resolution_Hz)}};
+    };
+    return {{"whole", both(1, without.size())}, {"zoom", both(first, last)}};
 }
 
 // Both are computed from the same numbers, so they agree bit by bit.
@@ -189,11 +214,10 @@ class Examples {
             clean, draw.along.size(), draw, noise_level() * tile.inputs[0].noise_m_s2, engine);
         const std::size_t turn =
             static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);
-        const double duration_s = period_s * scene_.span_meshes();
         json["sensor"] = {{"clean", time_json({clean.data(), turn}, samples)},
                           {"noisy", time_json({noisy.data(), turn}, samples)}};
-        json["spectrum"] = {{"clean", spectrum_json(clean, duration_s)},
-                            {"noisy", spectrum_json(noisy, duration_s)}};
+        json["spectrum"] =
+            spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing(layout, samples, scene_.study().features.tukey_taper)
             .search(tile.folded, clean_rms);

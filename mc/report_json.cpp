@@ -66,9 +66,19 @@ Json features_json(const Results& frame) {
     return json;
 }
 
-std::string title_of(const Results& frame) {
-    const StudyReading reading = read_study_text(frame.provenance_value("study"), "");
-    return reading.study ? reading.study->title : "";
+// What the noise levels are factors on, as far as the study can still be read.
+Json noise_json(const Results& frame, const std::optional<Study>& study) {
+    Json json{{"levels", frame.noise_levels},
+              {"reference", reference_level(frame.noise_levels)},
+              {"sensor_m_s2", nullptr},
+              {"encoder_rad", nullptr}};
+    if (study) {
+        json["encoder_rad"] = study->sensor.encoder_noise_rad;
+        if (!study->effects.quasi_static()) {
+            json["sensor_m_s2"] = study->sensor.noise_m_s2;
+        }
+    }
+    return json;
 }
 
 }  // namespace
@@ -76,13 +86,13 @@ std::string title_of(const Results& frame) {
 nlohmann::json report_json(const Results& frame, const RowSource& rows,
                            const std::optional<analysis::Reliability>& reliability) {
     Json json = examples_json(frame, rows);
-    json["title"] = title_of(frame);
+    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+    json["title"] = study ? study->title : "";
     json["detection"] = analysis::detection_json(frame.detection, frame.request);
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
     json["features"] = features_json(frame);
-    json["noise"] = {{"levels", frame.noise_levels},
-                     {"reference", reference_level(frame.noise_levels)}};
+    json["noise"] = noise_json(frame, study);
     json["failures"] = failures_json(frame, rows);
     json["gearboxes"] = json["failures"]["gearboxes"];
     json["failed"] = count_rows(rows).failed();
