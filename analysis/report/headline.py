@@ -78,6 +78,8 @@ def influences(misses):
 
 
 def _input_limit(report, found):
+    if not report.reliability:
+        return None
     f = report.feature_number(found["feature"])
     misses = report.reliable(f, report.reference)["misses"]
     if misses["refusal"]:
@@ -99,6 +101,9 @@ def _input_limit(report, found):
 
 
 def _sample_limit(report, found):
+    if not report.reliability:
+        return ("Sizes: the study is too large for detection curves, so this is one of the sizes "
+                "tested, not a size between them.")
     f = report.feature_number(found["feature"])
     pod = report.reliable(f, report.reference)["hit_miss"]
     if not found["from_curve"]:
@@ -167,6 +172,8 @@ def noise_unit(report):
     """What noise x 1 is."""
     given = report.data["noise"]
     texts = []
+    if not given["sensor_m_s2"] and given["encoder_rad"] == 0:
+        return "The study adds no noise. "
     if given["sensor_m_s2"] is not None:
         texts.append(f"{quantity(given['sensor_m_s2'], 'm/s^2')} rms at the sensor")
     if given["encoder_rad"] is not None:
@@ -179,10 +186,12 @@ def facts(report):
     failures = report.data["failures"]
     failed = failures["diverged"] + failures["not_settled"]
     healthy, faulty = report.sample()
+    set_ = any(level["threshold"] is not None for f in report.detection for level in f["levels"])
+    thresholds = (f" Thresholds from an independent healthy sample at a false-alarm rate of "
+                  f"{percent(report.data['detection']['false_alarm_rate'])}." if set_ else "")
     return (f"{noise_unit(report)}{count(failures['gearboxes'])} simulated gearboxes, of which "
             f"{plural(failed, 'failed', 'failed')}; {count(healthy)} healthy and {count(faulty)} "
-            f"faulty ones have values. Thresholds from an independent healthy sample at a "
-            f"false-alarm rate of {percent(report.data['detection']['false_alarm_rate'])}.")
+            f"faulty ones have values.{thresholds}")
 
 
 def html_of(report):

@@ -48,8 +48,8 @@ def _miss_chart(report, page, f):
     axes.set_ylim(len(inputs) - 0.4, -0.6)
     axes.set_xlim(0, 1)
     axes.set_xlabel("Chance that the missed has the larger")
-    axes.set_title(f"{report.names[f]}, {_range(report, found)}: {found['misses']} of "
-                   f"{found['misses'] + found['hits']} missed", fontsize=10, loc="left")
+    figure.suptitle(f"{report.names[f]}, {_range(report, found)}: {found['misses']} of "
+                    f"{found['misses'] + found['hits']} missed", fontsize=10, x=0.01, ha="left")
     texts = [f"{input_name(i['name'], i['unit'])} {number(i['larger_in_misses'], 2)}"
              for i in influences(found)]
     return to_svg(figure, f"Inputs of the gearboxes that {report.names[f]} misses",

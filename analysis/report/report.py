@@ -30,7 +30,15 @@ class Report:
         return self.names.index(name)
 
     def smallest_fault(self, level):
-        return self.reliability["levels"][level]["smallest_fault"] if self.reliability else None
+        if self.reliability:
+            return self.reliability["levels"][level]["smallest_fault"]
+        # Without curves: from which tested size on the rates alone vouch for a feature.
+        tested = [(feature["levels"][level]["reliable_size"][1], feature["name"])
+                  for feature in self.detection if feature["levels"][level]["reliable_size"]]
+        if not tested:
+            return None
+        size, name = min(tested)
+        return {"feature": name, "size": size, "from_curve": False}
 
     def unit(self, name):
         return self.data["features"][self.feature_number(name)]["unit"]
@@ -74,7 +82,4 @@ class Report:
         if min(healthy, faulty) < FEWEST:
             return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; fewer than "
                     f"{FEWEST} of a kind say too little of detection to be judged.")
-        if not self.reliability:
-            return ("The study is too large for detection curves on this page; its detection rates "
-                    "stand below.")
         return None

@@ -13,8 +13,9 @@ def detection(report, page):
     body = ""
     if report.reliability and report.silence() is None:
         body += detection_figures.pod(report, page)
-    elif report.silence():
-        body += note(report.silence())
+    else:
+        body += note(report.silence() or "No detection curves, areas and ranking: they need the "
+                     "values of all gearboxes at once, and this study has too many.")
     tested = any(c["tested"] for f in report.detection for level in f["levels"]
                  for c in level["sizes"])
     if tested:

@@ -9,15 +9,15 @@ def escape(text):
 
 
 def number(value, digits=3):
-    """Significant digits, without an exponent where that stays short; "not known" for none."""
+    """Significant digits, the whole part in full; an exponent only where that is shorter."""
     if value is None or not math.isfinite(value):
         return "–"
     if value == 0:
         return "0"
     size = math.floor(math.log10(abs(value)))
     if -4 <= size < 6:
-        rounded = round(value, digits - 1 - size)
-        text = f"{rounded:.{max(0, digits - 1 - size)}f}"
+        decimals = max(0, digits - 1 - size)
+        text = f"{round(value, decimals):.{decimals}f}"
         if "." in text:
             text = text.rstrip("0").rstrip(".")
         return text.replace("-", "−")
