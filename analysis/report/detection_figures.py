@@ -1,9 +1,11 @@
 """Probability of detection, ROC, detection rates over noise, ranking of the features."""
 
 from blocks import note, table
-from charts import (INK, MUTED, PAPER, RULE, colour, dash, legend_below, marker, panel, shade,
-                    to_svg)
+from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
+                    panel, shade, to_svg)
 from words import (joined, noise, number, p_value, percent, rate, rate_with_bounds)
+
+MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
 
 def _limits(axes, report):
@@ -81,8 +83,8 @@ def _pod_table(report, n):
 def _rate_table(report, f):
     head = ["size"] + [f"× {number(level)}" for level in report.levels]
     rows = []
-    for i, cell in enumerate(report.cells(f, 0)):
-        row = [report.sizes.group(cell["size_low"], cell["size_high"])]
+    for i, group in enumerate(report.cells(f, 0)):
+        row = [report.sizes.group(group["size_low"], group["size_high"])]
         for n in range(len(report.levels)):
             c = report.cells(f, n)[i]
             row.append(rate_with_bounds(c["pd"], c["lower"], c["upper"])
@@ -179,13 +181,9 @@ def heat_maps(report, page):
         figure, axes = panel(0.95 + 0.36 * len(cells))
         axes.grid(False)
         for n, row in enumerate(cells):
-            for i, cell in enumerate(row):
-                known = cell["pd"] is not None
-                fill = _heat(cell["pd"]) if known else RULE
-                axes.add_patch(_square(i, n, fill))
-                dark = known and cell["pd"] > 0.55
-                axes.text(i + 0.5, n + 0.5, rate(cell["pd"]) if known else "–", ha="center",
-                          va="center", fontsize=9, color="#fefefe" if dark else "#1b1f24")
+            for i, c in enumerate(row):
+                known = c["pd"] is not None
+                cell(axes, i, n, between(MISSED, FOUND, c["pd"]) if known else GAP, rate(c["pd"]))
         axes.set_xlim(0, max(1, len(sizes)))
         axes.set_ylim(0, max(1, len(cells)))
         axes.set_xticks([i + 0.5 for i in range(len(sizes))], sizes,
@@ -205,17 +203,6 @@ def heat_maps(report, page):
            "found. The column of size 0, where there is one, holds false alarms.")
     return page.figure("Detection rate over noise and fault size", charts, how,
                        "".join(_rate_table(report, f) for f in report.order(report.reference)))
-
-
-def _heat(value):
-    """White to dark blue, whatever the scheme: the numbers stand on it."""
-    low, high = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
-    return tuple(a + value * (b - a) for a, b in zip(low, high))
-
-
-def _square(column, row, fill):
-    from matplotlib.patches import Rectangle
-    return Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill, edgecolor="none")
 
 
 def roc(report, page):
