@@ -1,5 +1,7 @@
 """Probability of detection, ROC, detection rates over noise, ranking of the features."""
 
+import math
+
 from blocks import note, table
 from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
                     panel, shade, to_svg)
@@ -95,7 +97,8 @@ def _rate_table(report, f):
 
 def _comparison(report, page):
     n = report.reference
-    figure, axes = panel(4.1)
+    columns = 2 if max(len(name) for name in report.names) < 20 else 1
+    figure, axes = panel(3.3 + 0.2 * math.ceil(len(report.names) / columns))
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for position, f in enumerate(report.order(n)):
         level = report.reliable(f, n)
@@ -111,7 +114,7 @@ def _comparison(report, page):
                       textcoords="offset points", fontsize=9, color=INK,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
     _limits(axes, report)
-    legend_below(axes, 2, handlelength=2.8)
+    legend_below(axes, columns, handlelength=2.8)
     about = "; ".join(_state(report, f, n) for f in report.order(n))
     svg = to_svg(figure, f"Probability of detection of every feature at "
                  f"{noise(report.levels[n])}", about, page.names)
