@@ -31,6 +31,13 @@ Scene::Scene(const Study& study)
     build_plan();
 }
 
+void Scene::settle_to(double tolerance) {
+    study_.numerics.settle_tolerance = tolerance;
+    if (!study_.effects.quasi_static()) {
+        max_meshes_ = choose_max_meshes(study_, stepping_.decay_meshes);
+    }
+}
+
 std::vector<double> Scene::mean_pairs() const {
     std::vector<double> k;
     for (const SceneMesh& mesh : meshes_) {

@@ -56,6 +56,8 @@ class Scene {
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
+    // Settles to another tolerance from now on; nothing else of a scene depends on it.
+    void settle_to(double tolerance);
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
