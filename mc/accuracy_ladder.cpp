@@ -11,9 +11,6 @@ namespace {
 
 // Steps of neighbouring rungs differ by this factor, or by one step a sample.
 constexpr double kStepRatio = 1.25;
-// An integrator's own rule aims at 0.1 % of the sensor's signal; dearer rungs buy digits only.
-constexpr double kBeyondOwnRule = 1.5;
-
 // The choices of [numerics] that change how a step is taken, besides the integrator.
 constexpr std::string_view kWays[] = {"precision", "grid"};
 
@@ -41,11 +38,10 @@ std::vector<std::vector<std::string>> ways() {
 }
 
 // A grid has at least one step a sample, and as many for every sample.
-std::vector<int> step_ladder(const Scene& own_rule) {
+std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
     const int samples = own_rule.samples_per_mesh();
     const int least = (own_rule.least_steps() + samples - 1) / samples;
-    const double most = kBeyondOwnRule * static_cast<double>(own_rule.plan().grid.steps.size()) /
-                        samples;
+    const double most = beyond * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
     std::vector<int> steps;
     for (int a_sample = least; a_sample <= std::max<double>(most, least);
          a_sample = std::max(a_sample + 1, static_cast<int>(std::lround(kStepRatio * a_sample)))) {
@@ -63,7 +59,7 @@ constexpr StepCost kStepCosts[] = {
 
 }  // namespace
 
-std::vector<Flight> flights(const Study& study) {
+std::vector<Flight> flights(const Study& study, double beyond) {
     std::vector<Flight> all;
     for (const std::string& integrator : integrator_names()) {
         if (study.numerics.integrator != Integrator::automatic &&
@@ -71,14 +67,14 @@ std::vector<Flight> flights(const Study& study) {
             continue;
         }
         for (const std::vector<std::string>& way : ways()) {
-            Flight flight{integrator, way, {}, ""};
+            Flight flight{integrator, way, {}, 0, ""};
             try {
-                const auto scene = rung_scene(
-                    study, {integrator, study.numerics.steps_per_mesh,
-                            study.numerics.settle_tolerance, way});
+                const auto scene = rung_scene(study, {integrator, study.numerics.steps_per_mesh,
+                                                      study.numerics.settle_tolerance, way});
+                flight.own_steps = static_cast<int>(scene->plan().grid.steps.size());
                 flight.steps = study.numerics.steps_per_mesh > 0
                                    ? std::vector<int>{study.numerics.steps_per_mesh}
-                                   : step_ladder(*scene);
+                                   : step_ladder(*scene, beyond);
             } catch (const SceneError& error) {
                 flight.refusal = error.what();
             }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "mc/gearbox_tile.hpp"
 #include "mc/instance_features.hpp"
@@ -104,20 +105,22 @@ std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride
     return ids;
 }
 
-PilotRecord run_pilot(const Scene& scene, std::span<const GearboxId> ids) {
+Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
+    : ids_(std::move(ids)), sampler_(scene.study()), path_(path_grid(scene)) {}
+
+PilotRecord Pilot::run(const Scene& scene) const {
     PilotRecord record;
     record.features_used = static_cast<int>(scene.study().features.use.size());
     record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
     record.steps = static_cast<int>(scene.plan().grid.steps.size());
-    const signals::PathGrid path = path_grid(scene);
-    const Sampler sampler(scene.study());
     InstanceFeatures features(scene);
     const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
     double signal_s = 0.0;
     const double start = thread_processor_s();
-    for (std::size_t first = 0; first < ids.size(); first += kTileRows) {
-        const auto some = ids.subspan(first, std::min<std::size_t>(kTileRows, ids.size() - first));
-        const GearboxTile tile = run_gearboxes(scene, sampler, path, some, kTileRows);
+    for (std::size_t first = 0; first < ids_.size(); first += kTileRows) {
+        const auto some =
+            std::span(ids_).subspan(first, std::min<std::size_t>(kTileRows, ids_.size() - first));
+        const GearboxTile tile = run_gearboxes(scene, sampler_, path_, some, kTileRows);
         record.tile_meshes += tile.march.marched;
         record.march_s += tile.march_cpu_s;
         machine::AlignedVector folded(tile.folded.size() / kTileRows),
@@ -139,13 +142,13 @@ PilotRecord run_pilot(const Scene& scene, std::span<const GearboxId> ids) {
                 features.compute(folded, te_turn, inputs, some[g].group, some[g].index);
             const double signal_start = thread_processor_s();
             record.sensor.back() =
-                signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
+                signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path_,
                                     inputs.path_exponent, 0, meshes);
             record.te.back() = te_without_mean(scene, tile, lane, meshes);
             signal_s += thread_processor_s() - signal_start;
         }
     }
-    const double gearboxes = static_cast<double>(ids.size());
+    const double gearboxes = static_cast<double>(ids_.size());
     record.total_s = (thread_processor_s() - start - signal_s) / gearboxes;
     record.march_s /= gearboxes;
     return record;
@@ -167,8 +170,8 @@ PilotError pilot_error(const PilotRecord& record, const PilotRecord& reference) 
     }
     error.sensor = sensor.relative();
     error.te = te.relative();
-    const std::size_t values =
-        static_cast<std::size_t>(reference.features_used) * static_cast<std::size_t>(reference.levels);
+    const std::size_t values = static_cast<std::size_t>(reference.features_used) *
+                               static_cast<std::size_t>(reference.levels);
     for (std::size_t at = 0; at < values; ++at) {
         add_feature(record, reference, at, error);
     }

@@ -2,19 +2,19 @@
 // sampling grid are the same whatever computes them, so all that differs is numerical.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
+#include "signals/transmission_path.hpp"
 
 namespace gearpod::mc {
 
 // What one way to compute gives of a pilot's gearboxes.
 struct PilotRecord {
-    std::vector<bool> ok;                     // by gearbox
-    std::vector<std::vector<double>> sensor;  // by gearbox, m/s^2, noise-free, at every sample
-    std::vector<std::vector<double>> te;      // by gearbox, rad, without its mean
+    std::vector<bool> ok;                       // by gearbox
+    std::vector<std::vector<double>> sensor;    // by gearbox, m/s^2, noise-free, at every sample
+    std::vector<std::vector<double>> te;        // by gearbox, rad, without its mean
     std::vector<std::vector<double>> features;  // by gearbox, [feature * noise levels + level]
     int features_used = 0, levels = 0;
     int steps = 0;         // a mesh period
@@ -32,9 +32,23 @@ struct PilotRecord {
 // numerics.lanes says, so that what is found does not depend on it.
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first = 0, std::uint64_t stride = 1);
 
-// Signals cover the fault's pattern (one mesh period without a fault), at most kMostSignalMeshes.
+// Signals cover the fault's pattern (one mesh period without a fault), at most so many.
 inline constexpr int kMostSignalMeshes = 200;
-PilotRecord run_pilot(const Scene& scene, std::span<const GearboxId> ids);
+
+// Some gearboxes of a study, to be computed in several ways.
+class Pilot {
+  public:
+    // Of the study of `scene`, whatever its numerics.
+    explicit Pilot(const Scene& scene, std::vector<GearboxId> ids = pilot_gearboxes());
+    std::size_t size() const { return ids_.size(); }
+    // `scene`: of the same study but for its numerics.
+    PilotRecord run(const Scene& scene) const;
+
+  private:
+    std::vector<GearboxId> ids_;
+    Sampler sampler_;
+    signals::PathGrid path_;
+};
 
 // How far a record is from a reference.
 struct PilotError {

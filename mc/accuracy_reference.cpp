@@ -29,7 +29,8 @@ void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
 class Refinement {
   public:
     Refinement(const Study& study, std::string integrator, const ReferenceRequest& request)
-        : study_(study), rung_{std::move(integrator), 0, request.settle_tolerance, {}},
+        : study_(study),
+          rung_{std::move(integrator), 0, request.settle_tolerance, {}},
           request_(request) {
         try {
             scene_ = rung_scene(study, rung_);
@@ -48,8 +49,8 @@ class Refinement {
     // How far the last halving moved the result.
     double last_change() const { return change_; }
 
-    void march(std::span<const GearboxId> ids) {
-        PilotRecord record = run_pilot(*scene_, ids);
+    void march(const Pilot& pilot) {
+        PilotRecord record = pilot.run(*scene_);
         done_ = rung_;
         best_ = record;
         order_ = 0.0;
@@ -105,8 +106,13 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
             const double apart = error.signals();
             if (apart < least) {
                 least = apart;
-                reference = {a.best(), a.rung(), b.rung(), a.order(),
-                             b.order(), error,    apart <= request.agreement};
+                reference = {a.best(),
+                             a.rung(),
+                             b.rung(),
+                             a.order(),
+                             b.order(),
+                             error,
+                             apart <= request.agreement};
             }
         }
     }
@@ -114,7 +120,7 @@ void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest&
 
 }  // namespace
 
-Reference converged_by_itself(const Study& study, std::span<const GearboxId> ids,
+Reference converged_by_itself(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request) {
     // What the study would run by without a tolerance: an explicit method unless it is too stiff.
     Refinement method(study, std::string(choice_text(study, "numerics", "integrator")), request);
@@ -125,7 +131,7 @@ Reference converged_by_itself(const Study& study, std::span<const GearboxId> ids
     while (!reference.reached && !method.stopped()) {
         const bool first = !method.has_result();
         PilotRecord before = first ? PilotRecord{} : method.finest();
-        method.march(ids);
+        method.march(pilot);
         if (!first) {
             reference.agreement = pilot_error(before, method.finest());
             reference.reached = reference.agreement.largest_feature() <= request.agreement;
@@ -137,7 +143,7 @@ Reference converged_by_itself(const Study& study, std::span<const GearboxId> ids
     return reference;
 }
 
-Reference converged_reference(const Study& study, std::span<const GearboxId> ids,
+Reference converged_reference(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request) {
     std::vector<Refinement> methods;
     for (const std::string& name : integrator_names()) {
@@ -152,7 +158,7 @@ Reference converged_reference(const Study& study, std::span<const GearboxId> ids
     while (!reference.reached && marching()) {
         for (Refinement& method : methods) {
             if (!method.stopped()) {
-                method.march(ids);
+                method.march(pilot);
             }
         }
         choose_pair(methods, request, least, reference);

@@ -2,7 +2,6 @@
 // until both agree.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "mc/accuracy_pilot.hpp"
@@ -28,13 +27,13 @@ struct Reference {
 };
 
 // Signals to `agreement`. Throws SceneError if no two methods march the study.
-Reference converged_reference(const Study& study, std::span<const GearboxId> ids,
+Reference converged_reference(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request);
 
 // The same by one method alone, against itself with half the steps: features to `agreement`. For
 // choosing how to run, where a wrong method would show in every gearbox anyway. The integrator is
 // the study's own.
-Reference converged_by_itself(const Study& study, std::span<const GearboxId> ids,
+Reference converged_by_itself(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request);
 
 }  // namespace gearpod::mc

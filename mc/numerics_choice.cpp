@@ -10,7 +10,7 @@
 #include "mc/accuracy_ladder.hpp"
 #include "mc/accuracy_pilot.hpp"
 #include "mc/accuracy_reference.hpp"
-#include "mc/instance_features.hpp"
+#include "mc/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -19,6 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The reference moves this much less than the tolerance when its steps are halved.
 constexpr double kReferenceShare = 0.1;
 
+// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kBeyondOwnRule = 16.0;
+
 // What a rung gives on the pilot.
 struct Trial {
     double error = kInfinity;  // of the worst feature
@@ -26,14 +29,25 @@ struct Trial {
     double cost = kInfinity;   // rk4 steps a gearbox
 };
 
+// What the study marches by without a tolerance.
+Rung own_rule(const Study& study) {
+    return {std::string(choice_text(study, "numerics", "integrator")),
+            study.numerics.steps_per_mesh,
+            study.numerics.settle_tolerance,
+            {}};
+}
+
 class Search {
   public:
     explicit Search(const Study& study)
-        : study_(study), tolerance_(study.numerics.tolerance), ids_(pilot_gearboxes()) {
+        : study_(study),
+          tolerance_(study.numerics.tolerance),
+          scene_(rung_scene(study, own_rule(study))),
+          pilot_(*scene_) {
         ReferenceRequest request;
         request.agreement = kReferenceShare * tolerance_;
         request.settle_tolerance = std::min(1e-10, 1e-3 * tolerance_);
-        reference_ = converged_by_itself(study, ids_, request);
+        reference_ = converged_by_itself(study, pilot_, request);
         if (!reference_.reached) {
             throw SceneError(
                 "numerics.tolerance",
@@ -46,10 +60,11 @@ class Search {
     }
 
     NumericsChoice run() {
-        std::vector<Flight> all = flights(study_);
+        std::vector<Flight> all = flights(study_, kBeyondOwnRule);
         std::erase_if(all, [](const Flight& f) { return f.steps.empty(); });
+        // The likeliest first: what costs more than the best so far is not tried.
         std::sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
-            return cost_of(a) * a.steps.front() < cost_of(b) * b.steps.front();
+            return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
         });
         for (const Flight& flight : all) {
             search(flight);
@@ -75,13 +90,10 @@ class Search {
             return known->second;
         }
         const Numerics numerics = with_rung(study_, rung).numerics;
-        if (scene_ == nullptr) {
-            scene_ = rung_scene(study_, rung);
-        }
         Trial result;
         try {
             scene_->use(numerics);
-            const PilotRecord record = run_pilot(*scene_, ids_);
+            const PilotRecord record = pilot_.run(*scene_);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
             result.worst = worst_feature(error);
@@ -143,11 +155,10 @@ class Search {
     // Settled as loosely as any rung, a gearbox marches at least this many mesh periods.
     bool may_win(const Flight& flight, std::size_t step) {
         if (least_meshes_ == 0.0) {
-            Rung rung = reference_.first;
-            rung.steps = 0;
+            Rung rung = own_rule(study_);
             rung.settle_tolerance = settle_tolerances().back();
-            scene_ = rung_scene(study_, rung);
-            least_meshes_ = run_pilot(*scene_, ids_).meshes_per_tile();
+            scene_->use(with_rung(study_, rung).numerics);
+            least_meshes_ = pilot_.run(*scene_).meshes_per_tile();
             ++marches_;
         }
         return cost_of(flight) * flight.steps[step] * least_meshes_ < best_.cost;
@@ -163,15 +174,16 @@ class Search {
         made.cost = best_.cost;
         made.reference = reference_.first.text();
         made.reference_change = reference_.agreement.largest_feature();
+        made.gearboxes = static_cast<int>(pilot_.size());
         made.marches = marches_;
         return made;
     }
 
     const Study& study_;
     const double tolerance_;
-    const std::vector<GearboxId> ids_;
+    const std::unique_ptr<Scene> scene_;
+    const Pilot pilot_;
     Reference reference_;
-    std::unique_ptr<Scene> scene_;
     std::map<std::string, Trial> trials_;
     Trial best_;
     Rung best_rung_;
@@ -184,7 +196,7 @@ class Search {
 
 std::string NumericsChoice::text() const {
     return fmt::format("{} (features within {:.2g} on a pilot of {} gearboxes, {} the worst)",
-                       rung.text(), error, pilot_gearboxes().size(), worst_feature);
+                       rung.text(), error, gearboxes, worst_feature);
 }
 
 std::optional<NumericsChoice> choose_numerics(const Study& study) {
