@@ -5,6 +5,7 @@
 #include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
 #include "mc/schema.hpp"
+#include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
@@ -52,10 +53,12 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
     const auto settings = tile_settings(scene, with_motion);
+    const double processor_start = thread_processor_s();
     tile.march = scene.study().effects.quasi_static()
                      ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
                      : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     tile.march_s = lap(start);
+    tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {

@@ -25,6 +25,7 @@ struct GearboxTile {
     machine::AlignedVector te_turn;  // [sample][lane], rad
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    double march_cpu_s = 0.0;  // the march's share of this thread's processor time
 };
 
 // The path's tables for a scene.
