@@ -180,7 +180,7 @@ def heat_maps(report, page):
     for f in report.order(report.reference):
         cells = [report.cells(f, n) for n in range(len(report.levels))]
         sizes = [report.sizes.group(c["size_low"], c["size_high"]).replace(
-            f" {report.sizes.unit}", "") for c in cells[0]]
+            f"\u00a0{report.sizes.unit}", "") for c in cells[0]]
         figure, axes = panel(0.95 + 0.36 * len(cells))
         axes.grid(False)
         for n, row in enumerate(cells):

@@ -9,7 +9,7 @@ ARCSECONDS = 180 * 3600 / math.pi  # in a radian
 
 
 def _promise(report):
-    return f"90 % probability at {percent(report.confidence)} confidence"
+    return f"90\u00a0% probability at {percent(report.confidence)} confidence"
 
 
 def _fault(report):
