@@ -46,11 +46,12 @@ def colour(index):
 
 
 def dash(index):
-    return DASHES[index % len(DASHES)]
+    """Another one each time the colours begin again."""
+    return DASHES[(index + index // len(SERIES)) % len(DASHES)]
 
 
 def marker(index):
-    return MARKERS[index % len(MARKERS)]
+    return MARKERS[(index + index // len(SERIES)) % len(MARKERS)]
 
 
 def shade(share):
@@ -64,7 +65,8 @@ def panel(height=3.2):
 
 
 def legend_below(axes, columns, **options):
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=columns, **options)
+    """To the left of the axes' right edge, since the labels of rows leave more room there."""
+    axes.legend(loc="upper right", bbox_to_anchor=(1.02, -0.17), ncol=columns, **options)
 
 
 def legend_above(axes):

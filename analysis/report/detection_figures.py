@@ -152,8 +152,8 @@ def _by_feature(report, page):
                for f in report.order(report.reference) for n, level in enumerate(report.levels)
                if report.reliable(f, n)["hit_miss"]["refusal"]]
     how = ("Marks are detection rates with their Wilson bounds, at "
-           f"{percent(report.confidence)}; lines are the fitted curves with their bounds, darker "
-           "for more noise."
+           f"{percent(report.confidence)}; lines are the fitted curves with their bounds, from blue "
+           "for the least noise to red for the most."
            + (f" There is no curve for {joined(refused)}: the reasons stand with the numbers."
               if refused else ""))
     reasons = table("Fitted curves", ["feature", "noise", "a50", "a90",

@@ -2,6 +2,7 @@
 
 import math
 
+import numerical_figures
 from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
@@ -126,7 +127,8 @@ def limits(report):
     found = report.smallest_fault(report.reference)
     texts = [_noise_limit(report)]
     if found:
-        texts += [_input_limit(report, found), _sample_limit(report, found)]
+        texts += [_input_limit(report, found), _sample_limit(report, found),
+                  numerical_figures.limit(report, found["feature"])]
     return [text for text in texts if text]
 
 
@@ -147,7 +149,7 @@ def table(report):
         found = report.smallest_fault(n)
         mark = ' class="reference"' if n == report.reference else ""
         if found is None:
-            cells = '<td>none tested</td><td>–</td><td>–</td><td class="wide">–</td>'
+            cells = '<td>none</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
             alarm, false = _threshold(report, found["feature"], n)
             basis = "" if found["from_curve"] else '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
