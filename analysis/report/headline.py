@@ -6,6 +6,7 @@ import numerical_figures
 from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
+TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
 ARCSECONDS = 180 * 3600 / math.pi  # in a radian
 
 
@@ -152,13 +153,14 @@ def table(report):
             cells = '<td>none</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
             alarm, false = _threshold(report, found["feature"], n)
-            basis = "" if found["from_curve"] else '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
+            basis = "" if found["from_curve"] else TESTED_SIZE
             cells = (f"<td><strong>{escape(report.sizes.text(found['size']))}</strong>{basis}</td>"
                      f"<td>{escape(found['feature'])}</td><td>{escape(alarm)}</td>"
                      f'<td class="wide">{false}</td>')
         rows.append(f'<tr{mark}><th scope="row">× {number(level)}</th>{cells}</tr>')
     confidence = number(100 * report.confidence)
-    return ('<div class="scroll" role="region" tabindex="0" aria-label="Smallest fault found, by noise">'
+    return ('<div class="scroll" role="region" tabindex="0" '
+            'aria-label="Smallest fault found, by noise">'
             f"<table><caption>Smallest {_fault(report)} found with {_promise(report)}</caption>"
             '<thead><tr><th scope="col">Noise</th>'
             f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'

@@ -24,6 +24,8 @@ def numerical(report, page):
                           "for:") + bullets(f"{s['feature']} at {noise(s['noise_level'])}"
                                             for s in dominated)
     here = [s for s in given["shares"] if s["noise_level"] == report.levels[report.reference]]
+    here.sort(key=lambda s: report.order(report.reference).index(
+        report.feature_number(s["feature"])))
     charts = [_chart(page, here)] if any(s["pd"] is not None for s in here) else []
     data = _table(report, given["shares"])
     if not charts:
@@ -31,7 +33,7 @@ def numerical(report, page):
     how = ("Largest part of a detection rate that the numerical error could turn, and largest half "
            "width of the intervals of the same rates, on a logarithmic scale. Where the second is "
            "further to the right, more gearboxes would tell more and finer steps nothing. "
-           f"Less than {LEAST:g} is drawn there.")
+           f"Less than {number(LEAST)} is drawn there.")
     return body + page.figure(f"Numerical and statistical error of the detection rates at "
                               f"{noise(report.levels[report.reference])}", charts, how, data)
 

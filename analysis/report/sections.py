@@ -146,7 +146,7 @@ def provenance(report, page):
              if name not in names and name != "study"]
     if "results" in report.data:
         rows.insert(0, ["results file", report.data["results"]])
-    body = table("Where the numbers come from", ["", "value"], rows)
+    body = table("Where the numbers come from", ["entry", "value"], rows)
     if report.data["timing"]:
         body += "<details><summary>Where the time went</summary>" + table(
             "Seconds; thread seconds are sums over all threads", ["part", "s"],
