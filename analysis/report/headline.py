@@ -96,10 +96,11 @@ def _input_limit(report, found):
         larger = i["larger_in_misses"] >= 0.5
         share = i["larger_in_misses"] if larger else 1 - i["larger_in_misses"]
         side = "larger" if larger else "smaller"
-        texts.append(f"{side} {input_name(i['name'], i['unit'])} ({number(100 * share, 2)} %)")
+        chance = " of pairs, 50\u00a0% is chance" if not texts else ""
+        texts.append(f"{side} {input_name(i['name'], i['unit'])} "
+                     f"({number(100 * share, 2)}\u00a0%{chance})")
     return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): the "
-            f"missed gearbox tends to have the {joined(texts)}. In brackets: how often it does, "
-            "against a detected one of the same size; 50 % is chance.")
+            f"missed gearbox tends to have the {joined(texts)}.")
 
 
 def _sample_limit(report, found):
