@@ -70,7 +70,7 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
         }
         const GearboxTile tile = run_gearboxes(scene, sampler, path, ids, lanes);
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-            if (tile.march.status[lane] == lockstep::LaneStatus::ok) {
+            if (tile.status[lane] == Status::ok) {
                 const int l = static_cast<int>(lane);
                 records.each_level(lane_signals(scene, path, tile, l, records.meshes()),
                                    tile.inputs[lane], ids[lane],

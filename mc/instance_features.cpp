@@ -161,11 +161,19 @@ InstanceFeatures::InstanceFeatures(const Scene& scene, const HealthyReference* h
       levels_(scene.study().sensor.noise_levels.size()) {}
 
 std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
-                                              const InstanceInputs& inputs, const GearboxId& id) {
+                                              const InstanceInputs& inputs, const GearboxId& id,
+                                              std::vector<LevelSignals>* signals) {
     std::vector<double> values(features_.size() * levels_);
     each_level(gearbox, inputs, id, [&](std::size_t level, features::FeatureInput input) {
         if (!healthy_->amplitude.empty()) {
             input.healthy = healthy_->at(level);
+        }
+        if (signals != nullptr) {
+            const auto own = [](std::span<const double> values) {
+                return std::vector<double>(values.begin(), values.end());
+            };
+            signals->push_back({own(input.te_turn), gearbox.folded.empty() ? std::vector<double>{}
+                                                                           : own(input.tooth_rms)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
             values[f * levels_ + level] = features_[f]->compute(input);

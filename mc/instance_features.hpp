@@ -44,6 +44,12 @@ struct NoiseOfInstance {
     std::vector<double> encoder;  // for a level of 1 rad rms
 };
 
+// What the features of one noise level look at.
+struct LevelSignals {
+    std::vector<double> te_turn;    // rad, Z_p P_te samples
+    std::vector<double> tooth_rms;  // m/s^2, Z_p; empty without a sensor
+};
+
 // A gearbox's signals as features look at them. Holds scratch memory: one object per thread.
 class InstanceSignals {
   public:
@@ -84,9 +90,10 @@ class InstanceFeatures : public InstanceSignals {
     // `healthy` is that of healthy_reference() and outlives the object.
     InstanceFeatures(const Scene& scene, const HealthyReference* healthy);
 
-    // Values of all used features: [feature * noise levels + level].
+    // Values of all used features: [feature * noise levels + level]. `signals` gets what they look
+    // at, an entry a noise level, unless it is null.
     std::vector<double> compute(const LaneSignals& gearbox, const InstanceInputs& inputs,
-                                const GearboxId& id);
+                                const GearboxId& id, std::vector<LevelSignals>* signals = nullptr);
 
   private:
     std::vector<const features::Feature*> features_;
