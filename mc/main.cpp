@@ -11,11 +11,15 @@ namespace {
 
 using namespace gearpod::mc;
 
-CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
+void add_study_keys(CLI::App& command, StudyOptions& options) {
     command
         .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
+}
+
+CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
+    add_study_keys(command, options);
     return command.add_option("study", options.path, "study file (TOML)")->required();
 }
 
@@ -121,6 +125,31 @@ int run_program(int argc, char** argv) {
         ->add_option("--meshes", simulate.meshes, "mesh periods to write (default: a planet turn)")
         ->check(CLI::PositiveNumber);
     simulate_app->callback([&] { code = simulate_command(simulate); });
+
+    FeaturesOptions features;
+    auto* features_app =
+        app.add_subcommand("features", "the features of a measured signal (CSV, HDF5, MAT)");
+    features_app->add_option("signal", features.signal, "signal file (.csv, .h5, .hdf5, .mat)")
+        ->required();
+    add_study_keys(*features_app, features.study);
+    features_app->add_option("--study", features.study.path, "study file (TOML)")->required();
+    features_app->add_option("--sensor", features.columns.sensor,
+                             "column of the acceleration, m/s^2 (default: sensor)");
+    features_app->add_option("--te", features.columns.te,
+                             "column of the transmission error, rad (default: te)");
+    features_app
+        ->add_option("--sampling-Hz", features.columns.sampling_Hz,
+                     "sampling rate (default: from the file)")
+        ->check(CLI::PositiveNumber);
+    features_app
+        ->add_option("--healthy", features.healthy,
+                     "recording of a healthy gearbox for na4, nb4 and nsds to compare with, as "
+                     "often as there are (default: gearboxes simulated from the study)")
+        ->allow_extra_args(false);
+    features_app->add_option("--noise-level", features.noise_level,
+                             "noise level of those simulated gearboxes (default: 1)");
+    features_app->add_option("--json", features.json, "write JSON to a file, or to -");
+    features_app->callback([&] { code = features_command(features); });
 
     if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
         return kBadInput;

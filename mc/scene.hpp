@@ -52,6 +52,9 @@ class Scene {
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
     int span_meshes() const { return span_.meshes(); }
+    // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
+    // the sun or the ring need it.
+    int signal_meshes() const { return signal_meshes_; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
@@ -90,6 +93,7 @@ class Scene {
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
     int te_samples_ = 0;
+    int signal_meshes_ = 0;
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };
