@@ -1,5 +1,5 @@
-// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed, 4 stopped
-// before its end with a checkpoint to resume from.
+// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed,
+// 4 stopped before its end with a checkpoint to resume from.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ struct RunOptions {
     StudyOptions study;
     std::string out;  // "": the study's name with .h5, in the working folder
     bool resume = false;
-    std::string time_limit;  // "hh:mm:ss", "": none
-    std::string watch;       // feature whose Pd the progress shows, "": the study's first
+    std::string time_limit;     // "hh:mm:ss", "": none
+    std::string watch;          // feature whose Pd the progress shows, "": the study's first
     std::vector<long> signals;  // rows whose signals the results hold as well
     bool quiet = false;
 };
@@ -55,6 +55,16 @@ struct ModesOptions {
     std::string json;
 };
 int modes_command(const ModesOptions& options);
+
+struct AccuracyOptions {
+    StudyOptions study;
+    std::string json;      // "": none; "-": standard output instead of the table
+    std::string peers;     // table of other programs' results, "": none
+    int repeats = 3;       // of every rung's time
+    long gearboxes = 480;  // of the pilot ensemble; 0: no detection rates
+    bool quiet = false;
+};
+int accuracy_command(const AccuracyOptions& options);
 
 struct SimulateOptions {
     StudyOptions study;
