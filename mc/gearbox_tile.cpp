@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
 #include "mc/schema.hpp"
 #include "mc/thread_clock.hpp"
@@ -60,6 +61,27 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    if (status == lockstep::LaneStatus::ok) {
+        return Status::ok;
+    }
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return diverged ? Status::no_equilibrium : Status::not_settled;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::turning_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_settled;
+}
+
 }  // namespace
 
 signals::PathGrid path_grid(const Scene& scene) {
@@ -90,6 +112,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         march<4>(scene, ids, with_motion, tile);
     } else {
         march<8>(scene, ids, with_motion, tile);
+    }
+
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
 
     start = Clock::now();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lockstep/tile.hpp"
+#include "mc/results_file.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
 #include "signals/tile_signals.hpp"
@@ -17,6 +18,7 @@ namespace gearpod::mc {
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
     lockstep::TileResult march;
+    std::vector<Status> status;  // of the gearboxes asked for
     signals::TileSignals views;
     signals::Tones tones;            // interfering; empty without
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
