@@ -52,6 +52,9 @@ class Scene {
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
     int span_meshes() const { return span_.meshes(); }
+    // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
+    // the sun or the ring need it.
+    int signal_meshes() const { return signal_meshes_; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
@@ -60,6 +63,7 @@ class Scene {
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return stepping_.least; }
+    double explicit_steps() const { return stepping_.explicit_steps; }
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
@@ -90,6 +94,7 @@ class Scene {
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
     int te_samples_ = 0;
+    int signal_meshes_ = 0;
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };
