@@ -135,13 +135,14 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         const double zeta = link_quantile(form.link, (point.pod - form.floor) / (1.0 - form.floor));
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
-        const double first_step = std::isfinite(se) && se > 0.0 ? 1.2 * profile.limit() * se : 0.5;
+        // No longer where the likelihood is flat: the bound lies before the end of the rates.
+        const double first_step = se > 0.0 ? std::min(0.5, 1.2 * profile.limit() * se) : 0.5;
         for (const double sign : {-1.0, 1.0}) {
             double& bound = sign < 0.0 ? point.lower : point.upper;
             const int side = sign < 0.0 ? -1 : 1;
             PodLikelihood::Parameters& start = extremes[sign < 0.0 ? 0 : 1];
             const auto found = [&](const std::optional<double>& extreme) {
-                return extreme && sign * (*extreme - zeta) >= 0.0;
+                return extreme && sign * (pod_of(*extreme) - point.pod) >= -kAtEnd;
             };
             auto extreme = likelihood.extreme_zeta(u, least, side, start);
             if (!found(extreme)) {  // the last size's curve may lead astray

@@ -9,7 +9,7 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.colors import to_rgb  # noqa: E402
+from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 
 # Told apart by people with any colour vision, and at least 3 : 1 against the page in either scheme;
@@ -26,8 +26,9 @@ _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 
 GAP = "#d3d8dd"  # a square of a map without a number
 
-# From quiet to loud, light to dark blue; the same in either scheme with a thin edge.
-QUIET, LOUD = (0.42, 0.68, 0.88), (0.33, 0.07, 0.20)
+# From quiet to loud. (light scheme, dark scheme)
+QUIET, LOUD = ((0.42, 0.68, 0.88), (0.65, 0.85, 1.0)), ((0.33, 0.07, 0.20), (0.90, 0.36, 0.47))
+SHADES = 13
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "gearpod", "font.size": 10, "font.family": "DejaVu Sans",
@@ -45,16 +46,17 @@ def colour(index):
 
 
 def dash(index):
-    return DASHES[index % len(DASHES)]
+    """Another one each time the colours begin again."""
+    return DASHES[(index + index // len(SERIES)) % len(DASHES)]
 
 
 def marker(index):
-    return MARKERS[index % len(MARKERS)]
+    return MARKERS[(index + index // len(SERIES)) % len(MARKERS)]
 
 
 def shade(share):
     """A colour between quiet (0) and loud (1)."""
-    return between(QUIET, LOUD, share)
+    return _SHADES[round(share * (SHADES - 1))][0]
 
 
 def panel(height=3.2):
@@ -63,7 +65,8 @@ def panel(height=3.2):
 
 
 def legend_below(axes, columns, **options):
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=columns, **options)
+    """To the left of the axes' right edge, since the labels of rows leave more room there."""
+    axes.legend(loc="upper right", bbox_to_anchor=(1.02, -0.17), ncol=columns, **options)
 
 
 def legend_above(axes):
@@ -85,6 +88,11 @@ def _short_numbers(match):
 def between(low, high, share):
     """A colour from low (share 0) to high (1), as parts of red, green and blue."""
     return tuple(a + share * (b - a) for a, b in zip(low, high))
+
+
+_SHADES = [tuple(to_hex(between(QUIET[i], LOUD[i], step / (SHADES - 1))) for i in (0, 1))
+           for step in range(SHADES)]
+_SCHEME.update({light: f"--shade-{i}" for i, (light, _) in enumerate(_SHADES)})
 
 
 def cell(axes, column, row, fill, text):
@@ -139,7 +147,8 @@ def to_svg(figure, title, description, names):
 
 def scheme_css():
     """The colours of both schemes."""
-    light = "".join(f"--series-{i}:{c};" for i, (c, _) in enumerate(SERIES))
-    dark = "".join(f"--series-{i}:{c};" for i, (_, c) in enumerate(SERIES))
+    light, dark = ("".join(f"--{name}-{i}:{pair[scheme]};"
+                           for name, pairs in (("series", SERIES), ("shade", _SHADES))
+                           for i, pair in enumerate(pairs)) for scheme in (0, 1))
     return (f":root{{{light}}}\n"
             f"@media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n")

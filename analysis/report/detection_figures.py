@@ -152,8 +152,8 @@ def _by_feature(report, page):
                for f in report.order(report.reference) for n, level in enumerate(report.levels)
                if report.reliable(f, n)["hit_miss"]["refusal"]]
     how = ("Marks are detection rates with their Wilson bounds, at "
-           f"{percent(report.confidence)}; lines are the fitted curves with their bounds, darker "
-           "for more noise."
+           f"{percent(report.confidence)}; lines are the fitted curves with their bounds, from blue "
+           "for the least noise to red for the most."
            + (f" There is no curve for {joined(refused)}: the reasons stand with the numbers."
               if refused else ""))
     reasons = table("Fitted curves", ["feature", "noise", "a50", "a90",
@@ -180,7 +180,7 @@ def heat_maps(report, page):
     for f in report.order(report.reference):
         cells = [report.cells(f, n) for n in range(len(report.levels))]
         sizes = [report.sizes.group(c["size_low"], c["size_high"]).replace(
-            f" {report.sizes.unit}", "") for c in cells[0]]
+            f"\u00a0{report.sizes.unit}", "") for c in cells[0]]
         figure, axes = panel(0.95 + 0.36 * len(cells))
         axes.grid(False)
         for n, row in enumerate(cells):

@@ -2,14 +2,16 @@
 
 import math
 
+import numerical_figures
 from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
+TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
 ARCSECONDS = 180 * 3600 / math.pi  # in a radian
 
 
 def _promise(report):
-    return f"90 % probability at {percent(report.confidence)} confidence"
+    return f"90\u00a0% probability at {percent(report.confidence)} confidence"
 
 
 def _fault(report):
@@ -94,10 +96,11 @@ def _input_limit(report, found):
         larger = i["larger_in_misses"] >= 0.5
         share = i["larger_in_misses"] if larger else 1 - i["larger_in_misses"]
         side = "larger" if larger else "smaller"
-        texts.append(f"{side} {input_name(i['name'], i['unit'])} ({number(100 * share, 2)} %)")
+        chance = " of pairs, 50\u00a0% is chance" if not texts else ""
+        texts.append(f"{side} {input_name(i['name'], i['unit'])} "
+                     f"({number(100 * share, 2)}\u00a0%{chance})")
     return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): the "
-            f"missed gearbox tends to have the {joined(texts)}. In brackets: how often it does, "
-            "against a detected one of the same size; 50 % is chance.")
+            f"missed gearbox tends to have the {joined(texts)}.")
 
 
 def _sample_limit(report, found):
@@ -126,7 +129,8 @@ def limits(report):
     found = report.smallest_fault(report.reference)
     texts = [_noise_limit(report)]
     if found:
-        texts += [_input_limit(report, found), _sample_limit(report, found)]
+        texts += [_input_limit(report, found), _sample_limit(report, found),
+                  numerical_figures.limit(report, found["feature"])]
     return [text for text in texts if text]
 
 
@@ -147,16 +151,17 @@ def table(report):
         found = report.smallest_fault(n)
         mark = ' class="reference"' if n == report.reference else ""
         if found is None:
-            cells = '<td>none tested</td><td>–</td><td>–</td><td class="wide">–</td>'
+            cells = '<td>none</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
             alarm, false = _threshold(report, found["feature"], n)
-            basis = "" if found["from_curve"] else '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
+            basis = "" if found["from_curve"] else TESTED_SIZE
             cells = (f"<td><strong>{escape(report.sizes.text(found['size']))}</strong>{basis}</td>"
                      f"<td>{escape(found['feature'])}</td><td>{escape(alarm)}</td>"
                      f'<td class="wide">{false}</td>')
         rows.append(f'<tr{mark}><th scope="row">× {number(level)}</th>{cells}</tr>')
     confidence = number(100 * report.confidence)
-    return ('<div class="scroll" role="region" tabindex="0" aria-label="Smallest fault found, by noise">'
+    return ('<div class="scroll" role="region" tabindex="0" '
+            'aria-label="Smallest fault found, by noise">'
             f"<table><caption>Smallest {_fault(report)} found with {_promise(report)}</caption>"
             '<thead><tr><th scope="col">Noise</th>'
             f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'

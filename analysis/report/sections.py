@@ -3,6 +3,7 @@
 import detection_figures
 import influence_figures
 import input_figures
+import numerical_figures
 import signal_figures
 from blocks import bullets, note, paragraph, table
 from words import count, escape, noise, number, percent, plural, rate, rate_with_bounds
@@ -105,6 +106,11 @@ def _bounds(pair):
     return "–" if pair[0] is None or pair[1] is None else f"[{rate(pair[0])}, {rate(pair[1])}]"
 
 
+def errors(report, page):
+    return page.section("errors", "Numerical against statistical error",
+                        numerical_figures.numerical(report, page))
+
+
 def failures(report, page):
     given = report.data["failures"]
     failed = given["diverged"] + given["not_settled"]
@@ -140,7 +146,7 @@ def provenance(report, page):
              if name not in names and name != "study"]
     if "results" in report.data:
         rows.insert(0, ["results file", report.data["results"]])
-    body = table("Where the numbers come from", ["", "value"], rows)
+    body = table("Where the numbers come from", ["entry", "value"], rows)
     if report.data["timing"]:
         body += "<details><summary>Where the time went</summary>" + table(
             "Seconds; thread seconds are sums over all threads", ["part", "s"],
@@ -154,5 +160,6 @@ def provenance(report, page):
 
 
 def all_of(report, page):
-    parts = [detection, features, inputs, signals, stiffness, thresholds, failures, provenance]
+    parts = [detection, features, inputs, signals, stiffness, thresholds, errors, failures,
+             provenance]
     return "\n".join(part(report, page) for part in parts)

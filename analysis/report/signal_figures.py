@@ -191,7 +191,7 @@ def gearbox_table(report):
         rows.append([f"{feature['name']} at {noise(level)}"]
                     + [quantity(g["features"][i]["value"], unit, 4) for g in gearboxes])
     return table("Inputs and features of the two gearboxes",
-                 ["", *(_name(report, g) for g in gearboxes)], rows)
+                 ["input or feature", *(_name(report, g) for g in gearboxes)], rows)
 
 
 def stiffness(report, page):

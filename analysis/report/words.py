@@ -50,7 +50,7 @@ def rate_with_bounds(value, lower, upper):
 
 
 def percent(value):
-    return f"{number(100 * value)} %"
+    return f"{number(100 * value)}\u00a0%"
 
 
 def count(value):
@@ -77,7 +77,7 @@ def joined(texts):
 
 
 def noise(level):
-    return f"noise × {number(level)}"
+    return f"noise ×\u00a0{number(level)}"
 
 
 def _suffix(unit):
@@ -103,7 +103,7 @@ def unit_text(unit):
 
 def quantity(value, unit, digits=3):
     shown = unit_text(unit)
-    return number(value, digits) + (f" {shown}" if shown else "")
+    return number(value, digits) + (f"\u00a0{shown}" if shown else "")
 
 
 class Sizes:
@@ -118,7 +118,7 @@ class Sizes:
         return value * self.factor
 
     def text(self, value, digits=3):
-        return number(self.shown(value), digits) + (f" {self.unit}" if self.unit else "")
+        return number(self.shown(value), digits) + (f"\u00a0{self.unit}" if self.unit else "")
 
     def group(self, low, high):
         if low == high:

@@ -144,11 +144,20 @@ TEST_CASE("Every bound of the band lies where the profile deviance is z squared"
 }
 
 TEST_CASE("The band of a rate that hardly rises is that of a search over all curves") {
-    // Alarms of a feature that hears nothing of the fault, at a false-alarm rate of 0.05; curves
-    // that fall steeply fit the smallest size best and are far from those that bound the others.
-    const HitMissTable table{{0.0005, 35, 500}, {0.001, 24, 500}, {0.0015, 23, 500},
-                             {0.002, 25, 500},  {0.003, 29, 500}, {0.00428, 31, 500}};
-    const PodForm form{Link::logit, false, 0.0488, false};
+    // Alarms of features that hear nothing of the fault, at a false-alarm rate of 0.05. In the
+    // first curves that fall steeply fit the smallest size best, far from those that bound the
+    // others; in the second the best curve is the floor itself, where the likelihood is flat.
+    const struct {
+        double floor;
+        int hits[6];
+    } cases[] = {{0.0488, {35, 24, 23, 25, 29, 31}}, {0.05198, {21, 28, 20, 30, 26, 26}}};
+    const auto& given = cases[GENERATE(0, 1)];
+    const double tested[] = {0.0005, 0.001, 0.0015, 0.002, 0.003, 0.00428};
+    HitMissTable table;
+    for (std::size_t i = 0; i < 6; ++i) {
+        table.push_back({tested[i], static_cast<double>(given.hits[i]), 500});
+    }
+    const PodForm form{Link::logit, false, given.floor, false};
     const PodLikelihood likelihood(table, form);
     const auto maximum = likelihood.maximise();
     std::vector<double> sizes;

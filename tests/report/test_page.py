@@ -37,6 +37,10 @@ def case_page(name):
     return build_page.page_html(case(name))
 
 
+def page(data):
+    return PageHtml(build_page.page_html(data))
+
+
 def said(name):
     """All words of a case's page."""
     return PageHtml(case_page(name)).text()
@@ -138,6 +142,23 @@ class Statements(unittest.TestCase):
                 for cell in level["sizes"]:
                     self.assertIn(words.rate_with_bounds(cell["pd"], cell["lower"], cell["upper"]),
                                   words_)
+
+    def test_the_numerical_error_stands_beside_the_statistical_one(self):
+        self.assertIn("asked for no check of its numerical error", said("usual"))
+        data = case("usual")
+        data["numerical"] = {"rung": "rk4, 400 steps", "finer": "rk4, 1600 steps", "gearboxes": 8,
+                             "shares": [{"feature": feature["name"], "noise_level": level,
+                                         "rms": 1e-5, "healthy_spread": 0.5, "pd": pd,
+                                         "pd_half_width": 0.03, "a90": None, "a90_interval": None,
+                                         "larger": larger}
+                                        for feature, pd, larger in zip(
+                                            data["features"], (2e-4, 0.2),
+                                            ("statistical", "numerical"))
+                                        for level in data["noise"]["levels"]]}
+        words_ = page(data).text()
+        self.assertIn("at most 0.0002 of a detection rate is numerical and ±0.03 is statistical",
+                      words_)
+        self.assertIn("than the number of gearboxes does for: te_rms at noise × 0", words_)
 
     def test_text_is_never_markup(self):
         data = case("usual")

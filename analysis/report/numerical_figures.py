@@ -1,0 +1,82 @@
+"""Numerical error beside the statistical one."""
+
+from blocks import bullets, note, paragraph, table
+from charts import colour, legend_below, panel, to_svg
+from words import joined, noise, number, quantity
+
+LEAST = 1e-6  # smaller shares are drawn here
+
+
+def numerical(report, page):
+    given = report.data.get("numerical")
+    if not given:
+        return note("The study asked for no check of its numerical error (numerics.verify or "
+                    "numerics.tolerance), so this page cannot hold it against the statistical one.")
+    dominated = [s for s in given["shares"] if s["larger"] == "numerical"]
+    text = (f"The run computed with {given['rung']}; {given['gearboxes']} of its gearboxes were "
+            f"computed again with {given['finer']}. ")
+    if not dominated:
+        text += ("For every feature and noise level the number of gearboxes leaves more uncertain "
+                 "than the computation does: finer steps would buy nothing.")
+    body = paragraph(text)
+    if dominated:
+        body += paragraph("The computation leaves more uncertain than the number of gearboxes does "
+                          "for:") + bullets(f"{s['feature']} at {noise(s['noise_level'])}"
+                                            for s in dominated)
+    here = [s for s in given["shares"] if s["noise_level"] == report.levels[report.reference]]
+    here.sort(key=lambda s: report.order(report.reference).index(
+        report.feature_number(s["feature"])))
+    charts = [_chart(page, here)] if any(s["pd"] is not None for s in here) else []
+    data = _table(report, given["shares"])
+    if not charts:
+        return body + data
+    how = ("Largest part of a detection rate that the numerical error could turn, and largest half "
+           "width of the intervals of the same rates, on a logarithmic scale. Where the second is "
+           "further to the right, more gearboxes would tell more and finer steps nothing. "
+           f"Less than {number(LEAST)} is drawn there.")
+    return body + page.figure(f"Numerical and statistical error of the detection rates at "
+                              f"{noise(report.levels[report.reference])}", charts, how, data)
+
+
+def _chart(page, shares):
+    figure, axes = panel(1.5 + 0.3 * len(shares))
+    for key, paint, mark, label in (("pd", colour(1), "s", "numerical"),
+                                    ("pd_half_width", colour(0), "o", "statistical")):
+        points = [(max(s[key], LEAST), row) for row, s in enumerate(shares) if s[key] is not None]
+        axes.plot([x for x, _ in points], [row for _, row in points], linestyle="none", marker=mark,
+                  markersize=5, color=paint, label=label)
+    axes.set_xscale("log")
+    axes.set_xlim(LEAST / 2, 1)
+    axes.set_yticks(range(len(shares)), [s["feature"] for s in shares])
+    axes.set_ylim(len(shares) - 0.5, -0.5)
+    axes.set_xlabel("Uncertain part of the detection rate")
+    legend_below(axes, 2)
+    about = "; ".join(f"{s['feature']}: numerical {number(s['pd'])}, statistical "
+                      f"{number(s['pd_half_width'])}" for s in shares)
+    return to_svg(figure, "Numerical and statistical error of the detection rates", about,
+                  page.names)
+
+
+def _table(report, shares):
+    rows = []
+    for s in shares:
+        unit = report.unit(s["feature"])
+        a90 = "–" if s["a90"] is None else report.sizes.text(s["a90"], 2)
+        interval = "–" if s["a90_interval"] is None else report.sizes.text(s["a90_interval"], 2)
+        rows.append([s["feature"], noise(s["noise_level"]).removeprefix("noise "),
+                     quantity(s["rms"], unit, 2), quantity(s["healthy_spread"], unit, 2),
+                     number(s["pd"], 2), number(s["pd_half_width"], 2), a90, interval, s["larger"]])
+    return table("Numerical error (rms, part of Pd, of a90) beside the statistical one",
+                 ["feature", "noise", "rms", "spread of healthy ones", "of Pd", "half width of Pd",
+                  "of a90", "a90 to its bound", "larger"], rows)
+
+
+def limit(report, name):
+    """For the answer: which of the two errors of that feature is larger; None if not known."""
+    for s in (report.data.get("numerical") or {"shares": []})["shares"]:
+        if (s["feature"] == name and s["noise_level"] == report.levels[report.reference]
+                and s["pd"] is not None and s["pd_half_width"] is not None):
+            what = joined([f"at most {number(s['pd'], 2)} of a detection rate is numerical",
+                           f"±{number(s['pd_half_width'], 2)} is statistical"])
+            return f"Computation: {what}."
+    return None
