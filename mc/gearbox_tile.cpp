@@ -63,12 +63,16 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
-    if (status == lockstep::LaneStatus::ok) {
-        return Status::ok;
-    }
+    const bool ok = status == lockstep::LaneStatus::ok;
     const bool diverged = status == lockstep::LaneStatus::diverged;
     if (scene.study().effects.quasi_static()) {
-        return diverged ? Status::no_equilibrium : Status::not_settled;
+        return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_settled;
+    }
+    if (ok) {
+        // A motion that nothing excites does not grow although it would.
+        return lockstep::above_critical_speed(scene.plan(), scene.inputs(instance))
+                   ? Status::supercritical
+                   : Status::ok;
     }
     switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
         case lockstep::Instability::turning_frame:

@@ -62,8 +62,8 @@ const char* failure_text(Status status) {
         case Status::not_settled:
             return "did not settle";
         case Status::supercritical:
-            return "is unstable above a critical speed of the turning carrier: at steady mesh "
-                   "stiffness its motion grows";
+            return "is unstable: above a critical speed of the carrier its bearings do not hold "
+                   "what turns with it";
         case Status::parametric:
             return "is unstable by parametric resonance: the changing mesh stiffness makes its "
                    "motion grow";

@@ -3,45 +3,27 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <limits>
 
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/sensor_filter.hpp"
 #include "lockstep/step_limit.hpp"
 
 namespace gearpod::lockstep {
 namespace {
 
-// Stiffness of all pairs, steps [first, last) of the grid, weighted by their lengths.
-struct Piece {
-    std::vector<double> stiffness;  // N/m
-    double length = 0.0;            // mesh periods
-};
+constexpr double kNoGrowth = 1.0 + 1e-5;
+constexpr int kLanes = 8;
 
-Piece mean_piece(const MarchPlan& plan, std::size_t first, std::size_t last) {
+std::vector<double> mean_stiffness(const MarchPlan& plan) {
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
     const std::size_t nodes = plan.grid.stage_nodes.size();
-    Piece piece{std::vector<double>(pairs, 0.0), 0.0};
-    for (std::size_t step = first; step < last; ++step) {
-        const double length = plan.grid.steps[step].length;
-        for (std::size_t i = 0; i < nodes * pairs; ++i) {
-            piece.stiffness[i % pairs] += length / static_cast<double>(nodes) *
-                                          plan.nodes.stiffness[step * nodes * pairs + i];
-        }
-        piece.length += length;
+    std::vector<double> mean(pairs, 0.0);
+    for (std::size_t i = 0; i < plan.nodes.stiffness.size(); ++i) {
+        const double length = plan.grid.steps[i / (nodes * pairs)].length;
+        mean[i % pairs] += length / static_cast<double>(nodes) * plan.nodes.stiffness[i];
     }
-    for (double& k : piece.stiffness) {
-        k /= piece.length;
-    }
-    return piece;
-}
-
-std::vector<Piece> pieces_of_mesh(const MarchPlan& plan, int least) {
-    const std::size_t steps = plan.grid.steps.size();
-    const std::size_t together = std::max<std::size_t>(1, steps / static_cast<std::size_t>(least));
-    std::vector<Piece> pieces;
-    for (std::size_t first = 0; first < steps; first += together) {
-        pieces.push_back(mean_piece(plan, first, std::min(steps, first + together)));
-    }
-    return pieces;
+    return mean;
 }
 
 std::vector<double> stiffest_nodes(const MarchPlan& plan) {
@@ -62,63 +44,104 @@ bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs)
     return longest * dynamics::mesh_period_s(inputs) > runge_kutta_limit(matrices).step_s;
 }
 
-// Takes the rigid rotation out of displacements and of velocities.
-Eigen::MatrixXd without_rigid_rotation(const MarchPlan& plan, const Eigen::MatrixXd& mass) {
+// The largest |eigenvalue| of a mesh period's map of (q, v), the rigid rotation taken out of q and
+// of v at its end.
+double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& map) {
+    if (!map.allFinite()) {
+        return std::numeric_limits<double>::infinity();
+    }
     const Eigen::VectorXd turn = dynamics::rigid_rotation(plan.layout);
     const Eigen::VectorXd weighted = mass * turn;
+    const Eigen::RowVectorXd turned = (weighted / weighted.dot(turn)).transpose();
     const Eigen::Index n = turn.size();
-    const Eigen::MatrixXd keep =
-        Eigen::MatrixXd::Identity(n, n) - turn * (weighted / weighted.dot(turn)).transpose();
-    Eigen::MatrixXd both = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-    both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = keep;
-    return both;
+    Eigen::MatrixXd kept = map;
+    kept.topRows(n) -= (turn * (turned * map.topRows(n))).eval();
+    kept.bottomRows(n) -= (turn * (turned * map.bottomRows(n))).eval();
+    return Eigen::EigenSolver<Eigen::MatrixXd>(kept, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// (q, v) over a piece. Displacements are scaled to velocities by the stiffest spring's rate: the
-// exponential of the bare matrix would lose as many digits as that rate has.
-Eigen::MatrixXd propagator(const dynamics::GearboxMatrices& matrices, double time_s) {
-    const Eigen::Index n = matrices.mass.rows();
-    const double rate = std::sqrt(
-        (matrices.stiffness.diagonal().array() / matrices.mass.diagonal().array()).maxCoeff());
-    Eigen::VectorXd scale = Eigen::VectorXd::Ones(2 * n);
-    scale.head(n).setConstant(rate > 0.0 ? rate : 1.0);
-    const Eigen::MatrixXd scaled =
-        scale.asDiagonal() * state_matrix(matrices) * scale.cwiseInverse().asDiagonal();
-    return scale.cwiseInverse().asDiagonal() * (time_s * scaled).exp() * scale.asDiagonal();
+// What the displacements are multiplied with to be as large as the velocities: else the map's
+// eigenvalues lose as many digits as the vibration's rate has.
+double velocity_scale(const dynamics::GearboxMatrices& m) {
+    const double rate =
+        std::sqrt((m.stiffness.diagonal().array() / m.mass.diagonal().array()).maxCoeff());
+    return rate > 0.0 ? rate : 1.0;
 }
 
-constexpr double kNoGrowth = 1.0 + 1e-5;
-constexpr int kPieces = 96;
+// State of kLanes gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1 and
+// those past the last: not at all.
+TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
+    TileState state;
+    const auto degrees = static_cast<std::size_t>(n);
+    state.q.assign(degrees * kLanes, 0.0);
+    state.v.assign(degrees * kLanes, 0.0);
+    state.filter.assign(static_cast<std::size_t>(channels * kFilterStates * kLanes), 0.0);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t unit = static_cast<std::size_t>(first) + lane;
+        if (unit >= 1 && unit <= degrees) {
+            state.q[(unit - 1) * kLanes + lane] = 1.0 / rate;
+        } else if (unit > degrees && unit <= 2 * degrees) {
+            state.v[(unit - 1 - degrees) * kLanes + lane] = 1.0;
+        }
+    }
+    return state;
+}
+
+// (rate q, v) after a mesh period, by the march itself. Column 0 is the motion from rest under the
+// load, which the others contain as well.
+Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs& inputs,
+                            Eigen::Index n, double rate) {
+    const std::vector<dynamics::GearboxInputs> alike(kLanes, inputs);
+    const auto march = make_mesh_march<kLanes>(plan, alike);
+    MeshRecord record = make_record(plan, kLanes, false);
+    Eigen::MatrixXd ends(2 * n, 2 * n + 1);
+    for (int first = 0; first < ends.cols(); first += kLanes) {
+        TileState state = unit_states(n, plan.channels(), first, rate);
+        (*march)({}, state, record);
+        for (int lane = 0; lane < kLanes && first + lane < ends.cols(); ++lane) {
+            for (Eigen::Index d = 0; d < n; ++d) {
+                const auto at = static_cast<std::size_t>(d * kLanes + lane);
+                ends(d, first + lane) = rate * state.q[at];
+                ends(n + d, first + lane) = state.v[at];
+            }
+        }
+    }
+    return ends.rightCols(2 * n).colwise() - ends.col(0);
+}
 
 }  // namespace
 
-double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs, int pieces) {
-    const Eigen::Index n = dynamics::degrees_of_freedom(plan.layout);
-    Eigen::MatrixXd over_mesh = Eigen::MatrixXd::Identity(2 * n, 2 * n);
-    Eigen::MatrixXd mass;
-    for (const Piece& piece : pieces_of_mesh(plan, pieces)) {
-        const auto matrices = dynamics::assemble(plan.layout, inputs, piece.stiffness);
-        const double time = piece.length * dynamics::mesh_period_s(inputs);
-        over_mesh = (propagator(matrices, time) * over_mesh).eval();
-        mass = matrices.mass;
+bool above_critical_speed(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+    const auto m = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
+    if (m.centrifugal.isZero(0.0)) {
+        return false;
     }
-    over_mesh = without_rigid_rotation(plan, mass) * over_mesh;
-    return Eigen::EigenSolver<Eigen::MatrixXd>(over_mesh, false)
-        .eigenvalues()
-        .cwiseAbs()
-        .maxCoeff();
+    // Scaled to unit masses, K holds at least W^2; the rigid rotation, which nothing holds, is held
+    // by far more than that.
+    const Eigen::VectorXd scale = m.mass.diagonal().cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
+    const Eigen::VectorXd turn =
+        dynamics::rigid_rotation(plan.layout).cwiseQuotient(scale).normalized();
+    held += (1e3 * held.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
+    return Eigen::LLT<Eigen::MatrixXd>(held).info() != Eigen::Success;
+}
+
+double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+    const auto matrices = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
+    return growth(plan, matrices.mass,
+                  marched_map(plan, inputs, matrices.mass.rows(), velocity_scale(matrices)));
 }
 
 Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
-    if (growth_per_mesh(plan, inputs, 1) > kNoGrowth) {
+    if (above_critical_speed(plan, inputs)) {
         return Instability::turning_frame;
     }
     if (step_too_long(plan, inputs)) {
         return Instability::step;
     }
     const bool linear = plan.mesh_law != dynamics::MeshLaw::separating;
-    return linear && growth_per_mesh(plan, inputs, kPieces) > kNoGrowth ? Instability::parametric
-                                                                        : Instability::none;
+    return linear && growth_per_mesh(plan, inputs) > kNoGrowth ? Instability::parametric
+                                                               : Instability::none;
 }
 
 }  // namespace gearpod::lockstep

@@ -1,0 +1,222 @@
+// Hard cases as a user meets them: whole studies, their status counts, messages and exit codes.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "../mc/program.hpp"
+#include "../mc/scene_examples.hpp"
+#include "../mc/study_file.hpp"
+#include "floating_point_traps.hpp"
+
+using namespace gearpod;
+using mc::Status;
+using test::Folder;
+using test::Outcome;
+using test::program;
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// Liang's train turning fast, so that a mesh period is short, and few gearboxes of it.
+Overrides fast_train(const Overrides& more = {}) {
+    Overrides all{"operation.carrier_speed_rpm=60",   "sensor.sampling_Hz=20000",
+                  "sensor.encoder_sampling_Hz=20000", "ensemble.instances=7",
+                  "ensemble.threshold_instances=9",   "numerics.threads=1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+mc::Results results(const Overrides& overrides) {
+    return test::run(test::shipped_study("planet-crack.toml", overrides));
+}
+
+std::string on_command_line(const Overrides& overrides) {
+    std::string text;
+    for (const std::string& one : overrides) {
+        text += " --set '" + one + "'";
+    }
+    return text;
+}
+
+Outcome run_program(const std::string& study, const Folder& folder, const Overrides& overrides) {
+    return program("run " + study + on_command_line(overrides) + " --out " + folder.file("r.h5"));
+}
+
+void check_all_worked(const mc::Results& r) {
+    for (const int status : r.status) {
+        CHECK(status == static_cast<int>(Status::ok));
+    }
+    for (const auto& feature : r.features) {
+        INFO(feature.name);
+        for (const double value : feature.values) {
+            CHECK(std::isfinite(value));
+        }
+    }
+}
+
+double value_of(const mc::Results& r, const std::string& feature, std::size_t row,
+                std::size_t level) {
+    return r.features[test::feature_index(r, feature)].values[row * r.noise_levels.size() + level];
+}
+
+}  // namespace
+
+TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque, no noise") {
+    const mc::Results plain = results(fast_train());
+    check_all_worked(plain);
+    const mc::Results stiff = results(fast_train(
+        {"gearbox.planet_bearing_stiffness_N_m=1e10", "gearbox.sun_bearing_stiffness_N_m=1e10",
+         "gearbox.ring_bearing_stiffness_N_m=1e10", "gearbox.carrier_bearing_stiffness_N_m=1e10"}));
+    check_all_worked(stiff);
+    const mc::Results undamped_mesh = results(fast_train({"gearbox.mesh_damping_ratio=0"}));
+    check_all_worked(undamped_mesh);
+    // Linear: twice the torque, twice the transmission error, without noise exactly.
+    const mc::Results one = results(fast_train({"operation.torque_N_m=429"}));
+    const mc::Results two = results(fast_train({"operation.torque_N_m=858"}));
+    const mc::Results none = results(fast_train({"operation.torque_N_m=0"}));
+    check_all_worked(two);
+    for (std::size_t row = 0; row < one.status.size(); ++row) {
+        const double te = value_of(one, "te_rms", row, 0);
+        CHECK(te > 1e-6);
+        CHECK(value_of(two, "te_rms", row, 0) == Approx(2.0 * te).epsilon(1e-8));
+        CHECK(value_of(none, "te_rms", row, 0) < 1e-8 * te);
+    }
+    // Without noise all noise levels are the same.
+    const mc::Results quiet =
+        results(fast_train({"sensor.noise_m_s2=0", "sensor.encoder_noise_arcsec=0"}));
+    check_all_worked(quiet);
+    const std::size_t levels = quiet.noise_levels.size();
+    for (const auto& feature : quiet.features) {
+        for (std::size_t i = 0; i < feature.values.size(); ++i) {
+            CHECK(feature.values[i] == feature.values[i - i % levels]);
+        }
+    }
+}
+
+TEST_CASE("Without any damping no gearbox settles, and none hangs or passes for one that did") {
+    const Folder folder;
+    const Outcome outcome = run_program(
+        test::study("planet-crack.toml"), folder,
+        fast_train({"gearbox.mesh_damping_ratio=0", "gearbox.planet_bearing_damping_N_s_m=0",
+                    "gearbox.sun_bearing_damping_N_s_m=0", "gearbox.ring_bearing_damping_N_s_m=0",
+                    "gearbox.carrier_bearing_damping_N_s_m=0", "gearbox.support_damping_N_s_m=0",
+                    "numerics.max_meshes=50"}));
+    INFO(outcome.output);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.mentions("16 of 16 failed"));
+    const mc::Results r = mc::read_results(folder.file("r.h5"));
+    for (const auto& feature : r.features) {
+        for (const double value : feature.values) {
+            CHECK(std::isnan(value));
+        }
+    }
+}
+
+TEST_CASE("A crack through the whole tooth still gives a gearbox that runs") {
+    // At 45 degrees a crack of 8.571 mm leaves Liang's planet tooth.
+    const mc::Results r = results(fast_train({"fault.depth_mm=8.571"}));
+    check_all_worked(r);
+    CHECK(value_of(r, "window_ratio", 9, 0) > 1.5);
+}
+
+TEST_CASE("A tooth that is gone: the march lives, equilibrium does not") {
+    const Folder folder;
+    std::string text = tests::replaced(tests::kFixedShaftStudy, "kind = \"chip\"",
+                                       "kind = \"broken\"\nbroken = 1");
+    text = tests::replaced(text, "chip_mm = 8\nchip_height_mm = 2\n", "");
+    REQUIRE_FALSE(text.empty());
+    test::write_bytes(folder.file("broken.toml"), text);
+    const Outcome marched = run_program(folder.file("broken.toml"), folder, {});
+    INFO(marched.output);
+    CHECK(marched.code == 0);
+    check_all_worked(mc::read_results(folder.file("r.h5")));
+
+    for (const char* key : {"sampling_Hz = 50000\n", "low_pass_Hz = 10000\n"}) {
+        text = tests::replaced(text, key, "");
+    }
+    text = tests::replaced(text, "[effects]\n", "[effects]\nmotion = \"quasi-static\"\n");
+    REQUIRE_FALSE(text.empty());
+    test::write_bytes(folder.file("broken.toml"), text);
+    const Outcome still = run_program(folder.file("broken.toml"), folder, {});
+    INFO(still.output);
+    CHECK(still.code == 3);
+    CHECK(still.mentions("has no equilibrium"));
+    // Healthy ones of the threshold sample have one.
+    const mc::Results r = mc::read_results(folder.file("r.h5"));
+    CHECK(r.status == std::vector<int>{0, 0, 6, 6, 6});
+}
+
+TEST_CASE("A gearbox beyond a critical speed is called that") {
+    const Folder folder;
+    Overrides overrides = fast_train({"operation.carrier_speed_rpm=5000"});
+    for (const char* body : {"planet", "sun", "ring", "carrier"}) {
+        overrides.push_back(std::string("gearbox.") + body + "_bearing_stiffness_N_m=1e6");
+    }
+    overrides.insert(overrides.end(),
+                     {"sensor.sampling_Hz=100000", "sensor.encoder_sampling_Hz=100000"});
+    const Outcome outcome = run_program(test::study("planet-crack.toml"), folder, overrides);
+    INFO(outcome.output);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.mentions("16 of 16 failed"));
+    CHECK(outcome.mentions("16 of them: each is unstable: above a critical speed"));
+    const Outcome one = program("simulate " + test::study("planet-crack.toml") +
+                                on_command_line(overrides) + " --instance 12");
+    INFO(one.output);
+    CHECK(one.code == 3);
+    CHECK(one.mentions("critical speed of the carrier"));
+}
+
+TEST_CASE("A gearbox in parametric resonance is called that, and beside the resonance it works") {
+    // Speeds and damping of test_parametric_resonance.cpp, whose multipliers are 1.06 and 0.94. The
+    // motion that grows is far above the sensor's band, and its steps of 43 a mesh would damp it.
+    for (const double speedup : {200.0, 220.0}) {
+        const Folder folder;
+        const Outcome outcome = run_program(
+            test::study("planet-crack.toml"), folder,
+            fast_train({"operation.carrier_speed_rpm=" + std::to_string(speedup * 8.87),
+                        "effects.motion=torsional", "numerics.steps_per_mesh=600",
+                        "gearbox.mesh_damping_ratio=0.002", "gearbox.support_damping_N_s_m=5e3",
+                        "fault.depth_mm=0", "sensor.sampling_Hz=60000",
+                        "sensor.encoder_sampling_Hz=60000"}));
+        INFO(outcome.output);
+        CHECK(outcome.code == (speedup < 210.0 ? 3 : 0));
+        CHECK(outcome.mentions("unstable by parametric resonance") == (speedup < 210.0));
+    }
+}
+
+TEST_CASE("Gearboxes too light for the step fail, named so; the others keep their bits") {
+    // The pilot that chooses the steps sees the first 32 gearboxes: suns 1 to 5, never the sixth.
+    const auto with_sixth = [](const std::string& kg) {
+        const std::string text =
+            tests::replaced(test::bytes_of(test::study("planet-crack.toml")), "[random]\n",
+                            "[random]\ngearbox.sun_mass_kg = { distribution = \"levels\", values = "
+                            "[0.6, 0.65, 0.7, "
+                            "0.75, 0.8, " +
+                                kg + "] }\n");
+        const auto reading = mc::read_study_text(
+            text, "study.toml",
+            fast_train({"ensemble.instances=42", "ensemble.threshold_instances=6"}));
+        INFO(mc::format(reading.problems));
+        REQUIRE(reading.study.has_value());
+        return test::run(*reading.study);
+    };
+    const test::ExpectedOverflow overflow;
+    const mc::Results healthy = with_sixth("0.85"), light = with_sixth("1e-6");
+    REQUIRE(light.status.size() == 48);
+    int failed = 0;
+    for (std::size_t row = 0; row < 48; ++row) {
+        CHECK(healthy.status[row] == 0);
+        if (light.status[row] != 0) {
+            ++failed;
+            CHECK(light.status[row] == static_cast<int>(Status::step_too_long));
+            continue;
+        }
+        for (std::size_t f = 0; f < light.features.size(); ++f) {
+            for (std::size_t level = 0; level < light.noise_levels.size(); ++level) {
+                const std::size_t at = row * light.noise_levels.size() + level;
+                CHECK(light.features[f].values[at] == healthy.features[f].values[at]);
+            }
+        }
+    }
+    CHECK(failed == 7);
+}
