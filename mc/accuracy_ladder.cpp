@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "mc/schema.hpp"
 
@@ -89,14 +88,13 @@ const std::vector<double>& settle_tolerances() {
     return all;
 }
 
-double step_cost(const Study& study, const std::string& integrator,
-                 const std::vector<std::string>& other) {
+std::optional<double> step_cost(const Study& study, const std::string& integrator,
+                                const std::vector<std::string>& other) {
     const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
                                    [&](const StepCost& c) { return c.integrator == integrator; });
-    if (row == std::end(kStepCosts)) {
-        throw std::logic_error("no step cost of " + integrator);
+    if (row == std::end(kStepCosts) || !other.empty()) {
+        return std::nullopt;
     }
-    static_cast<void>(other);
     return study.gearbox.kind == GearboxKind::fixed_shaft ? row->fixed_shaft
            : study.effects.torsional()                    ? row->rotations
                                                           : row->planetary;

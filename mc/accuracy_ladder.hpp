@@ -1,6 +1,7 @@
 // The ladder of ways to march a study, and what each costs by a model that knows no clock.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ const std::vector<double>& settle_tolerances();
 // Cost of one step of one gearbox in a full tile, in the time that one step of rk4 takes: the
 // ratios that `accuracy` measures, as they were on an AVX-512 core. A table and no clock, so that a
 // study makes the same choice on every machine.
-double step_cost(const Study& study, const std::string& integrator,
-                 const std::vector<std::string>& other);
+// Nothing for what the table does not have: that is measured, but not chosen.
+std::optional<double> step_cost(const Study& study, const std::string& integrator,
+                                const std::vector<std::string>& other);
 
 }  // namespace gearpod::mc

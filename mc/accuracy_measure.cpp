@@ -146,8 +146,8 @@ class Measurement {
             result.rung.integrator == "auto"
                 ? std::string(kIntegrators[static_cast<int>(scene_->plan().integrator)])
                 : result.rung.integrator;
-        result.cost =
-            step_cost(study_, integrator, result.rung.other) * result.steps * result.meshes;
+        result.cost = step_cost(study_, integrator, result.rung.other).value_or(0.0) *
+                      result.steps * result.meshes;
     }
 
     bool holds(const RungResult& result, double tolerance) const {
@@ -272,9 +272,11 @@ class Measurement {
             }
         }
         for (auto& [integrator, steps] : measured) {
-            report_.step_costs.push_back(fmt::format(
-                "{}: {:.1f} measured, {:.1f} in the table", integrator,
-                median(steps) / report_.explicit_limit.step_s, step_cost(study_, integrator, {})));
+            const auto known = step_cost(study_, integrator, {});
+            report_.step_costs.push_back(
+                fmt::format("{}: {:.1f} measured, {} in the table", integrator,
+                            median(steps) / report_.explicit_limit.step_s,
+                            known ? fmt::format("{:.1f}", *known) : "none"));
         }
     }
 
@@ -302,6 +304,9 @@ class Measurement {
         const Study pilot = pilot_ensemble_study(study_, request_.gearboxes);
         const PilotEnsemble reference =
             run_pilot_ensemble(with_rung(pilot, report_.rungs[closest].rung));
+        if (!has_rates(reference)) {
+            return;
+        }
         for (const std::size_t place : places) {
             RungResult& result = report_.rungs[place];
             request_.progress(fmt::format("detection rates by {}", result.rung.text()));

@@ -8,6 +8,7 @@
 #include "mc/describe_effects.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/numerics_choice.hpp"
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
 
@@ -103,6 +104,9 @@ void print_cost(const Scene& scene) {
         print_entry("steps a mesh period",
                     fmt::format("{}{}, {}", plan.grid.steps.size(), least,
                                 kIntegrators[static_cast<int>(plan.integrator)]));
+    }
+    if (const NumericsChoice* choice = scene.numerics_choice()) {
+        print_entry("chosen for the tolerance", choice->text());
     }
     print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
                                                     marched_meshes(scene), scene.span_meshes()));

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "analysis/detection_text.hpp"
 #include "mc/atomic_file.hpp"
 #include "mc/command_support.hpp"
 #include "mc/reliability_of_results.hpp"
@@ -57,8 +56,7 @@ int report_command(const ReportOptions& options) {
                        count_rows(rows).all, results.provenance_value("gearboxes_asked_for"),
                        state);
         }
-        fmt::print("{}\n{}", analysis::detection_text(results.detection, results.request),
-                   reliability_text(reliability, results));
+        fmt::print("{}", results_text(results, rows, reliability));
         if (!options.html.empty()) {
             fmt::print("\npage: {}\n", options.html);
         }

@@ -8,6 +8,8 @@
 #include "analysis/detection_text.hpp"
 #include "mc/command_support.hpp"
 #include "mc/ensemble.hpp"
+#include "mc/numerical_error.hpp"
+#include "mc/numerics_choice.hpp"
 #include "mc/provenance.hpp"
 #include "mc/reliability_of_results.hpp"
 #include "mc/row_source.hpp"
@@ -68,10 +70,9 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
     std::vector<RowSignals> all;
     for (const long row : options.signals) {
         try {
-            all.push_back(
-                {static_cast<std::size_t>(row),
-                 simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
-                     .columns});
+            all.push_back({static_cast<std::size_t>(row),
+                           simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
+                               .columns});
         } catch (const std::runtime_error& error) {
             fmt::print(stderr, "--signals {}: {}\n", row, error.what());
         }
@@ -96,6 +97,10 @@ class Run {
     int run(const Interruption& interruption) {
         if (!options_.quiet) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
+            if (const NumericsChoice* choice = scene_.numerics_choice()) {
+                fmt::print(stderr, "tolerance {:g}: {}\n", study_.numerics.tolerance,
+                           choice->text());
+            }
         }
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
         const EnsembleOutcome outcome = run_tiles(scene_, plan_,
@@ -126,6 +131,9 @@ class Run {
         results.provenance = provenance(study_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
         results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
+        if (const NumericsChoice* choice = scene_.numerics_choice()) {
+            results.provenance.emplace_back("numerics_choice", choice->text());
+        }
         return results;
     }
 
@@ -160,13 +168,15 @@ class Run {
             try {
                 all = frame(rows, state_of(outcome));
                 all.signals = chosen_signals(options_, scene_);
+                if (whole) {
+                    all.numerical = find_numerical_error(scene_);
+                }
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && !options_.quiet) {
-                    text = analysis::detection_text(all.detection, all.request) + "\n" +
-                           reliability_text(reliability_of(all, rows, ""), all);
+                    text = results_text(all, rows, reliability_of(all, rows, ""));
                 }
             } catch (const std::exception& error) {
                 trouble = error.what();

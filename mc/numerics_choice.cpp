@@ -61,7 +61,9 @@ class Search {
 
     NumericsChoice run() {
         std::vector<Flight> all = flights(study_, kBeyondOwnRule);
-        std::erase_if(all, [](const Flight& f) { return f.steps.empty(); });
+        std::erase_if(all, [&](const Flight& f) {
+            return f.steps.empty() || !step_cost(study_, f.integrator, f.other);
+        });
         // The likeliest first: what costs more than the best so far is not tried.
         std::sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
             return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
@@ -80,7 +82,7 @@ class Search {
 
   private:
     double cost_of(const Flight& flight) const {
-        return step_cost(study_, flight.integrator, flight.other);
+        return step_cost(study_, flight.integrator, flight.other).value();
     }
 
     Trial trial(const Flight& flight, std::size_t step, double settle) {

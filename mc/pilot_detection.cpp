@@ -108,6 +108,17 @@ PilotEnsemble run_pilot_ensemble(const Study& study) {
     return pilot;
 }
 
+bool has_rates(const PilotEnsemble& pilot) {
+    const auto has_threshold = [](const analysis::LevelDetection& level) {
+        return std::isfinite(level.threshold);
+    };
+    return std::any_of(pilot.results.detection.begin(), pilot.results.detection.end(),
+                       [&](const analysis::FeatureDetection& feature) {
+                           return std::any_of(feature.levels.begin(), feature.levels.end(),
+                                              has_threshold);
+                       });
+}
+
 DetectionChange detection_change(const PilotEnsemble& here, const PilotEnsemble& reference) {
     DetectionChange change;
     change.gearboxes = std::count(reference.results.group.begin(), reference.results.group.end(),

@@ -20,6 +20,9 @@ struct PilotEnsemble {
 Study pilot_ensemble_study(const Study& study, long gearboxes);
 PilotEnsemble run_pilot_ensemble(const Study& study);
 
+// Whether its healthy sample is large enough for thresholds.
+bool has_rates(const PilotEnsemble& pilot);
+
 struct DetectionChange {
     long gearboxes = 0;          // graded
     double alarms = 0.0;         // share of verdicts (gearbox, feature, noise level) that differ

@@ -7,6 +7,7 @@
 #include "analysis/reliability_json.hpp"
 #include "features/feature.hpp"
 #include "mc/example_gearboxes.hpp"
+#include "mc/numerical_error.hpp"
 #include "mc/results_layout.hpp"
 #include "mc/run_report.hpp"
 #include "mc/study.hpp"
@@ -54,6 +55,33 @@ Json failures_json(const Results& frame, const RowSource& rows) {
             {"no_value", without}};
 }
 
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// The numerical error beside the statistical one; null if it was not verified.
+Json numerical_json(const Results& frame, const std::vector<NumericalShare>& shares) {
+    if (!frame.numerical) {
+        return nullptr;
+    }
+    Json json{{"rung", frame.numerical->rung},
+              {"finer", frame.numerical->finer},
+              {"gearboxes", frame.numerical->gearboxes},
+              {"shares", Json::array()}};
+    for (const NumericalShare& s : shares) {
+        json["shares"].push_back({{"feature", s.feature},
+                                  {"noise_level", s.noise_level},
+                                  {"rms", number(s.rms)},
+                                  {"healthy_spread", number(s.spread)},
+                                  {"pd", number(s.pd)},
+                                  {"pd_half_width", number(s.pd_half_width)},
+                                  {"a90", number(s.a90)},
+                                  {"a90_interval", number(s.a90_interval)},
+                                  {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
+    }
+    return json;
+}
+
 Json features_json(const Results& frame) {
     Json json = Json::array();
     for (const FeatureResult& result : frame.features) {
@@ -91,6 +119,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["detection"] = analysis::detection_json(frame.detection, frame.request);
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
+    json["numerical"] = numerical_json(frame, numerical_shares(frame, rows, reliability));
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
     json["failures"] = failures_json(frame, rows);

@@ -11,12 +11,15 @@
 //   /detection/<feature>/  size_low, size_high (sizes), noise_level, threshold, threshold_sample,
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
+//   /numerical/<feature>/  if it was verified: rms, largest (levels), what finer steps change in
+//                          some gearboxes; attributes of /numerical: rung, finer, gearboxes
 //   /timing/<name>         seconds
 //   /signals/<row>/<name>  one value a sample, attribute `unit`: of the gearboxes asked for
 //
 // A checksum follows the HDF5 part (results_seal.hpp); other programs do not see it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +77,14 @@ struct RowSignals {
     std::vector<SignalColumn> columns;
 };
 
+// What marching some gearboxes again, by finer steps, changes in their features.
+struct NumericalError {
+    std::string rung, finer;  // how they were marched
+    int gearboxes = 0;
+    // By feature and noise level, [feature * noise levels + level], in the feature's unit.
+    std::vector<double> rms, largest;
+};
+
 // A row is a gearbox: the threshold group in order of instance, then the graded group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
@@ -86,6 +97,7 @@ struct Results {
     std::vector<FeatureResult> features;
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
+    std::optional<NumericalError> numerical;
     std::vector<Timing> timing;
     std::vector<RowSignals> signals;  // of chosen gearboxes; not read back
 

@@ -1,4 +1,5 @@
 // read_results().
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -41,6 +42,7 @@ class Reader {
         read_instances();
         read_features();
         read_detection();
+        read_numerical();
         const Hdf5Handle timing = open_group(root_, "timing");
         for (const std::string& name : link_names(timing.get())) {
             const auto seconds = numbers(timing.get(), name);
@@ -103,6 +105,29 @@ class Reader {
             require_count(results_.features.back().values.size(),
                           results_.group.size() * results_.noise_levels.size(), name);
         }
+    }
+
+    void read_numerical() {
+        const std::vector<std::string> groups = link_names(root_);
+        if (std::find(groups.begin(), groups.end(), "numerical") == groups.end()) {
+            return;
+        }
+        const Hdf5Handle group = open_group(root_, "numerical");
+        NumericalError error{read_text(group.get(), ".", "rung"),
+                             read_text(group.get(), ".", "finer"),
+                             static_cast<int>(read_number(group.get(), ".", "gearboxes")),
+                             {},
+                             {}};
+        for (const FeatureResult& result : results_.features) {
+            const Hdf5Handle feature = open_group(group.get(), result.name);
+            for (const auto& [name, all] :
+                 {std::pair{"rms", &error.rms}, std::pair{"largest", &error.largest}}) {
+                const std::vector<double> values = numbers(feature.get(), name);
+                require_count(values.size(), results_.noise_levels.size(), name);
+                all->insert(all->end(), values.begin(), values.end());
+            }
+        }
+        results_.numerical = std::move(error);
     }
 
     void read_detection() {

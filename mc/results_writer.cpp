@@ -154,6 +154,28 @@ void write_detection(hid_t root, const Results& results) {
     }
 }
 
+void write_numerical(hid_t root, const Results& frame) {
+    if (!frame.numerical) {
+        return;
+    }
+    const NumericalError& error = *frame.numerical;
+    const Hdf5Handle group = create_group(root, "numerical");
+    write_text(group.get(), ".", "rung", error.rung);
+    write_text(group.get(), ".", "finer", error.finer);
+    write_number(group.get(), ".", "gearboxes", error.gearboxes);
+    const std::size_t levels = frame.noise_levels.size();
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
+        const auto part = [&](const std::vector<double>& all) {
+            const auto first = all.begin() + static_cast<std::ptrdiff_t>(f * levels);
+            return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(levels));
+        };
+        write_numbers(feature.get(), "rms", {levels}, part(error.rms));
+        write_numbers(feature.get(), "largest", {levels}, part(error.largest));
+        write_text(feature.get(), ".", "unit", frame.features[f].unit);
+    }
+}
+
 void write_all_signals(hid_t root, const Results& frame) {
     if (frame.signals.empty()) {
         return;
@@ -182,6 +204,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         create_instances(root.get(), frame, rows, places);
         create_features(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
+        write_numerical(root.get(), frame);
         write_all_signals(root.get(), frame);
         const Hdf5Handle timing = create_group(root.get(), "timing");
         for (const Timing& entry : frame.timing) {

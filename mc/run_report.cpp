@@ -4,6 +4,10 @@
 
 #include <algorithm>
 
+#include "analysis/detection_text.hpp"
+#include "mc/numerical_error.hpp"
+#include "mc/reliability_of_results.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -74,6 +78,14 @@ const char* failure_text(Status status) {
             return "has no equilibrium: where its teeth are gone nothing carries the load";
     }
     return "";
+}
+
+std::string results_text(const Results& frame, const RowSource& rows,
+                         const std::optional<analysis::Reliability>& reliability) {
+    std::string text = analysis::detection_text(frame.detection, frame.request) + "\n" +
+                       reliability_text(reliability, frame);
+    const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
+    return numerical.empty() ? text : text + "\n" + numerical;
 }
 
 void print_failures(const RowCounts& rows, int max_meshes) {

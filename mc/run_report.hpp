@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "analysis/reliability.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/row_source.hpp"
 
@@ -20,6 +21,10 @@ RowCounts count_rows(const RowSource& rows);
 
 // One sentence on a gearbox of that status, without its subject: "is unstable ...".
 const char* failure_text(Status status);
+
+// Detection rates, reliability and, if it was verified, the numerical error.
+std::string results_text(const Results& frame, const RowSource& rows,
+                         const std::optional<analysis::Reliability>& reliability);
 
 void print_failures(const RowCounts& rows, int max_meshes);
 

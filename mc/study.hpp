@@ -213,6 +213,7 @@ struct Numerics {
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
     // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
     double tolerance = 0.0;
+    bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;
