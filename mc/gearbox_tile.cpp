@@ -25,7 +25,7 @@ double lap(Clock::time_point& start) {
 lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
-    settings.tolerance = n.settle_tolerance;
+    settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.span_meshes() : 0;
     settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
@@ -51,9 +51,14 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
     const auto settings = tile_settings(scene, with_motion);
-    tile.march = scene.study().effects.quasi_static()
-                     ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
-                     : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    if constexpr (W <= 8) {
+        if (scene.study().effects.quasi_static()) {
+            tile.march = lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings);
+            tile.march_s = lap(start);
+            return;
+        }
+    }
+    tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     tile.march_s = lap(start);
 }
 
@@ -85,8 +90,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         march<1>(scene, ids, with_motion, tile);
     } else if (lanes == 4) {
         march<4>(scene, ids, with_motion, tile);
-    } else {
+    } else if (lanes == 8) {
         march<8>(scene, ids, with_motion, tile);
+    } else {
+        march<16>(scene, ids, with_motion, tile);
     }
 
     start = Clock::now();

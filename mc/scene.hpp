@@ -13,6 +13,7 @@
 #include "mc/sampling.hpp"
 #include "mc/scene_error.hpp"
 #include "mc/scene_faults.hpp"
+#include "mc/scene_grid.hpp"
 #include "mc/scene_meshes.hpp"
 #include "mc/scene_numerics.hpp"
 #include "mc/study.hpp"
@@ -53,9 +54,13 @@ class Scene {
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return stepping_.least; }
+    // How a pilot calibrated the steps, if one did.
+    const std::optional<Calibration>& calibration() const { return calibration_; }
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
+    // Phases in [0, 1) on which steps must end.
+    std::vector<double> transitions() const;
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
@@ -66,8 +71,13 @@ class Scene {
 
   private:
     void build_plan();
-    void add_errors();
-    std::vector<double> transitions() const;
+    // The plan with its steps: stiffness and transmission errors at their nodes.
+    lockstep::MarchPlan plan_of(lockstep::PhaseGrid grid) const;
+    lockstep::Pilot pilot() const;
+    bool pitch_errors() const;
+    // Static transmission errors of the kinds of mesh.
+    lockstep::MeshError first_errors() const;
+    lockstep::MeshError second_errors() const;
 
     Study study_;
     std::unique_ptr<const Drive> drive_;
@@ -78,6 +88,7 @@ class Scene {
     lockstep::MarchPlan plan_;
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
+    std::optional<Calibration> calibration_;
     int te_samples_ = 0;
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
