@@ -11,6 +11,7 @@
 #include "analysis/feature_ranking.hpp"
 #include "analysis/hit_miss_pod.hpp"
 #include "analysis/miss_sensitivity.hpp"
+#include "analysis/roc.hpp"
 #include "analysis/signal_response_pod.hpp"
 
 namespace gearpod::analysis {
@@ -21,7 +22,8 @@ struct LevelReliability {
     SignalResponsePod signal_response;
     Auc auc;  // all faulty gearboxes against all healthy ones
     std::vector<Auc>
-        auc_by_size;  // in the order of the request's groups; no faulty ones in one at 0
+        auc_by_size;            // in the order of the request's groups; no faulty ones in one at 0
+    std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
 };

@@ -13,6 +13,7 @@
 #include "mc/hdf5_data.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/provenance.hpp"
+#include "mc/run_report.hpp"
 #include "mc/simulation.hpp"
 #include "signals/sensor.hpp"
 #include "signals/sensor_noise.hpp"
@@ -86,8 +87,8 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const Sampler sampler(scene.study());
     const GearboxTile tile =
         run_gearboxes(scene, sampler, path, std::span(&id, 1), 1, /*with_motion=*/true);
-    if (tile.march.status[0] != lockstep::LaneStatus::ok) {
-        throw std::runtime_error("this gearbox diverged or did not settle");
+    if (tile.status[0] != Status::ok) {
+        throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
     InstanceFeatures features(scene);
     Simulation out;

@@ -33,6 +33,7 @@ int run_command(const RunOptions& options);
 struct ReportOptions {
     std::string results;
     std::string json;       // "": none; "-": standard output
+    std::string html;       // "": none
     std::string condition;  // random input whose values get thresholds of their own; "": none
 };
 int report_command(const ReportOptions& options);

@@ -2,8 +2,10 @@
 
 #include <chrono>
 
+#include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
 #include "mc/schema.hpp"
+#include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
@@ -51,15 +53,37 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
     const auto settings = tile_settings(scene, with_motion);
+    const double processor_start = thread_processor_s();
     if constexpr (W <= 8) {
-        if (scene.study().effects.quasi_static()) {
-            tile.march = lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings);
-            tile.march_s = lap(start);
-            return;
-        }
+        tile.march = scene.study().effects.quasi_static()
+                         ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
+                         : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    } else {
+        tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     }
-    tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     tile.march_s = lap(start);
+    tile.march_cpu_s = thread_processor_s() - processor_start;
+}
+
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    if (status == lockstep::LaneStatus::ok) {
+        return Status::ok;
+    }
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return diverged ? Status::no_equilibrium : Status::not_settled;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::turning_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_settled;
 }
 
 }  // namespace
@@ -94,6 +118,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         march<8>(scene, ids, with_motion, tile);
     } else {
         march<16>(scene, ids, with_motion, tile);
+    }
+
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
 
     start = Clock::now();

@@ -94,7 +94,8 @@ void InstanceFeatures::add_noise(std::span<const double> folded, double sensor_n
 std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
                                               std::span<const double> te_turn,
                                               const InstanceInputs& inputs, Group group,
-                                              std::uint64_t instance) {
+                                              std::uint64_t instance,
+                                              std::vector<LevelSignals>* signals) {
     const Study& study = scene_.study();
     const auto& levels = study.sensor.noise_levels;
     const bool sensed = !folded.empty();  // a quasi-static gearbox has no sensor
@@ -118,6 +119,9 @@ std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
         input.planet_teeth = scene_.span().planet_teeth;
         input.te_harmonics = study.features.te_harmonics;
         input.tooth_rms = tooth_rms_;
+        if (signals != nullptr) {
+            signals->push_back({te_, sensed ? tooth_rms_ : std::vector<double>{}});
+        }
         for (std::size_t f = 0; f < features_.size(); ++f) {
             values[f * levels.size() + level] = features_[f]->compute(input);
         }

@@ -32,15 +32,23 @@ struct NoiseOfInstance {
     std::vector<double> encoder;  // for a level of 1 rad rms
 };
 
+// What the features of one noise level look at.
+struct LevelSignals {
+    std::vector<double> te_turn;    // rad, Z_p P_te samples
+    std::vector<double> tooth_rms;  // m/s^2, Z_p; empty without a sensor
+};
+
 // Holds scratch memory: one object per thread.
 class InstanceFeatures {
   public:
     explicit InstanceFeatures(const Scene& scene);
 
     // Values of all used features: [feature * noise levels + level]. `folded`: Z_p P bins of
-    // squared sensor signal; `te_turn`: Z_p P_te samples of averaged TE, rad.
+    // squared sensor signal; `te_turn`: Z_p P_te samples of averaged TE, rad. `signals` gets what
+    // they look at, an entry a noise level, unless it is null.
     std::vector<double> compute(std::span<const double> folded, std::span<const double> te_turn,
-                                const InstanceInputs& inputs, Group group, std::uint64_t instance);
+                                const InstanceInputs& inputs, Group group, std::uint64_t instance,
+                                std::vector<LevelSignals>* signals = nullptr);
 
     // The noise that compute() used last.
     const NoiseOfInstance& noise() const { return noise_; }

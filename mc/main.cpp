@@ -79,6 +79,7 @@ int run_program(int argc, char** argv) {
     auto* report_app = app.add_subcommand("report", "detection rates from a results file");
     report_app->add_option("results", report.results, "results file (HDF5)")->required();
     report_app->add_option("--json", report.json, "write JSON to a file, or to - for the terminal");
+    report_app->add_option("--html", report.html, "write a page with figures to a file");
     report_app->add_option(
         "--by", report.condition,
         "random input, e.g. torque_N_m, whose values get thresholds of their own");

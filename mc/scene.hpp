@@ -20,14 +20,21 @@
 
 namespace gearpod::mc {
 
+struct NumericsChoice;  // numerics_choice.hpp
+
 class Scene {
   public:
-    // The study must have gears (has_gears). Throws SceneError.
+    // The study must have gears (has_gears). With numerics.tolerance, its other numerics are chosen
+    // here. Throws SceneError.
     explicit Scene(const Study& study);
+    ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
+    // With the numerics that were chosen.
     const Study& study() const { return study_; }
+    // How they were chosen; null without numerics.tolerance.
+    const NumericsChoice* numerics_choice() const { return choice_.get(); }
     const Drive& drive() const { return *drive_; }
     const std::vector<SceneMesh>& meshes() const { return meshes_; }
     const lockstep::PairSet& pairs() const { return pairs_; }
@@ -59,6 +66,8 @@ class Scene {
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
+    // Marches the same gearboxes another way from now on. Throws SceneError.
+    void use(const Numerics& numerics);
     // Phases in [0, 1) on which steps must end.
     std::vector<double> transitions() const;
     // All pairs at their stiffest: the bound for the integrator's step.
@@ -78,8 +87,10 @@ class Scene {
     // Static transmission errors of the kinds of mesh.
     lockstep::MeshError first_errors() const;
     lockstep::MeshError second_errors() const;
+    void settle();
 
     Study study_;
+    std::unique_ptr<const NumericsChoice> choice_;
     std::unique_ptr<const Drive> drive_;
     signals::SpanLayout span_;
     std::vector<SceneMesh> meshes_;

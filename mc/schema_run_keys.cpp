@@ -19,6 +19,8 @@ constexpr ChoiceName kInstructionSets[] = {
     name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
     name("x86-64-v3", InstructionSet::x86_64_v3), name("x86-64-v4", InstructionSet::x86_64_v4)};
 
+constexpr Range kTolerance = {0.0, 1.0, false, true};
+
 std::span<const ChoiceName> feature_names() {
     static const std::vector<ChoiceName> names = [] {
         std::vector<ChoiceName> all;
@@ -51,6 +53,7 @@ const Key kKeys[] = {
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
 
+    {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
     {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: only with rk4, and orbits settle to 1e-5 at best"},
     {"numerics", "grid", choice<&Numerics::grid>(kStepGrids), kNone, kAny, integration, kShared, "uniform steps, or graded ones: fine after each contact transition, coarse where the response is quiet"},

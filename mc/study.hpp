@@ -217,6 +217,8 @@ struct Numerics {
     double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
     double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
+    double tolerance = 0.0;
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;

@@ -82,6 +82,7 @@ class TileMarch {
 
     void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
         (*march_mesh_)(overrides, state_, record);
+        ++result_.marched;
         rotation_.remove(state_);
     }
 
