@@ -73,9 +73,8 @@ double marched_meshes(const Scene& scene) {
     if (study.effects.quasi_static()) {
         return 1.0 + 3.0 * static_cast<double>(scene.pattern().passages.size());
     }
-    const double settle =
-        std::min(1.0 + scene.decay_meshes() * -std::log(study.numerics.settle_tolerance),
-                 static_cast<double>(scene.max_meshes()));
+    const double settle = std::min(1.0 + scene.decay_meshes() * -std::log(settle_tolerance(study)),
+                                   static_cast<double>(scene.max_meshes()));
     if (scene.faulty_pair() < 0) {
         return settle;
     }
@@ -83,6 +82,41 @@ double marched_meshes(const Scene& scene) {
         std::ceil(scene.pairs().curve(scene.faulty_pair()).contact_ratio()) + settle;
     return settle + std::min(passage * static_cast<double>(scene.pattern().passages.size()),
                              static_cast<double>(scene.pattern().length));
+}
+
+// Lengths of the steps, and where the short ones lie.
+void print_steps(const Scene& scene) {
+    const lockstep::PhaseGrid& grid = scene.plan().grid;
+    const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
+    print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different ones",
+                                            *shortest, *longest, grid.lengths.size()));
+    if (!scene.calibration()) {
+        return;
+    }
+    const Calibration& how = *scene.calibration();
+    const Numerics& n = scene.study().numerics;
+    if (how.estimated) {
+        print_entry("calibrated by", fmt::format("a pilot of {}: estimated error of a step {:g} of "
+                                                 "the largest motion",
+                                                 lockstep::kPilotLanes, n.step_tolerance));
+    } else {
+        print_entry("calibrated by",
+                    fmt::format("a pilot of {}: signals within {:.2g} rms (allowed: {:g})",
+                                lockstep::kPilotLanes, how.signal_error, n.grid_tolerance));
+        print_entry("graded",
+                    fmt::format("{:.3g} after a transition, then up to {:g} of the phase "
+                                "since it, at most {:.3g}",
+                                how.grading.first, how.grading.growth, how.grading.longest));
+    }
+    std::vector<double> since;
+    for (const lockstep::Step& step : grid.steps) {
+        since.push_back(lockstep::since_transition(scene.transitions(), step.phase));
+    }
+    std::sort(since.begin(), since.end());
+    print_entry("where fine",
+                fmt::format("half of the steps begin within {:.3g} mesh periods after "
+                            "a transition",
+                            since[since.size() / 2]));
 }
 
 void print_cost(const Scene& scene) {
@@ -98,7 +132,7 @@ void print_cost(const Scene& scene) {
     print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
                                                               scene.nominal_mesh_frequency_Hz()));
     if (!study.effects.quasi_static()) {
-        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3", "bs3"};
         const std::string least =
             scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
         print_entry("steps a mesh period",
@@ -107,6 +141,15 @@ void print_cost(const Scene& scene) {
     }
     if (const NumericsChoice* choice = scene.numerics_choice()) {
         print_entry("chosen for the tolerance", choice->text());
+    }
+    if (scene.study().numerics.grid == StepGrid::graded || scene.calibration()) {
+        print_steps(scene);
+    }
+    if (plan.precision == lockstep::Precision::single_precision) {
+        print_entry("precision",
+                    fmt::format("single within a mesh period, double between; orbits settle to "
+                                "{:g} (asked for: {:g})",
+                                settle_tolerance(study), study.numerics.settle_tolerance));
     }
     print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
                                                     marched_meshes(scene), scene.span_meshes()));

@@ -28,7 +28,7 @@ double lap(Clock::time_point& start) {
 lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
-    settings.tolerance = n.settle_tolerance;
+    settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
     settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
@@ -55,9 +55,13 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     tile.stiffness_s = lap(start);
     const auto settings = tile_settings(scene, with_motion);
     const double processor_start = thread_processor_s();
-    tile.march = scene.study().effects.quasi_static()
-                     ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
-                     : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    if constexpr (W <= 8) {
+        tile.march = scene.study().effects.quasi_static()
+                         ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
+                         : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    } else {
+        tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    }
     tile.march_s = lap(start);
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
@@ -115,8 +119,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         march<1>(scene, ids, with_motion, tile);
     } else if (lanes == 4) {
         march<4>(scene, ids, with_motion, tile);
-    } else {
+    } else if (lanes == 8) {
         march<8>(scene, ids, with_motion, tile);
+    } else {
+        march<16>(scene, ids, with_motion, tile);
     }
 
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {

@@ -31,7 +31,7 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// Runs the gearboxes in `ids`, at most as many as there are lanes (8, 4 or 1); missing lanes repeat
+// Runs the gearboxes in `ids`, at most as many as there are lanes (16, 8, 4 or 1); missing lanes repeat
 // the last one.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false);

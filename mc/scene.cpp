@@ -8,6 +8,7 @@
 #include "mc/numerics_choice.hpp"
 #include "mc/scene_body.hpp"
 #include "mc/study_gears.hpp"
+#include "mc/study_sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -109,39 +110,78 @@ void Scene::build_plan() {
     }
     settle();
     plan_.integrator = stepping_.integrator;
-    plan_.grid = lockstep::make_phase_grid(sampling.samples, stepping_.steps, transitions());
-    plan_.grid.stage_nodes = lockstep::stage_nodes(plan_.integrator);
-    plan_.nodes = lockstep::tabulate(pairs_, plan_.grid, study_.effects.mesh_damping);
+    plan_.precision = study_.numerics.precision == Precision::single_precision
+                          ? lockstep::Precision::single_precision
+                          : lockstep::Precision::double_precision;
     plan_.te_weight = drive_->te_weight(plan_.layout);
-    add_errors();
+    if (study_.effects.separation != Separation::none) {
+        plan_.mesh_law = dynamics::MeshLaw::separating;
+    } else if (pitch_errors() || !first_errors().amplitude_m.empty() ||
+               !second_errors().amplitude_m.empty()) {
+        plan_.mesh_law = dynamics::MeshLaw::with_error;
+    }
+    SceneGrid chosen =
+        choose_grid(study_, stepping_, sampling.samples, transitions(), [this] { return pilot(); });
+    calibration_ = chosen.calibration;
+    plan_ = plan_of(std::move(chosen.grid));
+    if (pitch_errors()) {
+        load_shares_ = std::make_unique<const lockstep::LoadShares>(pairs_, plan_.grid);
+    }
+}
+
+lockstep::MarchPlan Scene::plan_of(lockstep::PhaseGrid grid) const {
+    lockstep::MarchPlan plan = plan_;
+    plan.grid = std::move(grid);
+    plan.nodes = lockstep::tabulate(pairs_, plan.grid, study_.effects.mesh_damping);
+    if (plan.mesh_law != dynamics::MeshLaw::linear) {
+        std::vector<lockstep::MeshError> errors(static_cast<std::size_t>(drive_->pairs_per_mesh()),
+                                                first_errors());
+        errors.resize(static_cast<std::size_t>(pairs_.pairs()), second_errors());
+        lockstep::add_errors(pairs_, plan.grid, errors, plan.nodes);
+    }
+    return plan;
+}
+
+bool Scene::pitch_errors() const {
+    return study_.errors.pitch_error_m > 0.0 ||
+           study_.find_random("gearbox.pitch_error_um") != nullptr;
 }
 
 // Errors of one kind of mesh are alike for all planets, shifted with their mesh phases.
-void Scene::add_errors() {
+lockstep::MeshError Scene::first_errors() const {
     const MeshErrors& e = study_.errors;
-    const bool pitch =
-        e.pitch_error_m > 0.0 || study_.find_random("gearbox.pitch_error_um") != nullptr;
-    const lockstep::MeshError first =
-        study_.gearbox.kind == GearboxKind::fixed_shaft
-            ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}
-            : lockstep::MeshError{e.sun_planet_m, e.sun_planet_phase_rad};
-    const lockstep::MeshError second{e.ring_planet_m, e.ring_planet_phase_rad};
-    const bool any = pitch || !first.amplitude_m.empty() || !second.amplitude_m.empty();
-    if (study_.effects.separation != Separation::none) {
-        plan_.mesh_law = dynamics::MeshLaw::separating;
-    } else if (any) {
-        plan_.mesh_law = dynamics::MeshLaw::with_error;
+    return study_.gearbox.kind == GearboxKind::fixed_shaft
+               ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}
+               : lockstep::MeshError{e.sun_planet_m, e.sun_planet_phase_rad};
+}
+
+lockstep::MeshError Scene::second_errors() const {
+    return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
+}
+
+// The nominal gearbox and the first graded ones, all with the largest fault. The same for every run
+// of the study.
+lockstep::Pilot Scene::pilot() const {
+    const Sampler sampler(study_);
+    const std::vector<double> sizes = fault_sizes(study_);
+    lockstep::Pilot pilot;
+    pilot.faults = {&pairs_, pattern(), {}};
+    pilot.faults.curve.resize(static_cast<std::size_t>(fault_->curves()));
+    for (int lane = 0; lane < lockstep::kPilotLanes; ++lane) {
+        pilot.inputs.push_back(inputs(
+            lane == 0 ? sampler.nominal()
+                      : sampler.sample(Group::graded, static_cast<std::uint64_t>(lane - 1))));
+        for (int curve = 0; curve < fault_->curves(); ++curve) {
+            pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
+                fault_->mesh(curve, sizes.empty() ? 0.0 : sizes.back()));
+        }
     }
-    if (plan_.mesh_law == dynamics::MeshLaw::linear) {
-        return;
-    }
-    std::vector<lockstep::MeshError> errors(static_cast<std::size_t>(drive_->pairs_per_mesh()),
-                                            first);
-    errors.resize(static_cast<std::size_t>(pairs_.pairs()), second);
-    lockstep::add_errors(pairs_, plan_.grid, errors, plan_.nodes);
-    if (pitch) {
-        load_shares_ = std::make_unique<const lockstep::LoadShares>(pairs_, plan_.grid);
-    }
+    // The orbit to a thousandth; what is left of the approach is alike on all grids.
+    constexpr double kDecays = 7.0, kMostMeshes = 100.0;
+    const double decays = std::ceil(1.0 + kDecays * stepping_.decay_meshes);
+    pilot.settle_meshes = static_cast<int>(std::min(kMostMeshes, decays));
+    pilot.plan = [this](lockstep::PhaseGrid grid) { return plan_of(std::move(grid)); };
+    return pilot;
 }
 
 }  // namespace gearpod::mc

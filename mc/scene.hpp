@@ -13,6 +13,7 @@
 #include "mc/sampling.hpp"
 #include "mc/scene_error.hpp"
 #include "mc/scene_faults.hpp"
+#include "mc/scene_grid.hpp"
 #include "mc/scene_meshes.hpp"
 #include "mc/scene_numerics.hpp"
 #include "mc/study.hpp"
@@ -64,11 +65,15 @@ class Scene {
     // See Stepping.
     int least_steps() const { return stepping_.least; }
     double explicit_steps() const { return stepping_.explicit_steps; }
+    // How a pilot calibrated the steps, if one did.
+    const std::optional<Calibration>& calibration() const { return calibration_; }
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
     // Marches the same gearboxes another way from now on. Throws SceneError.
     void use(const Numerics& numerics);
+    // Phases in [0, 1) on which steps must end.
+    std::vector<double> transitions() const;
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
@@ -79,9 +84,14 @@ class Scene {
 
   private:
     void build_plan();
+    // The plan with its steps: stiffness and transmission errors at their nodes.
+    lockstep::MarchPlan plan_of(lockstep::PhaseGrid grid) const;
+    lockstep::Pilot pilot() const;
+    bool pitch_errors() const;
+    // Static transmission errors of the kinds of mesh.
+    lockstep::MeshError first_errors() const;
+    lockstep::MeshError second_errors() const;
     void settle();
-    void add_errors();
-    std::vector<double> transitions() const;
 
     Study study_;
     std::unique_ptr<const NumericsChoice> choice_;
@@ -93,6 +103,7 @@ class Scene {
     lockstep::MarchPlan plan_;
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
+    std::optional<Calibration> calibration_;
     int te_samples_ = 0;
     int signal_meshes_ = 0;
     int max_meshes_ = 1;

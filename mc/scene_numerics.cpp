@@ -55,6 +55,9 @@ class StepNeeds {
           layout_(layout),
           stiffest_(stiffest_N_m),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
+        const auto method = study.numerics.integrator == Integrator::bs3
+                                ? lockstep::Integrator::bs3
+                                : lockstep::Integrator::rk4;
         const Sampler sampler(study);
         gearboxes_.push_back(gearbox_inputs(study, drive, sampler.nominal()));
         // A pilot of the ensemble, the same for every run of the study, stands for the rest.
@@ -63,11 +66,12 @@ class StepNeeds {
             gearboxes_.push_back(gearbox_inputs(
                 study, drive, sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
         }
-        const lockstep::StepLimit limit = lockstep::runge_kutta_limit(system(0));
+        const lockstep::StepLimit limit = lockstep::runge_kutta_limit(system(0), method);
         decay_meshes_ = 1.0 / (limit.slowest_decay_1_s * period(0));
         stable_ = period(0) / limit.step_s;
         for (std::size_t i = 1; i < gearboxes_.size(); ++i) {
-            stable_ = std::max(stable_, period(i) / lockstep::runge_kutta_limit(system(i)).step_s);
+            stable_ = std::max(stable_,
+                               period(i) / lockstep::runge_kutta_limit(system(i), method).step_s);
         }
     }
 
@@ -104,17 +108,16 @@ class StepNeeds {
 
 [[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
     const lockstep::StiffPart stiff = needs.stiffest_part();
-    throw SceneError(
-        "numerics.integrator",
-        fmt::format("the explicit Runge-Kutta method would need {:.3g} steps a mesh period ({} "
-                    "moves {} at a rate of {:.3g} 1/s)",
-                    steps, stiff.part, stiff.motion, stiff.rate_1_s),
-        "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
+    throw SceneError("numerics.integrator",
+                     fmt::format("the explicit method would need {:.3g} steps a mesh period ({} "
+                                 "moves {} at a rate of {:.3g} 1/s)",
+                                 steps, stiff.part, stiff.motion, stiff.rate_1_s),
+                     "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
 }
 
 // One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. The
 // margin covers what the pilot misses, and a gearbox beyond it is reported as diverged.
-Stepping explicit_stepping(const StepNeeds& needs, int given) {
+Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
     constexpr double kMargin = 1.2;
     constexpr double kStepsPerBandPeriod = 20.0;  // of the sensor's band edge
     constexpr double kFewestStepsPerBandPeriod = 10.0;
@@ -142,8 +145,10 @@ Stepping explicit_stepping(const StepNeeds& needs, int given) {
                         given, least),
             "leave the key out to have the steps chosen");
     }
-    return {lockstep::Integrator::rk4, given > 0 ? given : static_cast<int>(chosen),
-            static_cast<int>(least), needs.decay_meshes(), 0.0};
+    return {integrator, given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
+            needs.decay_meshes(),
+            1.0 / std::max({1.0, kMargin * needs.stable(),
+                            kFewestStepsPerBandPeriod * needs.band_periods()})};
 }
 
 Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
@@ -154,7 +159,7 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
                                      chosen, kMostSteps),
                          "lower sensor.low_pass_Hz or raise the speed");
     }
-    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 0.0};
+    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 1.0};
 }
 
 lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
@@ -165,10 +170,21 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
             return lockstep::Integrator::newmark;
         case Integrator::sdirk3:
             return lockstep::Integrator::sdirk3;
+        case Integrator::bs3:
+            return lockstep::Integrator::bs3;
         case Integrator::automatic:
             break;
     }
-    return lockstep::choose_integrator(needs.stable());
+    const lockstep::Integrator chosen = lockstep::choose_integrator(needs.stable());
+    if (study.numerics.precision == Precision::single_precision && !is_explicit(chosen)) {
+        const lockstep::StiffPart stiff = needs.stiffest_part();
+        throw SceneError("numerics.precision",
+                         fmt::format("\"single\" is for explicit integrators, and this gearbox is "
+                                     "too stiff for one ({} moves {} at a rate of {:.3g} 1/s)",
+                                     stiff.part, stiff.motion, stiff.rate_1_s),
+                         "use precision = \"double\"");
+    }
+    return chosen;
 }
 
 }  // namespace
@@ -202,18 +218,25 @@ Stepping choose_stepping(const Study& study, const Drive& drive,
     const StepNeeds needs(study, drive, layout, stiffest_N_m);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
-    Stepping stepping = integrator == lockstep::Integrator::rk4
-                            ? explicit_stepping(needs, given)
-                            : implicit_stepping(needs, integrator, given);
+    Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
+                                                : implicit_stepping(needs, integrator, given);
     stepping.explicit_steps = needs.stable();
     return stepping;
+}
+
+double settle_tolerance(const Study& study) {
+    constexpr double kFinestInSingle = 1e-5;
+    const double asked = study.numerics.settle_tolerance;
+    return study.numerics.precision == Precision::single_precision
+               ? std::max(asked, kFinestInSingle)
+               : asked;
 }
 
 // Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the
 // tolerance.
 int choose_max_meshes(const Study& study, double decay_meshes) {
     constexpr double kFewest = 200.0, kMost = 1e6;
-    const double decay = -2.0 * decay_meshes * std::log(study.numerics.settle_tolerance);
+    const double decay = -2.0 * decay_meshes * std::log(settle_tolerance(study));
     const int given = study.numerics.max_meshes;
     return given > 0 ? given
                      : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)

@@ -26,13 +26,21 @@ struct Stepping {
     // Mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e; infinite
     // without damping.
     double decay_meshes = 0.0;
-    // Steps a mesh period with which the classical Runge-Kutta method is stable, marched or not.
+    // The longest step, mesh periods, at which the integrator is stable with some margin and the
+    // sensor's low-pass not yet inaccurate.
+    double longest_step = 1.0;
+    // Steps a mesh period with which the explicit method is stable, marched or not: the classical
+    // Runge-Kutta method, unless the study names another.
     double explicit_steps = 0.0;
 };
 // `stiffest_N_m`: all pairs at their stiffest, the bound for an explicit step. Throws SceneError.
 Stepping choose_stepping(const Study& study, const Drive& drive,
                          const dynamics::GearboxLayout& layout,
                          const std::vector<double>& stiffest_N_m);
+
+// Relative change at which an orbit has settled: what the study asks for, or what its precision
+// can tell.
+double settle_tolerance(const Study& study);
 
 // Mesh periods in which a gearbox must settle.
 int choose_max_meshes(const Study& study, double decay_meshes);

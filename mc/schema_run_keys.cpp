@@ -8,7 +8,12 @@ namespace {
 constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
 constexpr ChoiceName kIntegrators[] = {
     name("auto", Integrator::automatic), name("rk4", Integrator::rk4),
-    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3)};
+    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3),
+    name("bs3", Integrator::bs3)};
+constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
+                                     name("graded", StepGrid::graded)};
+constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
+                                      name("single", Precision::single_precision)};
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
 constexpr ChoiceName kInstructionSets[] = {
     name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
@@ -51,11 +56,15 @@ const Key kKeys[] = {
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},
     {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
+    {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: only with rk4, and orbits settle to 1e-5 at best"},
+    {"numerics", "grid", choice<&Numerics::grid>(kStepGrids), kNone, kAny, integration, kShared, "uniform steps, or graded ones: fine after each contact transition, coarse where the response is quiet"},
+    {"numerics", "step_tolerance", number<&Numerics::step_tolerance>, kNone, inside(0, 1), integration, kShared, "estimated error of a step over the largest motion, by which a pilot chooses the steps of bs3"},
+    {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of a pilot's signals, by which the graded grids of all integrators but bs3 are chosen"},
     {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
-    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 8), may, kShared, "gearboxes in lockstep: 8, 4 or 1"},
+    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for all"},
     {"numerics", "instruction_set", choice<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
 

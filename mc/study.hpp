@@ -26,7 +26,9 @@ using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
-enum class Integrator { automatic, rk4, newmark, sdirk3 };
+enum class Integrator { automatic, rk4, newmark, sdirk3, bs3 };
+enum class Precision { double_precision, single_precision };
+enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
 enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
 
@@ -210,6 +212,10 @@ struct Detection {
 
 struct Numerics {
     Integrator integrator = Integrator::automatic;
+    Precision precision = Precision::double_precision;
+    StepGrid grid = StepGrid::uniform;
+    double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
+    double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
     // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
     double tolerance = 0.0;
@@ -217,7 +223,7 @@ struct Numerics {
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;
-    int lanes = 8;    // 8, 4 or 1
+    int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
     int threads = 0;  // 0: all
     InstructionSet instruction_set = InstructionSet::automatic;
 

@@ -151,10 +151,26 @@ void check_features(StudyDraft& draft) {
 }
 
 void check_lanes(StudyDraft& draft) {
-    const int lanes = draft.study.numerics.lanes;
-    if (!machine::is_lane_count(lanes)) {
-        draft.reject("numerics.lanes", fmt::format("must be 8, 4 or 1, but is {}", lanes),
-                     "8 fills AVX-512 registers, 4 those of AVX2; 1 is for comparison");
+    const Numerics& n = draft.study.numerics;
+    const bool single = n.precision == Precision::single_precision;
+    if (!machine::is_lane_count(n.lanes) || (n.lanes == 16 && !single)) {
+        draft.reject("numerics.lanes",
+                     fmt::format("must be {}8, 4 or 1, but is {}", single ? "16, " : "", n.lanes),
+                     single ? "16 fills AVX-512 registers, 8 those of AVX2; 1 is for comparison"
+                            : "8 fills AVX-512 registers, 4 those of AVX2; 1 is for comparison");
+    }
+}
+
+void check_precision(StudyDraft& draft) {
+    const Numerics& n = draft.study.numerics;
+    const bool implicit = n.integrator == Integrator::newmark || n.integrator == Integrator::sdirk3;
+    if (n.precision == Precision::single_precision && implicit &&
+        draft.all_usable({"numerics.precision", "numerics.integrator"})) {
+        draft.reject("numerics.precision",
+                     fmt::format("\"single\" is for the integrator rk4, but numerics.integrator is "
+                                 "\"{}\"",
+                                 choice_text(draft.study, "numerics", "integrator")),
+                     "use precision = \"double\", or integrator = \"rk4\"");
     }
 }
 
@@ -167,6 +183,7 @@ void check_consistency(StudyDraft& draft) {
     check_sampling(draft);
     check_features(draft);
     check_lanes(draft);
+    check_precision(draft);
 }
 
 }  // namespace gearpod::mc

@@ -214,6 +214,14 @@ void fill_path(StudyDraft& draft) {
     }
 }
 
+// As many as fill a 512-bit register.
+void fill_lanes(StudyDraft& draft) {
+    Numerics& n = draft.study.numerics;
+    if (!draft.is_given("numerics.lanes") && n.precision == Precision::single_precision) {
+        n.lanes = 16;
+    }
+}
+
 StudyReading read_document(const Value& document, Problems problems) {
     StudyDraft draft;
     draft.problems = std::move(problems);
@@ -223,6 +231,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     fill_features(draft.study);
     fill_operation(draft);
     fill_path(draft);
+    fill_lanes(draft);
     check_gears(draft);
     check_consistency(draft);
     check_fault(draft);

@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 
 // Gearboxes of a tile, whatever the lanes: the unit of work must not depend on who does it.
-inline constexpr int kTileRows = 8;
+inline constexpr int kTileRows = 16;
 
 // Numbers in a row: the parameters, of which the last is the fault's size, then features x noise
 // levels.

@@ -4,38 +4,37 @@
 
 namespace gearpod::dynamics {
 
-template <int W>
-FixedShaftLanes<W> make_lanes(const FixedShaftLayout& layout,
-                              std::span<const FixedShaftInputs> inputs) {
+template <int W, class Real>
+FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
+                                    std::span<const FixedShaftInputs> inputs) {
     assert(inputs.size() == W);
-    FixedShaftLanes<W> lanes{};
+    FixedShaftLanes<W, Real> lanes{};
     lanes.sensor = layout.sensor;
     for (int l = 0; l < W; ++l) {
         const FixedShaftInputs& in = inputs[static_cast<std::size_t>(l)];
         const GearboxMatrices m = assemble(layout, in, {0.0});
         for (int i = 0; i < fixed_shaft_motions; ++i) {
-            lanes.inverse_mass[i][l] = 1.0 / m.mass(i, i);
-            lanes.force[i][l] = m.force(i);
+            lanes.inverse_mass[i][l] = Real(1.0 / m.mass(i, i));
+            lanes.force[i][l] = Real(m.force(i));
         }
         for (const FixedShaftGear g : {pinion, gear}) {
             const double r2 = layout.base_radius_m[g] * layout.base_radius_m[g];
-            lanes.bearing_stiffness[g][l] = in.bearing_stiffness_N_m[g];
-            lanes.bearing_damping[g][l] = in.bearing_damping_N_s_m[g];
-            lanes.coupling_stiffness[g][l] = in.coupling_stiffness_N_m_rad[g] / r2;
-            lanes.coupling_damping[g][l] = in.coupling_damping_N_m_s_rad[g] / r2;
+            lanes.bearing_stiffness[g][l] = Real(in.bearing_stiffness_N_m[g]);
+            lanes.bearing_damping[g][l] = Real(in.bearing_damping_N_s_m[g]);
+            lanes.coupling_stiffness[g][l] = Real(in.coupling_stiffness_N_m_rad[g] / r2);
+            lanes.coupling_damping[g][l] = Real(in.coupling_damping_N_m_s_rad[g] / r2);
         }
-        lanes.mesh_damping_factor[l] = mesh_damping_factor(layout, in, 0);
-        lanes.mesh_period[l] = in.mesh_period_s;
-        lanes.backlash[l] = in.backlash_m;
+        lanes.mesh_damping_factor[l] = Real(mesh_damping_factor(layout, in, 0));
+        lanes.mesh_period[l] = Real(in.mesh_period_s);
+        lanes.backlash[l] = Real(in.backlash_m);
     }
     return lanes;
 }
 
-template FixedShaftLanes<1> make_lanes<1>(const FixedShaftLayout&,
-                                          std::span<const FixedShaftInputs>);
-template FixedShaftLanes<4> make_lanes<4>(const FixedShaftLayout&,
-                                          std::span<const FixedShaftInputs>);
-template FixedShaftLanes<8> make_lanes<8>(const FixedShaftLayout&,
-                                          std::span<const FixedShaftInputs>);
+#define GEARPOD_LANES(W, REAL)                                                     \
+    template FixedShaftLanes<W, REAL> make_lanes<W, REAL>(const FixedShaftLayout&, \
+                                                          std::span<const FixedShaftInputs>);
+GEARPOD_FOR_ALL_WIDTHS(GEARPOD_LANES)
+#undef GEARPOD_LANES
 
 }  // namespace gearpod::dynamics

@@ -4,35 +4,36 @@
 #include <span>
 
 #include "dynamics/fixed_shaft.hpp"
+#include "machine/lanes.hpp"
 
 namespace gearpod::dynamics {
 
-template <int W>
+template <int W, class RealType = double>
 struct alignas(64) FixedShaftLanes {
+    using Real = RealType;
     // [motion][lane].
-    double inverse_mass[fixed_shaft_motions][W];
-    double force[fixed_shaft_motions][W];
+    Real inverse_mass[fixed_shaft_motions][W];
+    Real force[fixed_shaft_motions][W];
     // [pinion, gear][lane]; the couplings' over R_b^2.
-    double bearing_stiffness[fixed_shaft_gear_count][W];
-    double bearing_damping[fixed_shaft_gear_count][W];
-    double coupling_stiffness[fixed_shaft_gear_count][W];
-    double coupling_damping[fixed_shaft_gear_count][W];
-    double mesh_damping_factor[W];  // times the shape of the stiffness
-    double mesh_period[W];          // s
-    double backlash[W];             // 2b of the mesh, m
-    int sensor;                     // FixedShaftGear
+    Real bearing_stiffness[fixed_shaft_gear_count][W];
+    Real bearing_damping[fixed_shaft_gear_count][W];
+    Real coupling_stiffness[fixed_shaft_gear_count][W];
+    Real coupling_damping[fixed_shaft_gear_count][W];
+    Real mesh_damping_factor[W];  // times the shape of the stiffness
+    Real mesh_period[W];          // s
+    Real backlash[W];             // 2b of the mesh, m
+    int sensor;                   // FixedShaftGear
 };
 
 // `inputs` holds W gearboxes.
-template <int W>
-FixedShaftLanes<W> make_lanes(const FixedShaftLayout& layout,
-                              std::span<const FixedShaftInputs> inputs);
+template <int W, class Real = double>
+FixedShaftLanes<W, Real> make_lanes(const FixedShaftLayout& layout,
+                                    std::span<const FixedShaftInputs> inputs);
 
-extern template FixedShaftLanes<1> make_lanes<1>(const FixedShaftLayout&,
-                                                 std::span<const FixedShaftInputs>);
-extern template FixedShaftLanes<4> make_lanes<4>(const FixedShaftLayout&,
-                                                 std::span<const FixedShaftInputs>);
-extern template FixedShaftLanes<8> make_lanes<8>(const FixedShaftLayout&,
-                                                 std::span<const FixedShaftInputs>);
+#define GEARPOD_LANES(W, REAL)                                    \
+    extern template FixedShaftLanes<W, REAL> make_lanes<W, REAL>( \
+        const FixedShaftLayout&, std::span<const FixedShaftInputs>);
+GEARPOD_FOR_ALL_WIDTHS(GEARPOD_LANES)
+#undef GEARPOD_LANES
 
 }  // namespace gearpod::dynamics

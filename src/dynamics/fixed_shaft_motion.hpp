@@ -7,35 +7,36 @@
 
 namespace gearpod::dynamics {
 
-template <class MeshLaw, int W>
+template <class MeshLaw, int W, class RealType = double>
 struct FixedShaftMotions {
+    using Real = RealType;
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = fixed_shaft_motions;
     static constexpr int kMaxPairs = 1;
     static constexpr int kMaxSources = 1;
-    using Lanes = FixedShaftLanes<W>;
+    using Lanes = FixedShaftLanes<W, Real>;
     using Mesh = MeshLaw;
-    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W, Real>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes&) { return fixed_shaft_motions; }
     static GEARPOD_INLINE int sources(const Lanes&) { return 1; }
-    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int) {
+    static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int) {
         return p.mesh_damping_factor;
     }
 
     // a = M^-1 (f - C v - K q). q, v, a: [motion][lane].
-    static GEARPOD_INLINE void accelerations(const Lanes& p, const double* __restrict q,
-                                             const double* __restrict v, const Pairs& pairs,
-                                             double* __restrict a) {
+    static GEARPOD_INLINE void accelerations(const Lanes& p, const Real* __restrict q,
+                                             const Real* __restrict v, const Pairs& pairs,
+                                             Real* __restrict a) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double d = (at(q, u_1, l) - at(q, u_2, l)) - (at(q, y_1, l) - at(q, y_2, l));
-            const double r = (at(v, u_1, l) - at(v, u_2, l)) - (at(v, y_1, l) - at(v, y_2, l));
-            const double mesh = Mesh::force(pairs, l, l, d, r);
-            const double motor =
+            const Real d = (at(q, u_1, l) - at(q, u_2, l)) - (at(q, y_1, l) - at(q, y_2, l));
+            const Real r = (at(v, u_1, l) - at(v, u_2, l)) - (at(v, y_1, l) - at(v, y_2, l));
+            const Real mesh = Mesh::force(pairs, l, l, d, r);
+            const Real motor =
                 spring_damper(p.coupling_stiffness[pinion][l], at(q, u_m, l) - at(q, u_1, l),
                               p.coupling_damping[pinion][l], at(v, u_m, l) - at(v, u_1, l));
-            const double load =
+            const Real load =
                 spring_damper(p.coupling_stiffness[gear][l], at(q, u_2, l) - at(q, u_b, l),
                               p.coupling_damping[gear][l], at(v, u_2, l) - at(v, u_b, l));
             set(p, a, x_1, l, -bearing(p, pinion, q, v, x_1, l));
@@ -50,10 +51,10 @@ struct FixedShaftMotions {
     }
 
     // Acceleration of the sensor's bearing along x and y: [axis][lane].
-    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double*, const double*,
-                                                    const double* __restrict a,
-                                                    double* __restrict out) {
-        const double* __restrict sensed = a + 2 * p.sensor * W;
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const Real*, const Real*,
+                                                    const Real* __restrict a,
+                                                    Real* __restrict out) {
+        const Real* __restrict sensed = a + 2 * p.sensor * W;
 #pragma omp simd
         for (int i = 0; i < 2 * W; ++i) {
             out[i] = sensed[i];
@@ -61,15 +62,15 @@ struct FixedShaftMotions {
     }
 
   private:
-    static GEARPOD_INLINE double at(const double* x, int motion, int l) {
+    static GEARPOD_INLINE Real at(const Real* x, int motion, int l) {
         return x[motion * W + l];
     }
-    static GEARPOD_INLINE double bearing(const Lanes& p, int g, const double* q, const double* v,
-                                         int motion, int l) {
+    static GEARPOD_INLINE Real bearing(const Lanes& p, int g, const Real* q, const Real* v,
+                                       int motion, int l) {
         return spring_damper(p.bearing_stiffness[g][l], at(q, motion, l), p.bearing_damping[g][l],
                              at(v, motion, l));
     }
-    static GEARPOD_INLINE void set(const Lanes& p, double* a, int motion, int l, double force) {
+    static GEARPOD_INLINE void set(const Lanes& p, Real* a, int motion, int l, Real force) {
         a[motion * W + l] = (p.force[motion][l] + force) * p.inverse_mass[motion][l];
     }
 };

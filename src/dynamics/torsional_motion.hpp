@@ -12,26 +12,27 @@
 
 namespace gearpod::dynamics {
 
-template <class MeshLaw, int W>
+template <class MeshLaw, int W, class RealType = double>
 struct TorsionalMotion {
+    using Real = RealType;
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = 3 + kMaxPlanets;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
     static constexpr int kMaxSources = kMaxPlanets;
-    using Lanes = PlanetaryLanes<W>;
+    using Lanes = PlanetaryLanes<W, Real>;
     using Mesh = MeshLaw;
-    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W, Real>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 3 + p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
-    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+    static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int pair) {
         return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
     }
 
     // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane].
-    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
-                                             const double* __restrict v, const Pairs& pairs,
-                                             double* __restrict a) {
+    static GEARPOD_INLINE void accelerations(const Lanes& p, const Real* __restrict q,
+                                             const Real* __restrict v, const Pairs& pairs,
+                                             Real* __restrict a) {
         for (int body = 0; body < 3; ++body) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -52,14 +53,13 @@ struct TorsionalMotion {
     }
 
     // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
-    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* q,
-                                                    const double* v, const double* a,
-                                                    double* __restrict out) {
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const Real* q, const Real* v,
+                                                    const Real* a, Real* __restrict out) {
         for (int n = 0; n < p.planets; ++n) {
-            const double x = -p.sin_psi[n], y = p.cos_psi[n];
+            const Real x = -p.sin_psi[n], y = p.cos_psi[n];
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double w = p.speed[l];
+                const Real w = p.speed[l];
                 out[2 * n * W + l] = absolute_x(a[l] * x, q[l] * x, v[l] * y, w);
                 out[(2 * n + 1) * W + l] = absolute_y(a[l] * y, q[l] * y, v[l] * x, w);
             }
@@ -67,19 +67,19 @@ struct TorsionalMotion {
     }
 
   private:
-    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
-                                             const double* __restrict q, const double* __restrict v,
-                                             const Pairs& pairs, double* __restrict f) {
-        const double ca = p.cos_pressure_angle;
+    static GEARPOD_INLINE void planet_forces(const Lanes& p, int n, const Real* __restrict q,
+                                             const Real* __restrict v, const Pairs& pairs,
+                                             Real* __restrict f) {
+        const Real ca = p.cos_pressure_angle;
         const int o = (3 + n) * W;
         const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double u = q[o + l], vu = v[o + l];
-            const double f_sun =
+            const Real u = q[o + l], vu = v[o + l];
+            const Real f_sun =
                 Mesh::force(pairs, sun_mesh + l, l, std::fma(-q[l], ca, q[2 * W + l] + u),
                             std::fma(-v[l], ca, v[2 * W + l] + vu));
-            const double f_ring =
+            const Real f_ring =
                 Mesh::force(pairs, ring_mesh + l, l, std::fma(-q[l], ca, q[W + l] - u),
                             std::fma(-v[l], ca, v[W + l] - vu));
             f[l] = std::fma(f_sun + f_ring, ca, f[l]);

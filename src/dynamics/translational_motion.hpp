@@ -10,26 +10,27 @@
 
 namespace gearpod::dynamics {
 
-template <class InertialTerms, class MeshLaw, int W>
+template <class InertialTerms, class MeshLaw, int W, class RealType = double>
 struct TranslationalMotion {
+    using Real = RealType;
     static constexpr int kWidth = W;
     static constexpr int kMaxDegrees = 9 + 3 * kMaxPlanets;
     static constexpr int kMaxPairs = dynamics::kMaxPairs;
     static constexpr int kMaxSources = kMaxPlanets;
-    using Lanes = PlanetaryLanes<W>;
+    using Lanes = PlanetaryLanes<W, Real>;
     using Mesh = MeshLaw;
-    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W, Real>;
 
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
-    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+    static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int pair) {
         return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
     }
 
     // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane].
-    static GEARPOD_INLINE void accelerations(const PlanetaryLanes<W>& p, const double* __restrict q,
-                                             const double* __restrict v, const Pairs& pairs,
-                                             double* __restrict a) {
+    static GEARPOD_INLINE void accelerations(const Lanes& p, const Real* __restrict q,
+                                             const Real* __restrict v, const Pairs& pairs,
+                                             Real* __restrict a) {
         for (int body = 0; body < 3; ++body) {
             central_bearing(p, body, q + 3 * body * W, v + 3 * body * W, a + 3 * body * W);
         }
@@ -42,14 +43,13 @@ struct TranslationalMotion {
     }
 
     // Absolute acceleration of the planets along the carrier frame's axes: [planet][x, y][lane].
-    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* q,
-                                                    const double* v, const double* a,
-                                                    double* __restrict out) {
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const Real* q, const Real* v,
+                                                    const Real* a, Real* __restrict out) {
         for (int n = 0; n < p.planets; ++n) {
             const int x = (9 + 3 * n) * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double w = p.speed[l];
+                const Real w = p.speed[l];
                 out[2 * n * W + l] = absolute_x(a[x + l], q[x + l], v[x + W + l], w);
                 out[(2 * n + 1) * W + l] = absolute_y(a[x + W + l], q[x + W + l], v[x + l], w);
             }
@@ -57,13 +57,12 @@ struct TranslationalMotion {
     }
 
   private:
-    static GEARPOD_INLINE void central_bearing(const PlanetaryLanes<W>& p, int body,
-                                               const double* __restrict q,
-                                               const double* __restrict v, double* __restrict f) {
+    static GEARPOD_INLINE void central_bearing(const Lanes& p, int body, const Real* __restrict q,
+                                               const Real* __restrict v, Real* __restrict f) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double k = p.bearing_stiffness[body][l];
-            const double c = p.bearing_damping[body][l];
+            const Real k = p.bearing_stiffness[body][l];
+            const Real c = p.bearing_damping[body][l];
             f[l] = -spring_damper(k, q[l], c, v[l]);
             f[W + l] = -spring_damper(k, q[W + l], c, v[W + l]);
             f[2 * W + l] =
@@ -72,13 +71,12 @@ struct TranslationalMotion {
         }
     }
 
-    static GEARPOD_INLINE void central_acceleration(const PlanetaryLanes<W>& p, int body,
-                                                    const double* __restrict q,
-                                                    const double* __restrict v,
-                                                    double* __restrict a) {
+    static GEARPOD_INLINE void central_acceleration(const Lanes& p, int body,
+                                                    const Real* __restrict q,
+                                                    const Real* __restrict v, Real* __restrict a) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double w = p.speed[l];
+            const Real w = p.speed[l];
             a[l] = std::fma(a[l], p.inverse_mass[body][l], InertialTerms::x(q[l], v[W + l], w));
             a[W + l] =
                 std::fma(a[W + l], p.inverse_mass[body][l], InertialTerms::y(q[W + l], v[l], w));
@@ -88,37 +86,37 @@ struct TranslationalMotion {
 
     // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
     // the forces on carrier, ring and sun.
-    static GEARPOD_INLINE void planet_forces(const PlanetaryLanes<W>& p, int n,
-                                             const double* __restrict q, const double* __restrict v,
-                                             const Pairs& pairs, double* __restrict f) {
+    static GEARPOD_INLINE void planet_forces(const Lanes& p, int n, const Real* __restrict q,
+                                             const Real* __restrict v, const Pairs& pairs,
+                                             Real* __restrict f) {
         const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
         const int o = (9 + 3 * n) * W;
-        const double cs = p.cos_sun[n], ss = p.sin_sun[n];
-        const double cr = p.cos_ring[n], sr = p.sin_ring[n];
-        const double cp = p.cos_psi[n], sp = p.sin_psi[n];
+        const Real cs = p.cos_sun[n], ss = p.sin_sun[n];
+        const Real cr = p.cos_ring[n], sr = p.sin_ring[n];
+        const Real cp = p.cos_psi[n], sp = p.sin_psi[n];
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double x = q[o + l], y = q[o + W + l], u = q[o + 2 * W + l];
-            const double vx = v[o + l], vy = v[o + W + l], vu = v[o + 2 * W + l];
+            const Real x = q[o + l], y = q[o + W + l], u = q[o + 2 * W + l];
+            const Real vx = v[o + l], vy = v[o + W + l], vu = v[o + 2 * W + l];
 
-            const double d_sun =
+            const Real d_sun =
                 std::fma(q[6 * W + l] - x, cs, std::fma(q[7 * W + l] - y, ss, q[8 * W + l] + u));
-            const double r_sun =
+            const Real r_sun =
                 std::fma(v[6 * W + l] - vx, cs, std::fma(v[7 * W + l] - vy, ss, v[8 * W + l] + vu));
-            const double f_sun = Mesh::force(pairs, sun_mesh + l, l, d_sun, r_sun);
+            const Real f_sun = Mesh::force(pairs, sun_mesh + l, l, d_sun, r_sun);
 
-            const double d_ring =
+            const Real d_ring =
                 std::fma(q[3 * W + l] - x, cr, std::fma(q[4 * W + l] - y, sr, q[5 * W + l] - u));
-            const double r_ring =
+            const Real r_ring =
                 std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
-            const double f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
+            const Real f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
 
-            const double kb = p.bearing_stiffness[planet][l];
-            const double cb = p.bearing_damping[planet][l];
-            const double f_x = spring_damper(kb, std::fma(q[2 * W + l], sp, x - q[l]), cb,
-                                             std::fma(v[2 * W + l], sp, vx - v[l]));
-            const double f_y = spring_damper(kb, std::fma(-q[2 * W + l], cp, y - q[W + l]), cb,
-                                             std::fma(-v[2 * W + l], cp, vy - v[W + l]));
+            const Real kb = p.bearing_stiffness[planet][l];
+            const Real cb = p.bearing_damping[planet][l];
+            const Real f_x = spring_damper(kb, std::fma(q[2 * W + l], sp, x - q[l]), cb,
+                                           std::fma(v[2 * W + l], sp, vx - v[l]));
+            const Real f_y = spring_damper(kb, std::fma(-q[2 * W + l], cp, y - q[W + l]), cb,
+                                           std::fma(-v[2 * W + l], cp, vy - v[W + l]));
 
             f[l] += f_x;
             f[W + l] += f_y;
@@ -130,8 +128,8 @@ struct TranslationalMotion {
             f[7 * W + l] = std::fma(-f_sun, ss, f[7 * W + l]);
             f[8 * W + l] -= f_sun;
 
-            const double w = p.speed[l];
-            const double pull = p.centrifugal[l];
+            const Real w = p.speed[l];
+            const Real pull = p.centrifugal[l];
             f[o + l] =
                 std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)), p.inverse_mass[planet][l],
                          InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));

@@ -1,5 +1,5 @@
-// Kernels of the explicit integrator, one for each composition of effects and each width: a mesh
-// period of W gearboxes. `filter` holds the sensor's coefficients (sensor_filter.hpp).
+// Kernels of the explicit integrators, one for each mesh law, method, gearbox model, precision and
+// width: a mesh period of W gearboxes.
 #pragma once
 
 #include "dynamics/fixed_shaft_lanes.hpp"
@@ -8,20 +8,26 @@
 
 namespace gearpod::lockstep {
 
-#define GEARPOD_EXPLICIT_MARCHES(LAW, W)                                       \
-    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_inertial_##W; \
-    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_translational_##W;          \
-    MarchKernel<dynamics::PlanetaryLanes<W>> LAW##_torsional_##W;              \
-    MarchKernel<dynamics::FixedShaftLanes<W>> LAW##_fixed_shaft_##W;
-GEARPOD_EXPLICIT_MARCHES(linear, 1)
-GEARPOD_EXPLICIT_MARCHES(linear, 4)
-GEARPOD_EXPLICIT_MARCHES(linear, 8)
-GEARPOD_EXPLICIT_MARCHES(with_error, 1)
-GEARPOD_EXPLICIT_MARCHES(with_error, 4)
-GEARPOD_EXPLICIT_MARCHES(with_error, 8)
-GEARPOD_EXPLICIT_MARCHES(separating, 1)
-GEARPOD_EXPLICIT_MARCHES(separating, 4)
-GEARPOD_EXPLICIT_MARCHES(separating, 8)
+#define GEARPOD_EXPLICIT_MARCHES(NAME, W, REAL)                                       \
+    MarchKernel<dynamics::PlanetaryLanes<W, REAL>> NAME##_translational_inertial_##W; \
+    MarchKernel<dynamics::PlanetaryLanes<W, REAL>> NAME##_translational_##W;          \
+    MarchKernel<dynamics::PlanetaryLanes<W, REAL>> NAME##_torsional_##W;              \
+    MarchKernel<dynamics::FixedShaftLanes<W, REAL>> NAME##_fixed_shaft_##W;
+#define GEARPOD_EXPLICIT_DOUBLES(W, REAL)                    \
+    GEARPOD_EXPLICIT_MARCHES(linear_rk4_double, W, REAL)     \
+    GEARPOD_EXPLICIT_MARCHES(with_error_rk4_double, W, REAL) \
+    GEARPOD_EXPLICIT_MARCHES(separating_rk4_double, W, REAL) \
+    GEARPOD_EXPLICIT_MARCHES(linear_bs3_double, W, REAL)     \
+    GEARPOD_EXPLICIT_MARCHES(with_error_bs3_double, W, REAL) \
+    GEARPOD_EXPLICIT_MARCHES(separating_bs3_double, W, REAL)
+#define GEARPOD_EXPLICIT_SINGLES(W, REAL)                    \
+    GEARPOD_EXPLICIT_MARCHES(linear_rk4_single, W, REAL)     \
+    GEARPOD_EXPLICIT_MARCHES(with_error_rk4_single, W, REAL) \
+    GEARPOD_EXPLICIT_MARCHES(separating_rk4_single, W, REAL)
+GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_EXPLICIT_DOUBLES)
+GEARPOD_FOR_FLOAT_WIDTHS(GEARPOD_EXPLICIT_SINGLES)
+#undef GEARPOD_EXPLICIT_SINGLES
+#undef GEARPOD_EXPLICIT_DOUBLES
 #undef GEARPOD_EXPLICIT_MARCHES
 
 }  // namespace gearpod::lockstep

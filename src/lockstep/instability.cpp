@@ -36,12 +36,13 @@ std::vector<double> stiffest_nodes(const MarchPlan& plan) {
 }
 
 bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
-    if (plan.integrator != Integrator::rk4) {
+    if (!is_explicit(plan.integrator)) {
         return false;  // the implicit methods are stable at any step
     }
     const double longest = *std::max_element(plan.grid.lengths.begin(), plan.grid.lengths.end());
     const auto matrices = dynamics::assemble(plan.layout, inputs, stiffest_nodes(plan));
-    return longest * dynamics::mesh_period_s(inputs) > runge_kutta_limit(matrices).step_s;
+    return longest * dynamics::mesh_period_s(inputs) >
+           runge_kutta_limit(matrices, plan.integrator).step_s;
 }
 
 // The largest |eigenvalue| of a mesh period's map of (q, v), the rigid rotation taken out of q and

@@ -7,8 +7,17 @@ namespace gearpod::lockstep {
 
 // rk4: the classical Runge-Kutta method, explicit, order 4. newmark: average acceleration (beta
 // 1/4, gamma 1/2), implicit, order 2, keeps the energy. sdirk3: Alexander (1977), three implicit
-// stages, order 3, L-stable and stiffly accurate: it damps what is too fast for the step.
-enum class Integrator { rk4, newmark, sdirk3 };
+// stages, order 3, L-stable and stiffly accurate: it damps what is too fast for the step. bs3: the
+// explicit pair of Bogacki and Shampine (1989), order 3, which estimates its own error.
+enum class Integrator { rk4, newmark, sdirk3, bs3 };
+
+constexpr bool is_explicit(Integrator integrator) {
+    return integrator == Integrator::rk4 || integrator == Integrator::bs3;
+}
+
+// What the motion is computed in within a mesh period; from one to the next it is double. Only rk4
+// marches singles.
+enum class Precision { double_precision, single_precision };
 
 // Alexander's method: every stage has the same diagonal coefficient, a root of
 // x^3 - 3 x^2 + 3/2 x - 1/6; the last stage is the end of the step.

@@ -15,6 +15,7 @@ namespace gearpod::lockstep {
 struct MarchPlan {
     dynamics::GearboxLayout layout;
     Integrator integrator = Integrator::rk4;
+    Precision precision = Precision::double_precision;
     PhaseGrid grid;
     dynamics::MeshLaw mesh_law = dynamics::MeshLaw::linear;
     StiffnessNodes nodes;
@@ -34,8 +35,13 @@ struct TileState {
 // and 2n+1 are the absolute acceleration of source n (planet, bearing) along x and y. te:
 // [sample][lane], rad. motion: [sample][degree of freedom][lane], m; left empty unless it is asked
 // for.
+// estimate: [step][kEstimateRows][lane], the largest position (m) and velocity (m/s) over the
+// degrees of freedom and the largest estimated errors of these; for integrators that estimate their
+// error in a plan that asks for it (bogacki_shampine.hpp), left empty otherwise.
+inline constexpr int kEstimateRows = 4;
 struct MeshRecord {
     machine::AlignedVector acceleration, te, motion;
+    machine::AlignedVector estimate = {};
 };
 
 // A pair whose stiffness, or transmission error, or both, differ between lanes during some steps of

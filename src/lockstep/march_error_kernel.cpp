@@ -2,6 +2,6 @@
 
 namespace gearpod::lockstep {
 
-GEARPOD_MARCHES(with_error, dynamics::LinearMeshWithError)
+GEARPOD_DOUBLE_MARCHES(with_error_rk4_double, RungeKutta4, dynamics::LinearMeshWithError)
 
 }  // namespace gearpod::lockstep

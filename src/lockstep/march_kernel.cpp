@@ -2,6 +2,6 @@
 
 namespace gearpod::lockstep {
 
-GEARPOD_MARCHES(linear, dynamics::LinearMesh)
+GEARPOD_DOUBLE_MARCHES(linear_rk4_double, RungeKutta4, dynamics::LinearMesh)
 
 }  // namespace gearpod::lockstep

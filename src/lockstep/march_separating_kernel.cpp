@@ -2,6 +2,6 @@
 
 namespace gearpod::lockstep {
 
-GEARPOD_MARCHES(separating, dynamics::SeparatingMesh)
+GEARPOD_DOUBLE_MARCHES(separating_rk4_double, RungeKutta4, dynamics::SeparatingMesh)
 
 }  // namespace gearpod::lockstep

@@ -1,6 +1,8 @@
 #include "lockstep/mesh_march.hpp"
 
 #include <cassert>
+#include <stdexcept>
+#include <type_traits>
 
 #include "lockstep/explicit_march.hpp"
 #include "lockstep/implicit_march.hpp"
@@ -8,6 +10,8 @@
 
 namespace gearpod::lockstep {
 namespace {
+
+constexpr int kMostDoubleLanes = 8;
 
 template <class Lanes>
 using Kernel = MarchKernel<Lanes>*;
@@ -17,7 +21,7 @@ using Kernel = MarchKernel<Lanes>*;
     (LAW == dynamics::MeshLaw::linear       ? linear_##NAME##_##WIDTH     \
      : LAW == dynamics::MeshLaw::with_error ? with_error_##NAME##_##WIDTH \
                                             : separating_##NAME##_##WIDTH)
-#define GEARPOD_KERNEL_OF(PLAN, NAME)                   \
+#define GEARPOD_DOUBLE_KERNEL_OF(PLAN, NAME)            \
     [](dynamics::MeshLaw law) {                         \
         if constexpr (W == 1)                           \
             return GEARPOD_KERNEL_OF_LAW(law, NAME, 1); \
@@ -26,30 +30,54 @@ using Kernel = MarchKernel<Lanes>*;
         else                                            \
             return GEARPOD_KERNEL_OF_LAW(law, NAME, 8); \
     }(PLAN.mesh_law)
+#define GEARPOD_SINGLE_KERNEL_OF(PLAN, NAME)             \
+    [](dynamics::MeshLaw law) {                          \
+        if constexpr (W == 1)                            \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 1);  \
+        else if constexpr (W == 4)                       \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 4);  \
+        else if constexpr (W == 8)                       \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 8);  \
+        else                                             \
+            return GEARPOD_KERNEL_OF_LAW(law, NAME, 16); \
+    }(PLAN.mesh_law)
 
-template <int W>
-Kernel<dynamics::PlanetaryLanes<W>> kernel_of(const MarchPlan& plan,
-                                              const dynamics::PlanetaryLayout& layout) {
+// The explicit kernel of model NAME.
+#define GEARPOD_EXPLICIT_KERNEL_OF(PLAN, NAME)                           \
+    [](const MarchPlan& p) {                                             \
+        if constexpr (std::is_same_v<Real, float>)                       \
+            return GEARPOD_SINGLE_KERNEL_OF(p, rk4_single_##NAME);       \
+        else                                                             \
+            return p.integrator == Integrator::bs3                       \
+                       ? GEARPOD_DOUBLE_KERNEL_OF(p, bs3_double_##NAME)  \
+                       : GEARPOD_DOUBLE_KERNEL_OF(p, rk4_double_##NAME); \
+    }(PLAN)
+
+template <int W, class Real>
+Kernel<dynamics::PlanetaryLanes<W, Real>> kernel_of(const MarchPlan& plan,
+                                                    const dynamics::PlanetaryLayout& layout) {
     if (layout.motion == dynamics::Motion::torsional) {
-        return GEARPOD_KERNEL_OF(plan, torsional);
+        return GEARPOD_EXPLICIT_KERNEL_OF(plan, torsional);
     }
-    return layout.inertial_terms ? GEARPOD_KERNEL_OF(plan, translational_inertial)
-                                 : GEARPOD_KERNEL_OF(plan, translational);
+    return layout.inertial_terms ? GEARPOD_EXPLICIT_KERNEL_OF(plan, translational_inertial)
+                                 : GEARPOD_EXPLICIT_KERNEL_OF(plan, translational);
 }
 
-template <int W>
-Kernel<dynamics::FixedShaftLanes<W>> kernel_of(const MarchPlan& plan,
-                                               const dynamics::FixedShaftLayout&) {
-    return GEARPOD_KERNEL_OF(plan, fixed_shaft);
+template <int W, class Real>
+Kernel<dynamics::FixedShaftLanes<W, Real>> kernel_of(const MarchPlan& plan,
+                                                     const dynamics::FixedShaftLayout&) {
+    return GEARPOD_EXPLICIT_KERNEL_OF(plan, fixed_shaft);
 }
 
 template <int W>
 Kernel<ImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
-    return plan.integrator == Integrator::newmark ? GEARPOD_KERNEL_OF(plan, newmark)
-                                                  : GEARPOD_KERNEL_OF(plan, sdirk3);
+    return plan.integrator == Integrator::newmark ? GEARPOD_DOUBLE_KERNEL_OF(plan, newmark)
+                                                  : GEARPOD_DOUBLE_KERNEL_OF(plan, sdirk3);
 }
 
-#undef GEARPOD_KERNEL_OF
+#undef GEARPOD_EXPLICIT_KERNEL_OF
+#undef GEARPOD_SINGLE_KERNEL_OF
+#undef GEARPOD_DOUBLE_KERNEL_OF
 #undef GEARPOD_KERNEL_OF_LAW
 
 template <int W, class Lanes>
@@ -81,14 +109,26 @@ std::vector<Inputs> inputs_of(std::span<const dynamics::GearboxInputs> inputs) {
     return result;
 }
 
-template <int W, class Inputs, class Layout>
+template <int W, class Real, class Inputs, class Layout>
 std::unique_ptr<const MeshMarch<W>> make_explicit(const MarchPlan& plan, const Layout& layout,
                                                   std::span<const dynamics::GearboxInputs> inputs,
                                                   machine::AlignedVector filter) {
     const std::vector<Inputs> own = inputs_of<Inputs>(inputs);
-    auto lanes = dynamics::make_lanes<W>(layout, std::span<const Inputs>(own));
+    auto lanes = dynamics::make_lanes<W, Real>(layout, std::span<const Inputs>(own));
     return std::make_unique<KernelMarch<W, decltype(lanes)>>(
-        plan, std::move(lanes), std::move(filter), kernel_of<W>(plan, layout));
+        plan, std::move(lanes), std::move(filter), kernel_of<W, Real>(plan, layout));
+}
+
+template <int W, class Real>
+std::unique_ptr<const MeshMarch<W>> make_explicit(const MarchPlan& plan,
+                                                  std::span<const dynamics::GearboxInputs> inputs,
+                                                  machine::AlignedVector filter) {
+    if (const auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
+        return make_explicit<W, Real, dynamics::PlanetaryInputs>(plan, *planetary, inputs,
+                                                                 std::move(filter));
+    }
+    return make_explicit<W, Real, dynamics::FixedShaftInputs>(
+        plan, std::get<dynamics::FixedShaftLayout>(plan.layout), inputs, std::move(filter));
 }
 
 template <int W>
@@ -113,22 +153,26 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
     }
     machine::AlignedVector filter =
         filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods);
-    if (plan.integrator != Integrator::rk4) {
-        return make_implicit<W>(plan, inputs, std::move(filter));
+    if (plan.precision == Precision::single_precision) {
+        if (plan.integrator == Integrator::rk4) {
+            return make_explicit<W, float>(plan, inputs, std::move(filter));
+        }
+    } else if constexpr (W <= kMostDoubleLanes) {
+        return is_explicit(plan.integrator)
+                   ? make_explicit<W, double>(plan, inputs, std::move(filter))
+                   : make_implicit<W>(plan, inputs, std::move(filter));
     }
-    if (const auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
-        return make_explicit<W, dynamics::PlanetaryInputs>(plan, *planetary, inputs,
-                                                           std::move(filter));
-    }
-    return make_explicit<W, dynamics::FixedShaftInputs>(
-        plan, std::get<dynamics::FixedShaftLayout>(plan.layout), inputs, std::move(filter));
+    throw std::invalid_argument(
+        "only rk4 marches singles, and doubles march at most eight abreast");
 }
 
-template std::unique_ptr<const MeshMarch<1>> make_mesh_march<1>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
-template std::unique_ptr<const MeshMarch<4>> make_mesh_march<4>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
-template std::unique_ptr<const MeshMarch<8>> make_mesh_march<8>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+#define GEARPOD_MESH_MARCH(W)                                        \
+    template std::unique_ptr<const MeshMarch<W>> make_mesh_march<W>( \
+        const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+GEARPOD_MESH_MARCH(1)
+GEARPOD_MESH_MARCH(4)
+GEARPOD_MESH_MARCH(8)
+GEARPOD_MESH_MARCH(16)
+#undef GEARPOD_MESH_MARCH
 
 }  // namespace gearpod::lockstep

@@ -22,16 +22,19 @@ class MeshMarch {
 };
 
 // The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W
-// gearboxes of the plan's kind. The plan must outlive the result.
+// gearboxes of the plan's kind. The plan must outlive the result. Throws std::invalid_argument for
+// single precision with an integrator but rk4, and for W = 16 in double precision.
 template <int W>
 std::unique_ptr<const MeshMarch<W>> make_mesh_march(
     const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
 
-extern template std::unique_ptr<const MeshMarch<1>> make_mesh_march<1>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
-extern template std::unique_ptr<const MeshMarch<4>> make_mesh_march<4>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
-extern template std::unique_ptr<const MeshMarch<8>> make_mesh_march<8>(
-    const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+#define GEARPOD_MESH_MARCH(W)                                               \
+    extern template std::unique_ptr<const MeshMarch<W>> make_mesh_march<W>( \
+        const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+GEARPOD_MESH_MARCH(1)
+GEARPOD_MESH_MARCH(4)
+GEARPOD_MESH_MARCH(8)
+GEARPOD_MESH_MARCH(16)
+#undef GEARPOD_MESH_MARCH
 
 }  // namespace gearpod::lockstep

@@ -1,28 +1,11 @@
 #include "lockstep/phase_grid.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
+#include "lockstep/step_kinds.hpp"
+
 namespace gearpod::lockstep {
-namespace {
-
-// Transitions closer than this to a node, or to each other, share it: far below any step, far above
-// the rounding of phases.
-constexpr double kSamePhase = 1e-12;
-
-int find_or_add(std::vector<double>& lengths, double length) {
-    const auto found = std::find_if(lengths.begin(), lengths.end(), [&](double known) {
-        return std::abs(known - length) < kSamePhase;
-    });
-    if (found != lengths.end()) {
-        return static_cast<int>(found - lengths.begin());
-    }
-    lengths.push_back(length);
-    return static_cast<int>(lengths.size()) - 1;
-}
-
-}  // namespace
 
 PhaseGrid make_phase_grid(int samples, int steps_per_mesh, std::span<const double> transitions) {
     if (samples < 1 || steps_per_mesh < 1) {

@@ -1,5 +1,6 @@
-// Steps of one mesh period, the same for all lanes: a node on every sample and on every contact
-// transition of every pair, so that integrators keep their order across the jumps of stiffness.
+// Steps of one mesh period, the same for all lanes: a node on every contact transition of every
+// pair, so that integrators keep their order across the jumps of stiffness, and usually on every
+// sample; a sample inside a step is interpolated.
 #pragma once
 
 #include <span>
@@ -12,6 +13,8 @@ struct Step {
     double length = 0.0;  // mesh periods
     int kind = 0;         // index into PhaseGrid::lengths
     int sample = -1;      // sample taken at the start of the step, or -1
+    int inside = 0;       // samples that lie within the step, past its start
+    int first_inside = 0;
 };
 
 struct PhaseGrid {

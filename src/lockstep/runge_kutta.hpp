@@ -10,29 +10,34 @@ struct RungeKutta4 {
     // Scratch of one tile; small enough to stay in the first-level cache.
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
-        double q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
-        double a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
+        using Real = RealOf<Model>;
+        Real q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
+        Real a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
         typename Model::Pairs pairs;
-        double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
+        Real input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
     };
 
     // The stage positions and velocities follow from the stage accelerations, so only those are
     // kept.
-    template <class Model, int W = Model::kWidth>
+    template <class Model, class State, class Filter, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                    const machine::AlignedVector& filter,
-                                    const std::vector<PairOverride>& overrides, int i,
-                                    TileState& state, Stages<Model>& s) {
+                                    const Filter& filter,
+                                    const std::vector<PairOverride>& overrides, int i, State& state,
+                                    Stages<Model>& s) {
+        using Real = RealOf<Model>;
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
         const int channels = 2 * Model::sources(lanes);
         const int size = Model::degrees_of_freedom(lanes) * W;
-        double* __restrict q = state.q.data();
-        double* __restrict v = state.v.data();
-        alignas(64) double h[W], half[W], sixth[W];
+        Real* __restrict q = state.q.data();
+        Real* __restrict v = state.v.data();
+        const auto q_rest = position_rest(state);
+        const auto v_rest = velocity_rest(state);
+        const Real length = static_cast<Real>(step.length);
+        alignas(64) Real h[W], half[W], sixth[W];
         for (int l = 0; l < W; ++l) {
-            h[l] = step.length * lanes.mesh_period[l];
-            half[l] = 0.5 * h[l];
-            sixth[l] = h[l] / 6.0;
+            h[l] = length * lanes.mesh_period[l];
+            half[l] = Real(0.5) * h[l];
+            sixth[l] = h[l] / Real(6);
         }
 
         load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
@@ -60,20 +65,21 @@ struct RungeKutta4 {
         for (int j = 0; j < channels * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                s.input[1][j + l] = 0.5 * (s.input[1][j + l] + s.input[2][j + l]);
+                s.input[1][j + l] = Real(0.5) * (s.input[1][j + l] + s.input[2][j + l]);
             }
         }
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double sum = s.a2[j + l] + s.a3[j + l];
+                const Real sum = s.a2[j + l] + s.a3[j + l];
                 s.q[j + l] = std::fma(h[l], s.v[j + l], q[j + l]);
                 s.v[j + l] = std::fma(h[l], s.a3[j + l], v[j + l]);
                 // New position, and the part of the new velocity that is known before the last
                 // stage.
-                q[j + l] =
-                    std::fma(h[l], std::fma(sixth[l], s.a1[j + l] + sum, v[j + l]), q[j + l]);
-                v[j + l] = std::fma(sixth[l], std::fma(2.0, sum, s.a1[j + l]), v[j + l]);
+                q[j + l] = advance(q[j + l], h[l], std::fma(sixth[l], s.a1[j + l] + sum, v[j + l]),
+                                   q_rest, j + l);
+                v[j + l] =
+                    advance(v[j + l], sixth[l], std::fma(Real(2), sum, s.a1[j + l]), v_rest, j + l);
             }
         }
         load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
@@ -82,10 +88,10 @@ struct RungeKutta4 {
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                v[j + l] = std::fma(sixth[l], s.a1[j + l], v[j + l]);
+                v[j + l] = advance(v[j + l], sixth[l], s.a1[j + l], v_rest, j + l);
             }
         }
-        const double* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
+        const Real* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
         for (int channel = 0; channel < channels; ++channel) {
             const int at = channel * W;
             filter_channel<W>(coefficients, s.input[0] + at, s.input[1] + at, s.input[2] + at,

@@ -27,6 +27,23 @@ FilterMap runge_kutta(const Eigen::Matrix4d& ha, double h, const Eigen::Vector4d
     return map;
 }
 
+// z' = A z + b u by the three stages of Bogacki and Shampine, u at 0, 1/2 and 3/4 of the step.
+FilterMap bogacki_shampine(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
+    using Slopes = Eigen::Matrix<double, 4, 7>;  // of the stages, times h, from state and inputs
+    Slopes state = Slopes::Zero();
+    state.leftCols<4>().setIdentity();
+    const auto slopes = [&](const Slopes& from, int node) -> Slopes {
+        Slopes k = ha * from;
+        k.col(4 + node) += hb;
+        return k;
+    };
+    const Slopes k1 = slopes(state, 0);
+    const Slopes k2 = slopes(state + k1 / 2.0, 1);
+    const Slopes k3 = slopes(state + 0.75 * k2, 2);
+    const Slopes end = state + (2.0 * k1 + 3.0 * k2 + 4.0 * k3) / 9.0;
+    return {end.leftCols<4>(), end.rightCols<3>()};
+}
+
 FilterMap trapezoidal(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
     const Eigen::Matrix4d one = Eigen::Matrix4d::Identity();
     const Eigen::Matrix4d solve = (one - ha / 2.0).inverse();
@@ -63,6 +80,8 @@ FilterMap filter_map(Integrator integrator, const Eigen::Matrix4d& ha, double h,
             return trapezoidal(ha, h * b);
         case Integrator::sdirk3:
             return alexander(ha, h * b);
+        case Integrator::bs3:
+            return bogacki_shampine(ha, h * b);
         case Integrator::rk4:
             break;
     }

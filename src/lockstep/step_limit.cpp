@@ -9,16 +9,17 @@
 namespace gearpod::lockstep {
 namespace {
 
-double growth(std::complex<double> z) {
-    return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))));
+double growth(std::complex<double> z, Integrator integrator) {
+    const std::complex<double> fourth = integrator == Integrator::bs3 ? 0.0 : z / 4.0;
+    return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + fourth))));
 }
 
 // The longest h along which |R(h lambda)| stays at most 1.
-double longest_step(std::complex<double> lambda) {
+double longest_step(std::complex<double> lambda, Integrator integrator) {
     const double unit = 1.0 / std::abs(lambda);
-    constexpr double kResolution = 1e-3;  // of h |lambda|; the limit lies near 2.8
+    constexpr double kResolution = 1e-3;  // of h |lambda|; the limits lie near 2.8 and 1.7 to 2.5
     double z = kResolution;
-    while (z < 4.0 && growth(z * unit * lambda) <= 1.0 + 1e-12) {
+    while (z < 4.0 && growth(z * unit * lambda, integrator) <= 1.0 + 1e-12) {
         z += kResolution;
     }
     return (z - kResolution) * unit;
@@ -48,7 +49,7 @@ Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
     return system;
 }
 
-StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
+StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integrator) {
     StepLimit limit{std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
     const double rigid = rigid_rate(m);
@@ -57,7 +58,7 @@ StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
         if (size < rigid || lambda.real() > 1e-9 * size) {
             continue;
         }
-        limit.step_s = std::min(limit.step_s, longest_step(lambda));
+        limit.step_s = std::min(limit.step_s, longest_step(lambda, integrator));
         limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
     }
     return limit;

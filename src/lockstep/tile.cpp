@@ -7,6 +7,7 @@
 
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/mesh_march.hpp"
+#include "lockstep/rigid_rotation.hpp"
 #include "lockstep/sensor_filter.hpp"
 
 namespace gearpod::lockstep {
@@ -57,10 +58,10 @@ class TileMarch {
           faults_(faults),
           schedule_(plan, faults),
           settings_(settings),
-          march_mesh_(make_mesh_march<W>(plan, inputs)) {
+          march_mesh_(make_mesh_march<W>(plan, inputs)),
+          rotation_(plan.layout, inputs),
+          state_(rest_state(plan, inputs)) {
         result_.status.assign(W, LaneStatus::ok);
-        prepare_rigid_rotation(inputs);
-        rest(inputs);
     }
 
     TileResult run() {
@@ -79,53 +80,10 @@ class TileMarch {
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
-    // The rigid rotation and, per lane, the weights that measure it in a state: phi M / phi M phi.
-    void prepare_rigid_rotation(std::span<const dynamics::GearboxInputs> inputs) {
-        turn_ = dynamics::rigid_rotation(plan_.layout);
-        const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(plan_.layout)),
-                                       0.0);
-        for (int l = 0; l < W; ++l) {
-            const auto m =
-                dynamics::assemble(plan_.layout, inputs[static_cast<std::size_t>(l)], none);
-            const Eigen::VectorXd weighted = m.mass * turn_;
-            turn_weight_[static_cast<std::size_t>(l)] = weighted / weighted.dot(turn_);
-        }
-    }
-
-    void remove_rigid_rotation(machine::AlignedVector& motion) const {
-        for (std::size_t l = 0; l < W; ++l) {
-            double turned = 0.0;
-            for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-                turned += turn_weight_[l](d) * motion[static_cast<std::size_t>(d) * W + l];
-            }
-            for (Eigen::Index d = 0; d < turn_.size(); ++d) {
-                motion[static_cast<std::size_t>(d) * W + l] -= turned * turn_(d);
-            }
-        }
-    }
-
-    // Static equilibrium under the load at phase 0.
-    void rest(std::span<const dynamics::GearboxInputs> inputs) {
-        const auto pairs = plan_.nodes.stiffness.begin();
-        const std::vector<double> stiffness(pairs, pairs + plan_.nodes.pairs);
-        const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan_.layout));
-        state_.q.assign(degrees * W, 0.0);
-        state_.v.assign(degrees * W, 0.0);
-        state_.filter.assign(static_cast<std::size_t>(plan_.channels()) * kFilterStates * W, 0.0);
-        for (std::size_t l = 0; l < W; ++l) {
-            const Eigen::VectorXd q = dynamics::static_equilibrium(
-                dynamics::assemble(plan_.layout, inputs[l], stiffness));
-            for (std::size_t d = 0; d < degrees; ++d) {
-                state_.q[d * W + l] = q(static_cast<Eigen::Index>(d));
-            }
-        }
-    }
-
     void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
         (*march_mesh_)(overrides, state_, record);
         ++result_.marched;
-        remove_rigid_rotation(state_.q);
-        remove_rigid_rotation(state_.v);
+        rotation_.remove(state_);
     }
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
@@ -325,8 +283,7 @@ class TileMarch {
     const FaultSchedule schedule_;
     const TileSettings& settings_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
-    Eigen::VectorXd turn_;
-    std::array<Eigen::VectorXd, W> turn_weight_;
+    const RigidRotation rotation_;
     TileState state_;
     TileState orbit_;  // the healthy orbit at an integer phase
     TileResult result_;
@@ -343,11 +300,13 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 
-template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                const FaultCurves&, const TileSettings&);
-template TileResult run_tile<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                const FaultCurves&, const TileSettings&);
-template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                const FaultCurves&, const TileSettings&);
+#define GEARPOD_RUN_TILE(W)                                                                     \
+    template TileResult run_tile<W>(const MarchPlan&, std::span<const dynamics::GearboxInputs>, \
+                                    const FaultCurves&, const TileSettings&);
+GEARPOD_RUN_TILE(1)
+GEARPOD_RUN_TILE(4)
+GEARPOD_RUN_TILE(8)
+GEARPOD_RUN_TILE(16)
+#undef GEARPOD_RUN_TILE
 
 }  // namespace gearpod::lockstep

@@ -33,16 +33,19 @@ struct TileResult {
 };
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
-// one. A lane's result never depends on its neighbours.
+// one. A lane's result never depends on its neighbours. Tiles of 16 march in single precision.
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);
 
-extern template TileResult run_tile<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                       const FaultCurves&, const TileSettings&);
-extern template TileResult run_tile<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                       const FaultCurves&, const TileSettings&);
-extern template TileResult run_tile<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
-                                       const FaultCurves&, const TileSettings&);
+#define GEARPOD_RUN_TILE(W)                                                          \
+    extern template TileResult run_tile<W>(const MarchPlan&,                         \
+                                           std::span<const dynamics::GearboxInputs>, \
+                                           const FaultCurves&, const TileSettings&);
+GEARPOD_RUN_TILE(1)
+GEARPOD_RUN_TILE(4)
+GEARPOD_RUN_TILE(8)
+GEARPOD_RUN_TILE(16)
+#undef GEARPOD_RUN_TILE
 
 }  // namespace gearpod::lockstep

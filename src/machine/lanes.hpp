@@ -7,11 +7,14 @@
 
 namespace gearpod::machine {
 
-// The numbers of lanes that kernels are built for: 8 doubles fill a 512-bit register, 4 one of 256
-// bits; 1 is for comparison.
+// The numbers of lanes that kernels are built for: 8 doubles or 16 floats fill a 512-bit register,
+// 4 or 8 one of 256 bits; 1 is for comparison. Only floats march 16 abreast.
 constexpr bool is_lane_count(int lanes) {
-    return lanes == 8 || lanes == 4 || lanes == 1;
+    return lanes == 16 || lanes == 8 || lanes == 4 || lanes == 1;
 }
+#define GEARPOD_FOR_DOUBLE_WIDTHS(DO) DO(1, double) DO(4, double) DO(8, double)
+#define GEARPOD_FOR_FLOAT_WIDTHS(DO) DO(1, float) DO(4, float) DO(8, float) DO(16, float)
+#define GEARPOD_FOR_ALL_WIDTHS(DO) GEARPOD_FOR_DOUBLE_WIDTHS(DO) GEARPOD_FOR_FLOAT_WIDTHS(DO)
 
 template <typename T>
 struct CacheLineAllocator {
@@ -30,6 +33,8 @@ struct CacheLineAllocator {
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
+template <typename T>
+using AlignedArray = std::vector<T, CacheLineAllocator<T>>;
+using AlignedVector = AlignedArray<double>;
 
 }  // namespace gearpod::machine

@@ -26,5 +26,6 @@ struct FoldArguments {
 void fold_squares_1(const FoldArguments& a);
 void fold_squares_4(const FoldArguments& a);
 void fold_squares_8(const FoldArguments& a);
+void fold_squares_16(const FoldArguments& a);
 
 }  // namespace gearpod::signals

@@ -199,5 +199,6 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
 GEARPOD_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
 GEARPOD_NARROW_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
 GEARPOD_KERNEL(fold_squares_8, (const FoldArguments& a), (a), fold_all<8>(a))
+GEARPOD_KERNEL(fold_squares_16, (const FoldArguments& a), (a), fold_all<16>(a))
 
 }  // namespace gearpod::signals

@@ -62,7 +62,9 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     a.pairs = pairs.data();
     a.totals = totals.data();
     a.folded = folded.data();
-    if (tile.lanes == 8) {
+    if (tile.lanes == 16) {
+        fold_squares_16(a);
+    } else if (tile.lanes == 8) {
         fold_squares_8(a);
     } else if (tile.lanes == 4) {
         fold_squares_4(a);

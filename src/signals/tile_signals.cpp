@@ -28,7 +28,7 @@ void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::sp
 
 void check_tile(const TileSignals& tile, const Timeline& timeline) {
     if (!machine::is_lane_count(tile.lanes)) {
-        fail(fmt::format("{} lanes; 8, 4 or 1 are built", tile.lanes));
+        fail(fmt::format("{} lanes; 16, 8, 4 or 1 are built", tile.lanes));
     }
     if (tile.planets < 1 || tile.planets > kMaxPlanets || tile.phases < 1) {
         fail(fmt::format("{} planets, {} phases", tile.planets, tile.phases));

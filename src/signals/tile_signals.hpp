@@ -29,7 +29,7 @@ using Timeline = std::vector<int>;
 
 // Views of the recorded mesh periods; the arrays belong to the march.
 struct TileSignals {
-    int lanes = 0;    // W, 8, 4 or 1
+    int lanes = 0;    // W, 16, 8, 4 or 1
     int planets = 0;  // N
     int phases = 0;   // P, samples per mesh period, at phases p/P
 
@@ -46,7 +46,7 @@ struct TileSignals {
 // One lane of a lane-interleaved array, contiguous: out[i] = interleaved[i * lanes + lane].
 void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::span<double> out);
 
-// Throws std::invalid_argument, saying what is wrong, unless lanes are 8, 4 or 1, planets 1..8,
+// Throws std::invalid_argument, saying what is wrong, unless lanes are 16, 8, 4 or 1, planets 1..8,
 // phases positive, every mesh has both arrays, and the timeline names only recorded meshes.
 void check_tile(const TileSignals& tile, const Timeline& timeline);
 

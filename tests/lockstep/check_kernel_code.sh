@@ -1,18 +1,26 @@
 #!/bin/sh
-# Holds the compiler to the lockstep kernels: the eight-lane AVX-512 and the four-lane AVX2 code of
-# OBJECT must be packed (full-width fused multiply-adds) and must call no scalar mathematics.
+# Holds the compiler to the lockstep kernels: the code of OBJECT that fills registers, of AVX-512
+# (eight doubles, sixteen singles) and AVX2 (four, eight), must be packed (full-width fused
+# multiply-adds) and must call no scalar mathematics: nothing but moves, memory and exceptions.
 #   check_kernel_code.sh OBJECT
 set -eu
 objdump -dr --no-show-raw-insn "$1" | awk '
     /^[0-9a-f]+ </ {
         name = $2
-        wide = name ~ /_8_x86_64_v4/
-        kernel = wide || name ~ /_4_x86_64_v3/
+        single = name ~ /_single_/
+        wide = name ~ (single ? "_16_x86_64_v4" : "_8_x86_64_v4")
+        kernel = wide || name ~ (single ? "_8_x86_64_v3" : "_4_x86_64_v3")
+        packed_fma = single ? "vfn?m(add|sub)[0-9]+ps" : "vfn?m(add|sub)[0-9]+pd"
+        scalar_fma = "vfn?m(add|sub)[0-9]+s[sd]"
+        kernel = kernel && name !~ /[.]cold/  # where exceptions unwind
         if (kernel) ++kernels[wide]
     }
-    kernel && /vf[n]?m(add|sub)[0-9]+pd/ && $0 ~ (wide ? "zmm" : "ymm") { ++packed[name] }
-    kernel && /vf[n]?m(add|sub)[0-9]+sd/ { ++scalar[name] }
-    kernel && /R_X86_64_PL/ && $3 !~ /^(memcpy|memmove|memset)/ { print name " calls " $3; bad = 1 }
+    kernel && $0 ~ packed_fma && $0 ~ (wide ? "zmm" : "ymm") { ++packed[name] }
+    kernel && $0 ~ scalar_fma { ++scalar[name] }
+    kernel && /R_X86_64_PL/ && $3 !~ /^(memcpy|memmove|memset|_Zn|_Zd|_ZSt.*throw|_Unwind|_ZN.*11SingleState)/ {
+        print name " calls " $3
+        bad = 1
+    }
     END {
         if (!(0 in kernels && 1 in kernels)) { print "kernels are missing"; exit 1 }
         for (name in packed) {

@@ -58,6 +58,8 @@ TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
         INFO("frequency over cutoff " << frequency);
         CHECK(gain(Integrator::rk4, frequency, 100) ==
               Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::bs3, frequency, 200) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
         CHECK(gain(Integrator::sdirk3, frequency, 400) ==
               Approx(butterworth(frequency)).epsilon(2e-4));
         CHECK(gain(Integrator::newmark, frequency, 800) ==
@@ -73,6 +75,7 @@ TEST_CASE("The low-pass converges at its integrator's order in the step") {
         return std::log2(coarse / fine);
     };
     CHECK(order(Integrator::rk4, 40) > 3.5);
+    CHECK(order(Integrator::bs3, 80) > 2.7);
     CHECK(order(Integrator::sdirk3, 80) > 2.7);
     CHECK(order(Integrator::newmark, 80) == Approx(2.0).margin(0.1));
 }

@@ -19,7 +19,7 @@ namespace {
 
 const RowShape kShape{2, 2, 3};
 const RunIdentity kIdentity{"gearpod 1 (git abc)", "7", "[ensemble]\nseed = 7\n", kShape};
-const TilePlan kPlan(10, 21);  // tiles of 8, 2, 8, 8, 5
+const TilePlan kPlan(20, 42);  // tiles of 16, 4, 16, 16, 10
 
 TileRows rows_of(const TilePlan& plan, std::size_t tile) {
     TileRows rows;
@@ -81,8 +81,8 @@ TEST_CASE("A plan's tiles hold every row once, the threshold group's apart from 
             CHECK((place.group == Group::threshold) == (row < 10));
         }
     }
-    CHECK(row == 31);
-    CHECK(kPlan.rows_before(kPlan.tiles()) == 31);
+    CHECK(row == 62);
+    CHECK(kPlan.rows_before(kPlan.tiles()) == 62);
     CHECK(kPlan.tiles() == 5);
 }
 
@@ -107,13 +107,13 @@ TEST_CASE("A larger ensemble keeps all tiles but the one that it fills up") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
-    const TilePlan larger(10, 40);
+    const TilePlan larger(20, 80);
     const auto checkpoint = Checkpoint::resume(path, kIdentity, larger);
     CHECK(checkpoint->findings().empty());
     for (std::size_t tile = 0; tile < larger.tiles(); ++tile) {
         CHECK(checkpoint->has(tile) == (tile < 4));
     }
-    CHECK(contains(reason_of(path, kIdentity, TilePlan(10, 20)), "40 graded gearboxes"));
+    CHECK(contains(reason_of(path, kIdentity, TilePlan(20, 40)), "80 graded gearboxes"));
 }
 
 TEST_CASE("Another study, seed or version is refused with the reason") {
@@ -184,7 +184,7 @@ TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged tile is used") {
         }
     }
     CHECK(refused > 20);
-    CHECK(found == 5 * 600 / 3);  // every byte looked at of every tile
+    CHECK(found == 5 * 1176 / 3);  // every byte looked at of every tile
 }
 
 TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {

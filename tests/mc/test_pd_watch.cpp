@@ -34,7 +34,7 @@ TileRows rows_of(const Sampler& sampler, const RowShape& shape, const Tile& tile
 
 TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in any order") {
     const Study study = test::shipped_study("planet-crack.toml", kUntil);
-    const TilePlan plan(40, 700);
+    const TilePlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
     // All of n detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
@@ -42,7 +42,7 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
     const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
     REQUIRE(needed == 16);
     // Seven sizes in turn, the largest last: the n-th of them is graded gearbox 7 n - 1.
-    const std::size_t tiles = 5 + (7 * needed - 1) / 8 + 1;
+    const std::size_t tiles = 3 + (7 * needed - 1) / kTileRows + 1;
 
     std::vector<std::size_t> order(plan.tiles());
     for (std::size_t tile = 0; tile < order.size(); ++tile) {
@@ -65,19 +65,19 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
 
 TEST_CASE("What is left until the wanted interval is predicted from the rate so far") {
     const Study study = test::shipped_study("planet-crack.toml", kUntil);
-    const TilePlan plan(40, 700);
+    const TilePlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
     MemoryRows store(plan.tiles());
     PdWatch watch(study, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
-    // The threshold group and 56 graded gearboxes: eight of the largest size, 16 wanted.
-    for (std::size_t tile = 0; tile < 12; ++tile) {
+    // The threshold group and 64 graded gearboxes: nine of the largest size, 16 wanted.
+    for (std::size_t tile = 0; tile < 7; ++tile) {
         store.write(tile, rows_of(sampler, shape, plan.tile(tile)));
     }
     watch.advance(store);
     CHECK_FALSE(watch.enough());
     REQUIRE(watch.rows_left().has_value());
-    CHECK(*watch.rows_left() == 7 * 8);
+    CHECK(*watch.rows_left() == 64 * 16 / 9 - 64);
 }

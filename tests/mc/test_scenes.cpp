@@ -68,6 +68,40 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is 
     CHECK(newmark.plan().grid.steps.size() >= 77);
 }
 
+TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused with its part") {
+    try {
+        const Scene scene(study_of(kFixedShaftStudy, {"numerics.precision=single"}));
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.precision");
+        CHECK(std::string(error.what()).find("the damper of the motor coupling") !=
+              std::string::npos);
+    }
+}
+
+TEST_CASE("A pilot grades the steps of a study, the same at every start") {
+    const auto graded = [](const std::string& tolerance) {
+        return Scene(study_of(kFixedShaftStudy,
+                              {"numerics.grid=graded", "numerics.grid_tolerance=" + tolerance}))
+            .plan()
+            .grid;
+    };
+    const auto loose = graded("1e-2"), tight = graded("1e-3");
+    CHECK(loose.steps.size() < tight.steps.size());
+    CHECK(tight.steps.size() < Scene(study_of(kFixedShaftStudy)).plan().grid.steps.size());
+    const auto again = graded("1e-3");
+    REQUIRE(again.steps.size() == tight.steps.size());
+    for (std::size_t i = 0; i < again.steps.size(); ++i) {
+        CHECK(again.steps[i].phase == tight.steps[i].phase);
+    }
+    try {
+        graded("1e-14");
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.grid_tolerance");
+    }
+}
+
 TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in series") {
     std::string text = kFixedShaftStudy;
     for (const char* key : {"sampling_Hz", "low_pass_Hz", "load_torque_N_m"}) {

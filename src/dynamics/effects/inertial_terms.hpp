@@ -9,31 +9,45 @@
 namespace gearpod::dynamics {
 
 struct WithInertialTerms {
-    static GEARPOD_INLINE double x(double x, double vy, double w) {
-        return w * std::fma(w, x, 2.0 * vy);
+    template <class Real>
+    static GEARPOD_INLINE Real x(Real x, Real vy, Real w) {
+        return w * std::fma(w, x, Real(2) * vy);
     }
-    static GEARPOD_INLINE double y(double y, double vx, double w) {
-        return w * std::fma(w, y, -2.0 * vx);
+    template <class Real>
+    static GEARPOD_INLINE Real y(Real y, Real vx, Real w) {
+        return w * std::fma(w, y, Real(-2) * vx);
     }
     // The steady pull r_c Omega^2 on a planet, along its radius.
-    static GEARPOD_INLINE double pull(double acceleration, double direction) {
+    template <class Real>
+    static GEARPOD_INLINE Real pull(Real acceleration, Real direction) {
         return acceleration * direction;
     }
 };
 
 struct WithoutInertialTerms {
-    static GEARPOD_INLINE double x(double, double, double) { return 0.0; }
-    static GEARPOD_INLINE double y(double, double, double) { return 0.0; }
-    static GEARPOD_INLINE double pull(double, double) { return 0.0; }
+    template <class Real>
+    static GEARPOD_INLINE Real x(Real, Real, Real) {
+        return 0;
+    }
+    template <class Real>
+    static GEARPOD_INLINE Real y(Real, Real, Real) {
+        return 0;
+    }
+    template <class Real>
+    static GEARPOD_INLINE Real pull(Real, Real) {
+        return 0;
+    }
 };
 
 // Absolute acceleration along the axes of a frame that turns with w, whatever the model's choice:
 // (x'' - 2 w y' - w^2 x, y'' + 2 w x' - w^2 y).
-GEARPOD_INLINE double absolute_x(double ax, double x, double vy, double w) {
-    return std::fma(-w, std::fma(w, x, 2.0 * vy), ax);
+template <class Real>
+GEARPOD_INLINE Real absolute_x(Real ax, Real x, Real vy, Real w) {
+    return std::fma(-w, std::fma(w, x, Real(2) * vy), ax);
 }
-GEARPOD_INLINE double absolute_y(double ay, double y, double vx, double w) {
-    return std::fma(-w, std::fma(w, y, -2.0 * vx), ay);
+template <class Real>
+GEARPOD_INLINE Real absolute_y(Real ay, Real y, Real vx, Real w) {
+    return std::fma(-w, std::fma(w, y, Real(-2) * vx), ay);
 }
 
 }  // namespace gearpod::dynamics

@@ -24,13 +24,13 @@ struct LinearMesh {
     static constexpr bool kSeparates = false;
 
     // Of all pairs at one moment: [pair][lane].
-    template <int kPairs, int W>
+    template <int kPairs, int W, class Real = double>
     struct alignas(64) Pairs {
-        double k[kPairs * W], c[kPairs * W];
+        Real k[kPairs * W], c[kPairs * W];
     };
     // i = pair W + lane.
-    template <class Pairs>
-    static GEARPOD_INLINE double force(const Pairs& m, int i, int /*lane*/, double d, double r) {
+    template <class Pairs, class Real>
+    static GEARPOD_INLINE Real force(const Pairs& m, int i, int /*lane*/, Real d, Real r) {
         return spring_damper(m.k[i], d, m.c[i], r);
     }
 };
@@ -39,13 +39,13 @@ struct LinearMeshWithError {
     static constexpr bool kHasError = true;
     static constexpr bool kSeparates = false;
 
-    template <int kPairs, int W>
+    template <int kPairs, int W, class Real = double>
     struct alignas(64) Pairs {
-        double k[kPairs * W], c[kPairs * W];
-        double e[kPairs * W], de[kPairs * W];  // error, m, and its rate, m/s
+        Real k[kPairs * W], c[kPairs * W];
+        Real e[kPairs * W], de[kPairs * W];  // error, m, and its rate, m/s
     };
-    template <class Pairs>
-    static GEARPOD_INLINE double force(const Pairs& m, int i, int /*lane*/, double d, double r) {
+    template <class Pairs, class Real>
+    static GEARPOD_INLINE Real force(const Pairs& m, int i, int /*lane*/, Real d, Real r) {
         return spring_damper(m.k[i], d - m.e[i], m.c[i], r - m.de[i]);
     }
 };
@@ -54,18 +54,19 @@ struct SeparatingMesh {
     static constexpr bool kHasError = true;
     static constexpr bool kSeparates = true;
 
-    template <int kPairs, int W>
+    template <int kPairs, int W, class Real = double>
     struct alignas(64) Pairs {
-        double k[kPairs * W], c[kPairs * W];
-        double e[kPairs * W], de[kPairs * W];
-        double backlash[W];
+        Real k[kPairs * W], c[kPairs * W];
+        Real e[kPairs * W], de[kPairs * W];
+        Real backlash[W];
     };
-    template <class Pairs>
-    static GEARPOD_INLINE double force(const Pairs& m, int i, int lane, double d, double r) {
-        const double front = d - m.e[i];
-        const double back = front + m.backlash[lane];
-        const double pressed = front > 0.0 ? front : back < 0.0 ? back : 0.0;
-        const double rate = pressed != 0.0 ? r - m.de[i] : 0.0;
+    template <class Pairs, class Real>
+    static GEARPOD_INLINE Real force(const Pairs& m, int i, int lane, Real d, Real r) {
+        const Real none = 0;
+        const Real front = d - m.e[i];
+        const Real back = front + m.backlash[lane];
+        const Real pressed = front > none ? front : back < none ? back : none;
+        const Real rate = pressed != none ? r - m.de[i] : none;
         return spring_damper(m.k[i], pressed, m.c[i], rate);
     }
 };

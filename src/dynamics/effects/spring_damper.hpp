@@ -8,7 +8,8 @@
 namespace gearpod::dynamics {
 
 // Force of a spring-damper with deflection d and rate r.
-GEARPOD_INLINE double spring_damper(double k, double d, double c, double r) {
+template <class Real>
+GEARPOD_INLINE Real spring_damper(Real k, Real d, Real c, Real r) {
     return std::fma(k, d, c * r);
 }
 

@@ -1,0 +1,7 @@
+#include "lockstep/explicit_kernels.hpp"
+
+namespace gearpod::lockstep {
+
+GEARPOD_DOUBLE_MARCHES(with_error_bs3_double, BogackiShampine, dynamics::LinearMeshWithError)
+
+}  // namespace gearpod::lockstep

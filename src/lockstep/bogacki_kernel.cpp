@@ -1,0 +1,7 @@
+#include "lockstep/explicit_kernels.hpp"
+
+namespace gearpod::lockstep {
+
+GEARPOD_DOUBLE_MARCHES(linear_bs3_double, BogackiShampine, dynamics::LinearMesh)
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,7 @@
+#include "lockstep/explicit_kernels.hpp"
+
+namespace gearpod::lockstep {
+
+GEARPOD_SINGLE_MARCHES(with_error_rk4_single, RungeKutta4, dynamics::LinearMeshWithError)
+
+}  // namespace gearpod::lockstep
