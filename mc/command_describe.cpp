@@ -119,6 +119,20 @@ void print_steps(const Scene& scene) {
                             since[since.size() / 2]));
 }
 
+// Samples of the time signals that features look at, of one gearbox and noise level.
+double time_samples(const Scene& scene) {
+    return needs_samples(needs_of(used_features(scene.study())))
+               ? static_cast<double>(scene.signal_meshes()) * scene.samples_per_mesh()
+               : 0.0;
+}
+
+// Seconds a gearbox for those signals, from their share of a run beside the march.
+double time_signal_s(const Scene& scene) {
+    constexpr double kGearbox_s = 7e-9, kLevel_s = 3e-9;  // a sample
+    const auto levels = static_cast<double>(scene.study().sensor.noise_levels.size());
+    return time_samples(scene) * (kGearbox_s + kLevel_s * levels);
+}
+
 void print_cost(const Scene& scene) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
@@ -162,9 +176,10 @@ void print_cost(const Scene& scene) {
     // proportional to the degrees of freedom. One lane costs as much as eight.
     const double step_s =
         0.65e-6 * dynamics::degrees_of_freedom(plan.layout) / 21.0 / study.numerics.lanes;
-    const double seconds = static_cast<double>(rows) * marched_meshes(scene) *
-                           static_cast<double>(plan.grid.steps.size()) * step_s * 1.3 /
-                           thread_count(study);
+    const double march_s =
+        marched_meshes(scene) * static_cast<double>(plan.grid.steps.size()) * step_s * 1.3;
+    const double seconds =
+        static_cast<double>(rows) * (march_s + time_signal_s(scene)) / thread_count(study);
     print_entry(
         "estimated time",
         fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),
@@ -174,11 +189,12 @@ void print_cost(const Scene& scene) {
     // The rows go to the disk; what detection needs of them at a time is a feature's values.
     const double rows_bytes =
         8.0 * static_cast<double>(rows) * static_cast<double>(study.sensor.noise_levels.size() + 4);
-    print_entry(
-        "estimated memory",
-        fmt::format(
-            "{:.0f} MB",
-            (mesh_bytes * marched_meshes(scene) * thread_count(study) + rows_bytes) / 1e6 + 10.0));
+    print_entry("estimated memory", fmt::format("{:.0f} MB", ((mesh_bytes * marched_meshes(scene) +
+                                                               8.0 * 4.0 * time_samples(scene)) *
+                                                                  thread_count(study) +
+                                                              rows_bytes) /
+                                                                     1e6 +
+                                                                 10.0));
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
       windowing_(span_layout(scene), scene.samples_per_mesh(), scene.study().features.tukey_taper),
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       analysis_(scene, needs),
+      needs_samples_(needs_samples(needs)),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
@@ -140,7 +141,7 @@ void InstanceSignals::each_level(
         if (sensed) {
             const int offset = windowing_.search(folded_, tooth_rms_);
             input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
-            if (analysis_.needs_samples()) {
+            if (needs_samples_) {
                 analysis_.sensor(samples_, offset, input);
             }
         }
@@ -169,8 +170,8 @@ std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
             input.healthy = healthy_->at(level);
         }
         if (signals != nullptr) {
-            const auto own = [](std::span<const double> signal) {
-                return std::vector<double>(signal.begin(), signal.end());
+            const auto own = [](std::span<const double> seen) {
+                return std::vector<double>(seen.begin(), seen.end());
             };
             signals->push_back({own(input.te_turn), gearbox.folded.empty() ? std::vector<double>{}
                                                                            : own(input.tooth_rms)});

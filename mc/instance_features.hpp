@@ -57,7 +57,7 @@ class InstanceSignals {
     InstanceSignals(const Scene& scene, unsigned needs);
 
     // Mesh periods of sensor signal that LaneSignals must hold, perhaps none.
-    int meshes() const { return analysis_.needs_samples() ? scene_.signal_meshes() : 0; }
+    int meshes() const { return needs_samples_ ? scene_.signal_meshes() : 0; }
 
     // visit(level, input) for every noise level; `input` is valid during the call.
     void each_level(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id,
@@ -78,6 +78,7 @@ class InstanceSignals {
     signals::Windowing windowing_;
     signals::OrderSpectrum spectrum_;
     SpanAnalysis analysis_;
+    bool needs_samples_;
     NoiseOfInstance noise_;
     std::vector<double> unit_noise_;  // of every sample
     std::vector<double> folded_, te_, samples_, amplitude_, tooth_rms_;

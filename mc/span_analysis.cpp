@@ -49,6 +49,10 @@ void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
 
 }  // namespace
 
+bool needs_samples(unsigned needs) {
+    return (needs & kOfSamples) != 0;
+}
+
 int meshes_needed(const Scene& scene, unsigned needs) {
     const Gearbox& gearbox = scene.study().gearbox;
     int meshes = scene.span().meshes();
@@ -63,7 +67,7 @@ int meshes_needed(const Scene& scene, unsigned needs) {
 
 SpanAnalysis::SpanAnalysis(const Scene& scene, unsigned needs) : scene_(scene), needs_(needs) {
     const int teeth = scene.span().planet_teeth;
-    if (needs_samples()) {
+    if (needs_samples(needs)) {
         window_ =
             signals::tukey_window(scene.samples_per_mesh(), scene.study().features.tukey_taper);
     }
@@ -75,10 +79,6 @@ SpanAnalysis::SpanAnalysis(const Scene& scene, unsigned needs) : scene_(scene), 
         te_turn_ =
             std::make_unique<signals::MeshSeparation>(teeth * scene.te_samples_per_mesh(), teeth);
     }
-}
-
-bool SpanAnalysis::needs_samples() const {
-    return (needs_ & kOfSamples) != 0;
 }
 
 void SpanAnalysis::te(std::span<const double> turn, features::FeatureInput& input) {

@@ -14,16 +14,15 @@
 
 namespace gearpod::mc {
 
-// Mesh periods of sensor signal that features with these needs (features::Need) look at.
+// Whether features with these needs (features::Need) look at the sensor's samples.
+bool needs_samples(unsigned needs);
+// Mesh periods of sensor signal that features with these needs look at.
 int meshes_needed(const Scene& scene, unsigned needs);
 
 // Holds scratch memory: one object per thread.
 class SpanAnalysis {
   public:
     SpanAnalysis(const Scene& scene, unsigned needs);
-
-    // Whether sensor() has something to do.
-    bool needs_samples() const;
 
     // `samples`: m/s^2, P a mesh period, at least meshes_needed() of them. `planet_offset`: of the
     // best first window of the planets' teeth. Fills what was needed; `input` looks at this

@@ -33,18 +33,18 @@ TEST_CASE("The cracked gear's windows see a 2 mm crack ten times better than oth
     }
 }
 
-// A sun with more teeth than the planets needs more than the planets' span: 43 x 81 meshes.
+// A sun with more teeth than the planets needs more than the planets' span: 31 x 81 meshes.
 TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
     const mc::Scene liang(shipped_study("crack-in-sun.toml"));
     CHECK(liang.signal_meshes() == 31 * 81);
     const mc::Scene big_sun(
-        shipped_study("crack-in-sun.toml", {"gearbox.sun_teeth=43", "gearbox.planet_teeth=19"}));
-    CHECK(big_sun.span_meshes() == 19 * 81);
-    CHECK(big_sun.signal_meshes() == 43 * 81);
+        shipped_study("crack-in-sun.toml", {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25"}));
+    CHECK(big_sun.span_meshes() == 25 * 81);
+    CHECK(big_sun.signal_meshes() == 31 * 81);
     const mc::Scene without(shipped_study(
         "crack-in-sun.toml",
-        {"gearbox.sun_teeth=43", "gearbox.planet_teeth=19", "features.use=[\"window_ratio\"]"}));
-    CHECK(without.signal_meshes() == 19 * 81);
+        {"gearbox.sun_teeth=31", "gearbox.planet_teeth=25", "features.use=[\"window_ratio\"]"}));
+    CHECK(without.signal_meshes() == 25 * 81);
 }
 
 }  // namespace
