@@ -59,6 +59,16 @@ struct ModesOptions {
 };
 int modes_command(const ModesOptions& options);
 
+struct AccuracyOptions {
+    StudyOptions study;
+    std::string json;      // "": none; "-": standard output instead of the table
+    std::string peers;     // table of other programs' results, "": none
+    int repeats = 3;       // of every rung's time
+    long gearboxes = 480;  // of the pilot ensemble; 0: no detection rates
+    bool quiet = false;
+};
+int accuracy_command(const AccuracyOptions& options);
+
 struct SimulateOptions {
     StudyOptions study;
     long instance = 0;  // row of the results file

@@ -115,6 +115,22 @@ int run_program(int argc, char** argv) {
     modes_app->add_option("--json", modes.json, "write JSON to a file, or to -");
     modes_app->callback([&] { code = modes_command(modes); });
 
+    AccuracyOptions accuracy;
+    auto* accuracy_app = app.add_subcommand(
+        "accuracy", "what accuracy costs: every way to march a study, its time and its error");
+    add_study(*accuracy_app, accuracy.study);
+    accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -");
+    accuracy_app->add_option("--peers", accuracy.peers,
+                             "table (CSV) of other programs' results to show beside ours");
+    accuracy_app->add_option("--repeats", accuracy.repeats, "how often every rung is timed")
+        ->check(CLI::Range(1, 1000));
+    accuracy_app
+        ->add_option("--gearboxes", accuracy.gearboxes,
+                     "gearboxes whose detection rates are compared; 0 for none")
+        ->check(CLI::Range(0L, 1000000L));
+    accuracy_app->add_flag("--quiet", accuracy.quiet, "no progress");
+    accuracy_app->callback([&] { code = accuracy_command(accuracy); });
+
     SimulateOptions simulate;
     auto* simulate_app = app.add_subcommand("simulate", "one gearbox's signals and features");
     add_study(*simulate_app, simulate.study);

@@ -63,6 +63,7 @@ class Scene {
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return stepping_.least; }
+    double explicit_steps() const { return stepping_.explicit_steps; }
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
