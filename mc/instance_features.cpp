@@ -170,8 +170,8 @@ std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
             input.healthy = healthy_->at(level);
         }
         if (signals != nullptr) {
-            const auto own = [](std::span<const double> seen) {
-                return std::vector<double>(seen.begin(), seen.end());
+            const auto own = [](std::span<const double> signal) {
+                return std::vector<double>(signal.begin(), signal.end());
             };
             signals->push_back({own(input.te_turn), gearbox.folded.empty() ? std::vector<double>{}
                                                                            : own(input.tooth_rms)});

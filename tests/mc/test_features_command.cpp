@@ -122,6 +122,23 @@ TEST_CASE("A simulated signal that is read back has the features that the simula
     }
 }
 
+TEST_CASE("All features have the same bits for any lanes, threads, ranks and instruction set") {
+    const Folder folder;
+    const std::string study = " run " + kSmall +
+                              " --quiet --set fault.reduction=0.3 --set ensemble.instances=9"
+                              " --set ensemble.threshold_instances=4 --out ";
+    REQUIRE(program(study + folder.file("a.h5")).code == 0);
+    const auto reference = bits(folder.file("a.h5"));
+    for (const char* change : {"numerics.lanes=4", "numerics.lanes=1", "numerics.threads=1",
+                               "numerics.instruction_set=baseline"}) {
+        INFO(change);
+        REQUIRE(program(study + folder.file("b.h5") + " --set " + change).code == 0);
+        CHECK(bits(folder.file("b.h5")) == reference);
+    }
+    REQUIRE(shell(mpirun(2) + GEARPOD_PROGRAM + study + folder.file("c.h5")).code == 0);
+    CHECK(bits(folder.file("c.h5")) == reference);
+}
+
 TEST_CASE("A recording at changing speed is followed by its speed column") {
     // Mesh harmonics only, while the speed rises by a fifth; sampled ten times finer than the
     // band needs, so that interpolation does not matter.
