@@ -10,8 +10,9 @@ namespace {
 
 // Steps of neighbouring rungs differ by this factor, or by one step a sample.
 constexpr double kStepRatio = 1.25;
-// The choices of [numerics] that change how a step is taken, besides the integrator.
-constexpr std::string_view kWays[] = {"precision", "grid"};
+// The choices of [numerics] that change how a step is taken, besides the integrator. Graded grids
+// are no rungs: each would take a pilot of its own, with its own tolerance.
+constexpr std::string_view kWays[] = {"precision"};
 
 // All combinations of those choices that a program of this version has; the first is the default.
 std::vector<std::vector<std::string>> ways() {
@@ -53,8 +54,12 @@ struct StepCost {
     std::string_view integrator;
     double planetary, rotations, fixed_shaft;
 };
-constexpr StepCost kStepCosts[] = {
-    {"rk4", 1.0, 1.0, 1.0}, {"newmark", 5.2, 3.1, 1.6}, {"sdirk3", 7.9, 4.7, 2.8}};
+constexpr StepCost kStepCosts[] = {{"rk4", 1.0, 1.0, 1.0},
+                                   {"newmark", 5.2, 3.1, 1.6},
+                                   {"sdirk3", 7.9, 4.7, 2.8},
+                                   {"bs3", 0.8, 0.8, 0.8}};
+// Of singles, eight abreast, over doubles.
+constexpr double kSingleCost = 0.65;
 
 }  // namespace
 
@@ -92,12 +97,14 @@ std::optional<double> step_cost(const Study& study, const std::string& integrato
                                 const std::vector<std::string>& other) {
     const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
                                    [&](const StepCost& c) { return c.integrator == integrator; });
-    if (row == std::end(kStepCosts) || !other.empty()) {
+    const bool single = other == std::vector<std::string>{"numerics.precision=single"};
+    if (row == std::end(kStepCosts) || !(other.empty() || single)) {
         return std::nullopt;
     }
-    return study.gearbox.kind == GearboxKind::fixed_shaft ? row->fixed_shaft
-           : study.effects.torsional()                    ? row->rotations
-                                                          : row->planetary;
+    return (single ? kSingleCost : 1.0) *
+           (study.gearbox.kind == GearboxKind::fixed_shaft ? row->fixed_shaft
+            : study.effects.torsional()                    ? row->rotations
+                                                           : row->planetary);
 }
 
 }  // namespace gearpod::mc

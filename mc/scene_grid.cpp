@@ -11,6 +11,7 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::size_t kMostSteps = 1'000'000;
+constexpr int kMostPilotSteps = 50'000;  // in a mesh period that a pilot marches many times
 
 lockstep::PhaseGrid with_nodes(lockstep::PhaseGrid grid, lockstep::Integrator integrator) {
     grid.stage_nodes = lockstep::stage_nodes(integrator);
@@ -89,14 +90,22 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
                       const std::vector<double>& transitions,
                       const std::function<lockstep::Pilot()>& pilot) {
     const Numerics& n = study.numerics;
-    const bool graded = n.grid == StepGrid::graded;
-    if (!study.effects.quasi_static()) {
-        if (stepping.integrator == lockstep::Integrator::bs3 && (graded || n.steps_per_mesh == 0)) {
-            return estimated_grid(study, stepping, samples, transitions, pilot());
-        }
-        if (graded) {
-            return graded_grid(study, stepping, samples, transitions, pilot());
-        }
+    const bool moves = !study.effects.quasi_static();
+    const bool graded = moves && n.grid == StepGrid::graded;
+    const bool estimated = moves && stepping.integrator == lockstep::Integrator::bs3 &&
+                           (graded || n.steps_per_mesh == 0);
+    if ((graded || estimated) && stepping.steps > kMostPilotSteps) {
+        throw SceneError(
+            graded ? "numerics.grid" : "numerics.steps_per_mesh",
+            fmt::format("a pilot of {} steps a mesh period takes too long (at most {})",
+                        stepping.steps, kMostPilotSteps),
+            graded ? "use grid = \"uniform\"" : "give steps_per_mesh, or use another integrator");
+    }
+    if (estimated) {
+        return estimated_grid(study, stepping, samples, transitions, pilot());
+    }
+    if (graded) {
+        return graded_grid(study, stepping, samples, transitions, pilot());
     }
     return {with_nodes(lockstep::make_phase_grid(samples, stepping.steps, transitions),
                        stepping.integrator),

@@ -133,14 +133,16 @@ bool coarser(const Grading& a, const Grading& b) {
 
 struct Candidate {
     Grading grading;
-    PhaseGrid grid;
+    std::size_t steps;
 };
 
 // Uniform steps of that length and everything coarser, fewest steps first.
 std::vector<Candidate> candidates(double step,
                                   const std::function<PhaseGrid(const Grading&)>& grid_of) {
     std::vector<Candidate> all;
-    const auto add = [&](const Grading& grading) { all.push_back({grading, grid_of(grading)}); };
+    const auto add = [&](const Grading& grading) {
+        all.push_back({grading, grid_of(grading).steps.size()});
+    };
     add({step, 0.0, step});
     for (const double first : {step, 2.0 * step, 4.0 * step}) {
         for (const double ratio : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
@@ -149,9 +151,8 @@ std::vector<Candidate> candidates(double step,
             }
         }
     }
-    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        return a.grid.steps.size() < b.grid.steps.size();
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.steps < b.steps; });
     return all;
 }
 
@@ -219,9 +220,10 @@ GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
                 })) {
                 continue;
             }
-            const double error = error_of(candidate.grid);
+            PhaseGrid grid = grid_of(candidate.grading);
+            const double error = error_of(grid);
             if (error <= tolerance) {
-                return {candidate.grid, candidate.grading, error, true};
+                return {std::move(grid), candidate.grading, error, true};
             }
             failed.push_back(candidate.grading);
         }
