@@ -41,7 +41,9 @@ std::vector<std::vector<std::string>> ways() {
 std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
     const int samples = own_rule.samples_per_mesh();
     const int least = (own_rule.least_steps() + samples - 1) / samples;
-    const double most = beyond * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
+    // An explicit method's rule sees to stability alone.
+    const double further = own_rule.least_steps() > 1 ? 2.0 * beyond : beyond;
+    const double most = further * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
     std::vector<int> steps;
     for (int a_sample = least; a_sample <= std::max<double>(most, least);
          a_sample = std::max(a_sample + 1, static_cast<int>(std::lround(kStepRatio * a_sample)))) {

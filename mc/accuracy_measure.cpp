@@ -16,7 +16,10 @@ namespace gearpod::mc {
 namespace {
 
 // Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
-constexpr double kBeyondOwnRule = 4.0;
+constexpr double kBeyondOwnRule = 1.5;
+// Rungs slower than so many times the fastest that is as close are timed once, and not settled more
+// loosely.
+constexpr double kNearFrontier = 3.0;
 // Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
@@ -47,12 +50,18 @@ class Measurement {
         request_.progress("reference: two methods until they agree");
         report_.reference = converged_reference(study_, pilot_, {});
         list_rungs();
-        for (int repeat = 0; repeat < std::max(1, request_.repeats); ++repeat) {
-            request_.progress(fmt::format("{} rungs, time {} of {}", report_.rungs.size(),
-                                          repeat + 1, std::max(1, request_.repeats)));
-            for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
-                march(i, repeat == 0);
-            }
+        request_.progress(fmt::format("{} rungs", report_.rungs.size()));
+        march_all(0, true);
+        finish_times();
+        const std::size_t tight = report_.rungs.size();
+        settle_loosely();
+        request_.progress(
+            fmt::format("{} of them settled more loosely", report_.rungs.size() - tight));
+        march_all(tight, true);
+        for (int repeat = 1; repeat < request_.repeats; ++repeat) {
+            finish_times();
+            request_.progress(fmt::format("time {} of {}", repeat + 1, request_.repeats));
+            march_all(0, false);
         }
         for (const double tolerance : request_.tolerances) {
             choose(tolerance);
@@ -95,7 +104,7 @@ class Measurement {
         report_.rungs.back().refusal = refusal;
     }
 
-    // Rungs with the same steps stand together, so that a scene serves them all.
+    // At the tightest settling.
     void list_rungs() {
         report_.own = 0;
         add(own_rung());
@@ -105,9 +114,7 @@ class Measurement {
                     flight.refusal);
             }
             for (const int steps : flight.steps) {
-                for (const double settle : settle_tolerances()) {
-                    add({flight.integrator, steps, settle, flight.other});
-                }
+                add({flight.integrator, steps, settle_tolerances().front(), flight.other});
             }
         }
         Rung all = own_rung();
@@ -116,11 +123,48 @@ class Measurement {
         times_.resize(report_.rungs.size());
     }
 
+    // Rungs with the same steps stand together, so that a scene serves them all.
+    void settle_loosely() {
+        std::vector<Rung> tight;
+        for (const RungResult& result : report_.rungs) {
+            if (near_frontier(result) && result.rung.integrator != "auto" &&
+                !marches_everything(result.rung)) {
+                tight.push_back(result.rung);
+            }
+        }
+        for (Rung& rung : tight) {
+            for (std::size_t i = 1; i < settle_tolerances().size(); ++i) {
+                rung.settle_tolerance = settle_tolerances()[i];
+                add(rung);
+            }
+        }
+        times_.resize(report_.rungs.size());
+    }
+
+    bool near_frontier(const RungResult& result) const {
+        return std::none_of(
+            report_.rungs.begin(), report_.rungs.end(), [&](const RungResult& other) {
+                return other.steps > 0 &&
+                       other.error.largest_feature() <= result.error.largest_feature() &&
+                       kNearFrontier * other.march_s < result.march_s;
+            });
+    }
+
+    static bool marches_everything(const Rung& rung) {
+        return !rung.other.empty() && rung.other.back() == "numerics.horizon=march";
+    }
+
+    void march_all(std::size_t from, bool first) {
+        for (std::size_t i = from; i < report_.rungs.size(); ++i) {
+            if (first || near_frontier(report_.rungs[i])) {
+                march(i, first);
+            }
+        }
+    }
+
     void march(std::size_t place, bool first) {
         RungResult& result = report_.rungs[place];
-        const bool everything =
-            !result.rung.other.empty() && result.rung.other.back() == "numerics.horizon=march";
-        if (!result.refusal.empty() || (everything && !first)) {
+        if (!result.refusal.empty() || (marches_everything(result.rung) && !first)) {
             return;
         }
         try {

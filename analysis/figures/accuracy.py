@@ -100,7 +100,7 @@ def main():
     axes[0].set_ylabel("relative error")
     figure.suptitle(report["title"])
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.legend(handles, labels, loc="lower center", ncol=4, fontsize=8, frameon=False)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
     figure.savefig(sys.argv[2], dpi=110)
 

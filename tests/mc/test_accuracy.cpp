@@ -1,13 +1,15 @@
 // What accuracy costs: errors against closed forms and an independent method, and the choice that
 // numerics.tolerance makes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mc/accuracy_ladder.hpp"
 #include "mc/accuracy_reference.hpp"
 #include "mc/accuracy_report.hpp"
+#include "mc/commands.hpp"
 #include "mc/numerical_error.hpp"
 #include "mc/numerics_choice.hpp"
 #include "program.hpp"

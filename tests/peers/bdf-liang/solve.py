@@ -77,7 +77,10 @@ def solve(healthy, faulty, relative, absolute, per_mesh):
     def system(t):
         mesh = int(t // PERIOD)
         turn = mesh - RUN_IN
-        k = curves[1 + turn if 0 <= turn < PASSAGE else 0][int(t / PERIOD % 1 * count) % count]
+        curve = curves[1 + turn if 0 <= turn < PASSAGE else 0]
+        place = t / PERIOD % 1 * count
+        i = int(place) % count
+        k = curve[i] + (place - int(place)) * (curve[(i + 1) % count] - curve[i])
         return K0 + (MESHES.T * k) @ MESHES, C0 + (MESHES.T * (ZETA * np.sqrt(k))) @ MESHES
 
     def acceleration(t, s):
@@ -146,7 +149,7 @@ def main():
     te_reference = data[:ZP * per_mesh, names.index("te")]
     te_reference = te_reference - te_reference.mean()
     rows = []
-    for relative, absolute in ((1e-3, 1e-6), (1e-4, 1e-7), (1e-5, 1e-8), (1e-6, 1e-9)):
+    for relative, absolute in ((1e-3, 1e-6), (1e-5, 1e-8), (1e-7, 1e-10)):
         planets, te, steps, seconds = solve(healthy, faulty, relative, absolute, per_mesh)
         # The reference's faulty tooth passes at another mesh of the planet turn.
         shift = min(range(ZP), key=lambda k: relative_l2(np.roll(te, k * per_mesh), te_reference))
@@ -161,11 +164,11 @@ def main():
                      f"{relative_l2(te, te_reference):.3g}"] + [f"{abs(f):.3g}" for f in features])
         print(f"{relative:g}, {absolute:g}: {steps:.0f} steps a mesh period, passage at mesh {shift},",
               f"sensor {rows[-1][4]}, te {rows[-1][5]}, features", *rows[-1][6:], flush=True)
-    with open(sys.argv[3], "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["name", "command", "march_s", "mesh_s", "sensor", "te", "te_rms",
-                         "te_kurtosis", "sensor_rms"])
-        writer.writerows(rows)
+        with open(sys.argv[3], "w", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["name", "command", "march_s", "mesh_s", "sensor", "te", "te_rms",
+                             "te_kurtosis", "sensor_rms"])
+            writer.writerows(rows)
 
 
 main()
