@@ -93,6 +93,8 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     } else {
         level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);
     }
+    level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
+                                 transition_sizes(detection.cells), confidence);
     level.tested_size = reliable_size(detection, 0.9);
     return level;
 }

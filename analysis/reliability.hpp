@@ -10,6 +10,7 @@
 #include "analysis/condition_detection.hpp"
 #include "analysis/feature_ranking.hpp"
 #include "analysis/hit_miss_pod.hpp"
+#include "analysis/input_effects.hpp"
 #include "analysis/miss_sensitivity.hpp"
 #include "analysis/signal_response_pod.hpp"
 
@@ -23,6 +24,7 @@ struct LevelReliability {
     std::vector<Auc>
         auc_by_size;  // in the order of the request's groups; no faulty ones in one at 0
     MissSensitivity misses;
+    InputEffects inputs;
     std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
 };
 

@@ -3,31 +3,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_values.hpp"
+#include "analysis/robustness_json.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
 using Json = nlohmann::json;
-
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) {
-    return text.empty() ? Json(nullptr) : Json(text);
-}
-
-Json to_json(const SizeEstimate& estimate) {
-    const char* where[] = {"reached", "below_tested", "not_reached"};
-    return {{"where", where[static_cast<int>(estimate.where)]},
-            {"size",
-             estimate.where == SizeEstimate::Where::reached ? Json(estimate.size) : Json(nullptr)}};
-}
-
-Json to_json(const SizeBounds& bounds) {
-    return {{"estimate", to_json(bounds.estimate)},
-            {"lower", to_json(bounds.lower)},
-            {"upper", to_json(bounds.upper)}};
-}
 
 Json to_json(const std::vector<PodPoint>& band) {
     Json json{{"size", Json::array()},
@@ -236,7 +218,9 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
             {"confidence", request.confidence},
             {"levels", levels},
             {"features", features},
-            {"conditions", conditions}};
+            {"conditions", conditions},
+            {"robustness", robustness_json(reliability, request)},
+            {"a90_maps", a90_maps_json(reliability, request)}};
 }
 
 }  // namespace gearpod::analysis
