@@ -55,12 +55,10 @@ double median(std::span<const double> ascending) {
 
 std::vector<InputBin> bins_of(const std::vector<double>& values, const Outcomes& outcomes,
                               const SizeGroup& range, double confidence) {
-    constexpr double kSameSize = 1e-9;  // a unit conversion's rounding
     std::vector<double> inside;
     std::vector<char> hits;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (outcomes.sizes[i] >= range.low * (1.0 - kSameSize) &&
-            outcomes.sizes[i] <= range.high * (1.0 + kSameSize)) {
+        if (in_range(outcomes.sizes[i], range)) {
             inside.push_back(values[i]);
             hits.push_back(outcomes.hits[i]);
         }
@@ -249,6 +247,11 @@ SizeGroup transition_sizes(const std::vector<DetectionCell>& cells) {
         }
     }
     return std::isnan(range.low) ? nearest : range;
+}
+
+bool in_range(double size, const SizeGroup& range) {
+    constexpr double kSameSize = 1e-9;
+    return size >= range.low * (1.0 - kSameSize) && size <= range.high * (1.0 + kSameSize);
 }
 
 InputEffects input_effects(std::span<const double> sizes, std::span<const int> hit,

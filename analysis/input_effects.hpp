@@ -61,4 +61,7 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
 // a rate of 0.1 to 0.95, without any the one nearest to 1/2. NaN without a tested group.
 SizeGroup transition_sizes(const std::vector<DetectionCell>& cells);
 
+// Up to a unit conversion's rounding; false for a range of NaN.
+bool in_range(double size, const SizeGroup& range);
+
 }  // namespace gearpod::analysis

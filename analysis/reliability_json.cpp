@@ -1,15 +1,13 @@
 #include "analysis/reliability_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/detector_json.hpp"
 #include "analysis/json_values.hpp"
 #include "analysis/robustness_json.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-using Json = nlohmann::json;
 
 Json to_json(const std::vector<PodPoint>& band) {
     Json json{{"size", Json::array()},
@@ -189,6 +187,14 @@ Json to_json(const ConditionDetection& detection) {
 
 }  // namespace
 
+nlohmann::json hit_miss_json(const HitMissPod& pod) {
+    return to_json(pod);
+}
+
+nlohmann::json auc_json(const Auc& auc) {
+    return to_json(auc);
+}
+
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array(), conditions = Json::array();
     for (std::size_t n = 0; n < reliability.rankings.size(); ++n) {
@@ -200,7 +206,9 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
         }
         levels.push_back({{"noise_level", request.noise_levels[n]},
                           {"smallest_fault", smallest},
-                          {"ranking", to_json(reliability.rankings[n])}});
+                          {"ranking", to_json(reliability.rankings[n])},
+                          {"combined", combined_json(reliability.combined[n])},
+                          {"sensitivity", sensitivity_json(reliability.sensitivities[n])}});
     }
     for (const FeatureReliability& feature : reliability.features) {
         Json at = Json::array();

@@ -8,6 +8,7 @@
 #include "analysis/detection_text.hpp"
 #include "analysis/reliability_json.hpp"
 #include "mc/command_support.hpp"
+#include "mc/ranks.hpp"
 #include "mc/reliability_of_results.hpp"
 #include "mc/results_rows.hpp"
 #include "mc/run_report.hpp"
@@ -42,7 +43,7 @@ int report_command(const ReportOptions& options) {
         results = read_frame(options.results);
         const FileRows rows(options.results, results);
         results.detection = detect_all(results, rows);
-        reliability = reliability_of(results, rows, options.condition);
+        reliability = reliability_of(results, rows, options.condition, processors());
         counts = count_rows(rows);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());

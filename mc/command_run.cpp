@@ -68,10 +68,9 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
     std::vector<RowSignals> all;
     for (const long row : options.signals) {
         try {
-            all.push_back(
-                {static_cast<std::size_t>(row),
-                 simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
-                     .columns});
+            all.push_back({static_cast<std::size_t>(row),
+                           simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
+                               .columns});
         } catch (const std::runtime_error& error) {
             fmt::print(stderr, "--signals {}: {}\n", row, error.what());
         }
@@ -166,7 +165,8 @@ class Run {
                 write_results(path, all, rows);
                 if (whole && !options_.quiet) {
                     text = analysis::detection_text(all.detection, all.request) + "\n" +
-                           reliability_text(reliability_of(all, rows, ""), all);
+                           reliability_text(reliability_of(all, rows, "", thread_count(study_, 1)),
+                                            all);
                 }
             } catch (const std::exception& error) {
                 trouble = error.what();
