@@ -57,45 +57,63 @@ std::vector<double> values_of(const CombinedFeature& feature, const Half& half) 
 // One feature as the regression sees it.
 struct Covariate {
     const CombinedFeature* feature = nullptr;
-    bool log = false;
+    std::vector<double> healthy;  // of the training half, ascending
     double centre = 0.0, spread = 1.0;
 
     // NaN where there is no value.
     double scaled(double value) const {
-        if (!std::isfinite(value) || (log && !(value > 0.0))) {
+        if (!std::isfinite(value)) {
             return kNan;
         }
-        return ((log ? std::log(value) : value) - centre) / spread;
+        const auto [first, last] = std::equal_range(healthy.begin(), healthy.end(), value);
+        const double rank =
+            0.5 * static_cast<double>((first - healthy.begin()) + (last - healthy.begin()));
+        const double share = (rank + 0.5) / (static_cast<double>(healthy.size()) + 1.0);
+        return (link_quantile(Link::probit, share) - centre) / spread;
     }
 };
 
 // Why a feature cannot be used, or "".
-std::string fit_covariate(Covariate& covariate, const Half& half) {
+std::string fit_covariate(Covariate& covariate, const Half& half,
+                          std::span<const double> graded_size) {
     std::vector<double> values = values_of(*covariate.feature, half);
     const std::size_t all = values.size();
+    for (std::size_t i = 0; i < all; ++i) {
+        const bool healthy =
+            i < half.healthy.size() || graded_size[half.graded[i - half.healthy.size()]] <= 0.0;
+        if (healthy && std::isfinite(values[i])) {
+            covariate.healthy.push_back(values[i]);
+        }
+    }
+    std::sort(covariate.healthy.begin(), covariate.healthy.end());
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     const std::size_t missing = all - values.size();
     if (values.empty() || static_cast<double>(missing) > kMostMissing * static_cast<double>(all)) {
         return fmt::format("no value for {} of {} training gearboxes", missing, all);
     }
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    if (*least == *most) {
+    const auto count = static_cast<double>(values.size());
+    double mean = 0.0, square = 0.0;
+    for (double& value : values) {
+        value = covariate.scaled(value);
+        mean += value / count;
+    }
+    for (const double value : values) {
+        square += (value - mean) * (value - mean) / count;
+    }
+    if (!(square > 1e-20)) {
         return "constant";
     }
-    covariate.log = *least > 0.0;
-    const auto count = static_cast<double>(values.size());
-    const auto shown = [&](double value) { return covariate.log ? std::log(value) : value; };
-    covariate.centre = 0.0;
-    for (const double value : values) {
-        covariate.centre += shown(value) / count;
-    }
-    double square = 0.0;
-    for (const double value : values) {
-        const double away = shown(value) - covariate.centre;
-        square += away * away / count;
-    }
+    covariate.centre = mean;
     covariate.spread = std::sqrt(square);
-    return covariate.spread > 1e-12 * std::abs(covariate.centre) ? "" : "constant";
+    return "";
+}
+
+std::string sample_refusal(long healthy, long faulty) {
+    return std::min(healthy, faulty) >= kFewest
+               ? ""
+               : fmt::format(
+                     "{} healthy and {} faulty gearboxes to train on, {} of each are needed",
+                     healthy, faulty, kFewest);
 }
 
 // Complete training gearboxes.
@@ -236,11 +254,19 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
     result.noise_level = request.noise_levels.front();
     const Half training_half = half_of(healthy_size.size(), graded_size.size(), true);
     const Half test_half = half_of(healthy_size.size(), graded_size.size(), false);
+    const long faulty = std::count_if(training_half.graded.begin(), training_half.graded.end(),
+                                      [&](std::size_t row) { return graded_size[row] > 0.0; });
+    const auto all = static_cast<long>(training_half.healthy.size() + training_half.graded.size());
+    result.refusal = sample_refusal(all - faulty, faulty);
+    if (!result.refusal.empty()) {
+        return result;
+    }
     std::vector<Covariate> covariates;
     for (const CombinedFeature& feature : features) {
-        Covariate covariate{&feature, false, 0.0, 1.0};
-        if (const std::string reason = fit_covariate(covariate, training_half); reason.empty()) {
-            covariates.push_back(covariate);
+        Covariate covariate{&feature, {}, 0.0, 1.0};
+        if (const std::string reason = fit_covariate(covariate, training_half, graded_size);
+            reason.empty()) {
+            covariates.push_back(std::move(covariate));
         } else {
             result.left_out.push_back(feature.name + ": " + reason);
         }
@@ -253,10 +279,8 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
     const Training training = training_of(covariates, training_half, graded_size);
     result.trained_faulty = std::count(training.faulty.begin(), training.faulty.end(), 1);
     result.trained_healthy = static_cast<long>(training.faulty.size()) - result.trained_faulty;
-    if (std::min(result.trained_healthy, result.trained_faulty) < kFewest) {
-        result.refusal =
-            fmt::format("{} healthy and {} faulty gearboxes to train on, {} of each are needed",
-                        result.trained_healthy, result.trained_faulty, kFewest);
+    result.refusal = sample_refusal(result.trained_healthy, result.trained_faulty);
+    if (!result.refusal.empty()) {
         return result;
     }
     const BinaryFit fit =
@@ -267,8 +291,8 @@ CombinedDetector combine_features(const std::vector<CombinedFeature>& features,
     }
     result.intercept = fit.coefficients[0];
     for (std::size_t c = 0; c < covariates.size(); ++c) {
-        result.weights.push_back({covariates[c].feature->name, covariates[c].log,
-                                  fit.coefficients[static_cast<Eigen::Index>(c) + 1]});
+        result.weights.push_back(
+            {covariates[c].feature->name, fit.coefficients[static_cast<Eigen::Index>(c) + 1]});
     }
     HeldOut combined{
         picked(healthy_size, test_half.healthy), picked(graded_size, test_half.graded),

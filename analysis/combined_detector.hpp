@@ -1,6 +1,7 @@
 // All features as one detector: ridge-penalised logistic regression of faulty against healthy
-// (binary_regression.hpp) on their logarithms, or on themselves where values are not positive,
-// centred and scaled to the training gearboxes' standard deviation. Half of the gearboxes train it;
+// (binary_regression.hpp) on each value's normal score among the healthy training gearboxes, which
+// ends where no healthy one lies beyond (large faults then weigh no more than small ones that are
+// as clear), scaled to the training gearboxes' standard deviation. Half of the gearboxes train it;
 // the other half, none of which it has seen, set its threshold and grade it. The best single
 // feature, chosen on the training half, is graded on the same gearboxes with a threshold from the
 // same healthy ones.
@@ -26,8 +27,7 @@ struct CombinedFeature {
 
 struct FeatureWeight {
     std::string name;
-    bool log = false;     // on its logarithm
-    double weight = 0.0;  // of one training standard deviation, in log odds of a fault
+    double weight = 0.0;  // of one standard deviation, in log odds of a fault
 };
 
 // A detector on the gearboxes that were held back.

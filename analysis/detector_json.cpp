@@ -41,8 +41,7 @@ nlohmann::json combined_json(const CombinedDetector& combined) {
     const bool graded = combined.refusal.empty();
     Json weights = Json::array();
     for (const FeatureWeight& weight : combined.weights) {
-        weights.push_back(
-            {{"feature", weight.name}, {"log", weight.log}, {"weight", number(weight.weight)}});
+        weights.push_back({{"feature", weight.name}, {"weight", number(weight.weight)}});
     }
     return {{"weights", weights},
             {"intercept", graded ? number(combined.intercept) : Json(nullptr)},

@@ -1,6 +1,6 @@
 // The combined detector and the sensitivity of the misses at one noise level, as JSON.
 //
-// combined: {"weights": [{"feature", "log", "weight"}], "intercept", "trained_healthy",
+// combined: {"weights": [{"feature", "weight"}], "intercept", "trained_healthy",
 //   "trained_faulty", "detector", "single" (each {"name", "auc", "detection", "hit_miss"} on the
 //   held- out gearboxes), "gain" (of the area), "p_value", "left_out", "warnings", "refusal"}
 // sensitivity: {"feature", "size_low", "size_high", "misses", "values": each {"gearboxes",
