@@ -224,8 +224,8 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
 }
 
 bool varies(const std::vector<double>& values) {
-    return std::any_of(values.begin(), values.end(),
-                       [&](double value) { return value != values.front(); });
+    return !values.empty() && std::any_of(values.begin(), values.end(),
+                                          [&](double value) { return value != values.front(); });
 }
 
 }  // namespace
@@ -263,7 +263,7 @@ InputEffects input_effects(std::span<const double> sizes, std::span<const int> h
     const BinaryModel model{form.link, form.floor, pod.chosen.curve.ceiling};
     Eigen::VectorXd x;
     BinaryFit without;
-    if (pod.refusal.empty()) {
+    if (pod.refusal.empty() && !outcomes.rows.empty()) {
         x = scaled_sizes(outcomes, form);
         without = fit_binary(design_of(x, Scale(x), x, Scale(x), 0), outcomes.hits, model);
     }

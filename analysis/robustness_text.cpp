@@ -77,22 +77,22 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
     add_wrapped(
         out,
         fmt::format("{} against its inputs: Pd at {} in the lowest and highest fifth of each "
-                    "that matters; a90{} at its 5 and 95 % quantile",
+                    "that matters; a90{} at its 5, 50 and 95 % quantile",
                     feature.feature, range_text({effects.smallest, effects.largest}, unit),
                     shown.empty() ? "" : " in " + shown),
         4);
-    out += fmt::format("{:<{}}{:>10}{:>10}{:>20}{:>20}{:>9}{:>9}{:>10}\n", "input", width, "from",
-                       "to", "Pd low", "Pd high", "a90 low", "a90 high", "p");
+    out += fmt::format("{:<{}}{:>9}{:>9}{:>19}{:>19}{:>8}{:>8}{:>8}{:>8}\n", "input", width, "from",
+                       "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p");
     const HitMissPod& pod = level.hit_miss;
     const auto a90 = [&](const SizeBounds& bounds) {
         return size_estimate_text(bounds.estimate, pod.smallest, pod.largest, unit);
     };
     for (const InputEffect* effect : mattering) {
-        out +=
-            fmt::format("{:<{}}{:>10.3g}{:>10.3g}{:>20}{:>20}{:>9}{:>9}{:>10.1g}\n", effect->name,
-                        width, effect->bins.front().middle, effect->bins.back().middle,
-                        bin_text(effect->bins.front()), bin_text(effect->bins.back()),
-                        a90(effect->a90.front()), a90(effect->a90.back()), effect->p_value);
+        out += fmt::format(
+            "{:<{}}{:>9.3g}{:>9.3g}{:>19}{:>19}{:>8}{:>8}{:>8}{:>8.1g}\n", effect->name, width,
+            effect->bins.front().middle, effect->bins.back().middle, bin_text(effect->bins.front()),
+            bin_text(effect->bins.back()), a90(effect->a90.front()),
+            a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()), effect->p_value);
     }
 }
 
