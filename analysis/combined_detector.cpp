@@ -18,6 +18,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRidge = 1.0;
 constexpr double kMostMissing = 0.1;
 constexpr long kFewest = 50;
+constexpr int kBandPoints = 5;
 
 // One half of the gearboxes: the threshold sample's and the graded ones' rows.
 struct Half {
@@ -207,7 +208,8 @@ HeldOutDetector grade(const std::string& name, const HeldOut& held, const Detect
         *warnings = detection.warnings;
     }
     const auto hit = outcomes(held.graded, detector.detection.threshold, held.alarm);
-    detector.pod = pod_of_outcomes(held.graded_size, hit, detector.detection, request.confidence);
+    detector.pod =
+        pod_of_outcomes(held.graded_size, hit, detector.detection, request.confidence, kBandPoints);
     return detector;
 }
 

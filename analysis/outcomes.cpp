@@ -15,7 +15,7 @@ std::vector<int> outcomes(std::span<const double> values, double threshold, Alar
 }
 
 HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>& hit,
-                           const LevelDetection& detection, double confidence) {
+                           const LevelDetection& detection, double confidence, int band_points) {
     HitMissPod pod;
     if (std::isnan(detection.threshold)) {
         pod.refusal = "no threshold";
@@ -29,7 +29,8 @@ HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>
             detected.push_back(hit[i] == 1 ? 1 : 0);
         }
     }
-    return hit_miss_pod(hit_miss_table(tested, detected), {detection.healthy_rate, confidence});
+    return hit_miss_pod(hit_miss_table(tested, detected),
+                        {detection.healthy_rate, confidence, band_points});
 }
 
 }  // namespace gearpod::analysis

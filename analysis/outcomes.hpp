@@ -14,6 +14,7 @@ std::vector<int> outcomes(std::span<const double> values, double threshold, Alar
 
 // Refused without a threshold. The floor is the detection's healthy rate.
 HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>& hit,
-                           const LevelDetection& detection, double confidence);
+                           const LevelDetection& detection, double confidence,
+                           int band_points = 21);
 
 }  // namespace gearpod::analysis
