@@ -40,7 +40,7 @@ struct HitMissPod {
 struct HitMissRequest {
     double floor = 0.0;        // the healthy gearboxes' rate; 0: only curves without floor
     double confidence = 0.95;  // of each one-sided bound
-    int band_points = 21;
+    int band_points = 41;
 };
 
 // One form alone; for comparison with other programs and for coverage.

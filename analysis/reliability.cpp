@@ -58,6 +58,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     level.noise_level = detection.noise_level;
     const bool high = feature.alarm == Alarm::high;
     level.auc = auc(values.healthy, values.faulty, high, confidence);
+    level.roc = roc_curve(values.healthy, values.faulty, high);
     for (const std::vector<double>& faulty : values.by_size) {
         level.auc_by_size.push_back(auc(values.healthy, faulty, high, confidence));
     }

@@ -14,6 +14,7 @@
 #include "analysis/input_effects.hpp"
 #include "analysis/level_sensitivity.hpp"
 #include "analysis/miss_sensitivity.hpp"
+#include "analysis/roc.hpp"
 #include "analysis/signal_response_pod.hpp"
 
 namespace gearpod::analysis {
@@ -24,7 +25,8 @@ struct LevelReliability {
     SignalResponsePod signal_response;
     Auc auc;  // all faulty gearboxes against all healthy ones
     std::vector<Auc>
-        auc_by_size;  // in the order of the request's groups; no faulty ones in one at 0
+        auc_by_size;            // in the order of the request's groups; no faulty ones in one at 0
+    std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
     std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9

@@ -101,6 +101,15 @@ Json to_json(const Auc& auc) {
             {"faulty", auc.faulty}};
 }
 
+Json to_json(const std::vector<RocPoint>& roc) {
+    Json json{{"false_alarm_rate", Json::array()}, {"detection_rate", Json::array()}};
+    for (const RocPoint& point : roc) {
+        json["false_alarm_rate"].push_back(point.false_alarm_rate);
+        json["detection_rate"].push_back(point.detection_rate);
+    }
+    return json;
+}
+
 Json to_json(const MissSensitivity& misses) {
     Json inputs = Json::array();
     for (const InputInfluence& input : misses.inputs) {
@@ -130,7 +139,17 @@ Json to_json(const LevelReliability& level) {
             {"signal_response", to_json(level.signal_response)},
             {"auc", to_json(level.auc)},
             {"auc_by_size", by_size},
+            {"roc", to_json(level.roc)},
             {"misses", to_json(level.misses)}};
+}
+
+Json to_json(const std::optional<SmallestFault>& smallest) {
+    if (!smallest) {
+        return nullptr;
+    }
+    return {{"feature", smallest->feature},
+            {"size", smallest->size},
+            {"from_curve", smallest->from_curve}};
 }
 
 Json to_json(const FeatureRanking& ranking) {
@@ -198,22 +217,17 @@ nlohmann::json auc_json(const Auc& auc) {
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array(), conditions = Json::array();
     for (std::size_t n = 0; n < reliability.rankings.size(); ++n) {
-        Json smallest(nullptr);
-        if (const auto found = smallest_fault(reliability, n)) {
-            smallest = {{"feature", found->feature},
-                        {"size", found->size},
-                        {"from_curve", found->from_curve}};
-        }
         levels.push_back({{"noise_level", request.noise_levels[n]},
-                          {"smallest_fault", smallest},
+                          {"smallest_fault", to_json(smallest_fault(reliability, n))},
                           {"ranking", to_json(reliability.rankings[n])},
                           {"combined", combined_json(reliability.combined[n])},
                           {"sensitivity", sensitivity_json(reliability.sensitivities[n])}});
     }
     for (const FeatureReliability& feature : reliability.features) {
         Json at = Json::array();
-        for (const LevelReliability& level : feature.levels) {
-            at.push_back(to_json(level));
+        for (std::size_t n = 0; n < feature.levels.size(); ++n) {
+            at.push_back(to_json(feature.levels[n]));
+            at.back()["smallest_fault"] = to_json(smallest_fault(feature, n));
         }
         features.push_back({{"name", feature.feature},
                             {"alarm", feature.alarm == Alarm::high ? "high" : "low"},

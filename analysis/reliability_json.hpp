@@ -17,7 +17,9 @@ namespace gearpod::analysis {
 //    "model", "link",
 //      "log_size", "floor", "ceiling", "intercept", "slope", "aic", "fit", "a50", "a90",
 //      "band": {"size", "pod", "lower", "upper"}, "candidates": [...]},
-//    "signal_response": {...}, "auc": {...}, "auc_by_size": [...], "misses": {...}}]}],
+//    "signal_response": {...}, "auc": {...}, "auc_by_size": [...],
+//    "roc": {"false_alarm_rate", "detection_rate"}, "misses": {...},
+//    "smallest_fault": as above}]}],
 //  "conditions": [...], "robustness", "a90_maps"}
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
 // the bounds one-sided. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size

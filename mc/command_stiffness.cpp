@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mc/command_support.hpp"
+#include "mc/stiffness_curves.hpp"
 #include "mc/study_gears.hpp"
 #include "mc/study_sizes.hpp"
 
@@ -24,16 +25,6 @@ std::string size_name(const Study& study, double size) {
     return fmt::format("{:g}{}", size / unit.to_si, unit.suffix);
 }
 
-// The first pair that the faulty tooth meets with each of its curves.
-std::vector<int> faulty_pairs(const Scene& scene) {
-    std::vector<int> pairs(static_cast<std::size_t>(scene.fault().curves()), -1);
-    for (const lockstep::FaultPassage& passage : scene.pattern().passages) {
-        int& pair = pairs[static_cast<std::size_t>(passage.curve)];
-        pair = pair < 0 ? passage.pair : pair;
-    }
-    return pairs;
-}
-
 std::vector<FaultColumn> fault_columns(const Scene& scene) {
     std::vector<FaultColumn> columns;
     const std::vector<int> pairs = faulty_pairs(scene);
@@ -52,17 +43,6 @@ std::vector<FaultColumn> fault_columns(const Scene& scene) {
         }
     }
     return columns;
-}
-
-// The faulty pair's stiffness so many mesh periods after its faulty tooth engaged.
-double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since) {
-    const lockstep::PairSet& pairs = scene.pairs();
-    if (since < 0.0 || since >= mesh.duration()) {
-        return pairs.total(pair, pairs.start[static_cast<std::size_t>(pair)] + since);
-    }
-    const double tau = pairs.reversed ? mesh.duration() - since : since;
-    const auto limit = pairs.reversed ? stiffness::Limit::from_below : stiffness::Limit::from_above;
-    return total_at(mesh, pairs.curve(pair).transitions(), tau, limit);
 }
 
 std::string csv_text(const Scene& scene, int points) {

@@ -40,15 +40,15 @@ std::optional<Study> load_study(const StudyOptions& options) {
     return std::move(reading.study);
 }
 
-std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems) {
-    StudyReading reading = read_study(options.path, options.overrides);
+std::unique_ptr<Scene> make_scene(const std::string& name, StudyReading reading,
+                                  Problems& problems) {
     if (!reading.study) {
         problems = std::move(reading.problems);
         return nullptr;
     }
     const Study& study = *reading.study;
     if (!has_gears(study)) {
-        problems = {{options.path, 0, "gearbox.sun_teeth",
+        problems = {{name, 0, "gearbox.sun_teeth",
                      "no tooth numbers or no module (only modes and describe do without)",
                      "give sun_teeth, planet_teeth, ring_teeth and module_mm"}};
         return nullptr;
@@ -56,15 +56,19 @@ std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problem
     try {
         choose_instruction_set(study.numerics.instruction_set);
     } catch (const std::exception& error) {
-        problems = {{options.path, 0, "numerics.instruction_set", error.what(), "use auto"}};
+        problems = {{name, 0, "numerics.instruction_set", error.what(), "use auto"}};
         return nullptr;
     }
     try {
         return std::make_unique<Scene>(study);
     } catch (const SceneError& error) {
-        problems = {{options.path, 0, error.key(), error.what(), error.remedy()}};
+        problems = {{name, 0, error.key(), error.what(), error.remedy()}};
         return nullptr;
     }
+}
+
+std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems) {
+    return make_scene(options.path, read_study(options.path, options.overrides), problems);
 }
 
 std::unique_ptr<Scene> load_scene(const StudyOptions& options) {

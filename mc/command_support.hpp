@@ -19,6 +19,10 @@ std::optional<Study> load_study(const StudyOptions& options);
 // The scene of a study, or nothing and why; also sets the kernels' instruction set.
 std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems);
 
+// The same for a study that has been read; problems name it `name`.
+std::unique_ptr<Scene> make_scene(const std::string& name, StudyReading reading,
+                                  Problems& problems);
+
 // The scene of a study, or nothing after its problems were printed; also sets the kernels'
 // instruction set.
 std::unique_ptr<Scene> load_scene(const StudyOptions& options);

@@ -2,12 +2,15 @@
 
 #include <chrono>
 
+#include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
 #include "mc/schema.hpp"
+#include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
 #include "signals/path_window.hpp"
+#include "signals/sensor.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -27,7 +30,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     lockstep::TileSettings settings;
     settings.tolerance = n.settle_tolerance;
     settings.max_meshes = scene.max_meshes();
-    settings.march_meshes = n.horizon == Horizon::march ? scene.span_meshes() : 0;
+    settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
     settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
     settings.with_motion = with_motion;
     return settings;
@@ -51,10 +54,33 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
     const auto settings = tile_settings(scene, with_motion);
+    const double processor_start = thread_processor_s();
     tile.march = scene.study().effects.quasi_static()
                      ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
                      : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     tile.march_s = lap(start);
+    tile.march_cpu_s = thread_processor_s() - processor_start;
+}
+
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    if (status == lockstep::LaneStatus::ok) {
+        return Status::ok;
+    }
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return diverged ? Status::no_equilibrium : Status::not_settled;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::turning_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_settled;
 }
 
 }  // namespace
@@ -89,6 +115,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         march<8>(scene, ids, with_motion, tile);
     }
 
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
+    }
+
     start = Clock::now();
     tile.views = {lanes, dynamics::sources(scene.plan().layout), scene.samples_per_mesh(), {}, {}};
     for (const lockstep::MeshRecord& record : tile.march.records) {
@@ -109,6 +139,22 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                         tile.te_turn);
     tile.signals_s = lap(start);
     return tile;
+}
+
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
+    LaneSignals own;
+    own.folded.resize(tile.folded.size() / lanes);
+    own.te_turn.resize(tile.te_turn.size() / lanes);
+    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    if (meshes > 0) {
+        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
+                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
+                                         0, meshes, tile.tones);
+    }
+    return own;
 }
 
 }  // namespace gearpod::mc

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lockstep/tile.hpp"
+#include "mc/results_file.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
 #include "signals/tile_signals.hpp"
@@ -17,12 +18,14 @@ namespace gearpod::mc {
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
     lockstep::TileResult march;
+    std::vector<Status> status;  // of the gearboxes asked for
     signals::TileSignals views;
     signals::Tones tones;            // interfering; empty without
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    double march_cpu_s = 0.0;  // the march's share of this thread's processor time
 };
 
 // The path's tables for a scene.
@@ -32,5 +35,15 @@ signals::PathGrid path_grid(const Scene& scene);
 // the last one.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false);
+
+// One lane of a tile.
+struct LaneSignals {
+    std::vector<double> folded;   // as GearboxTile::folded
+    std::vector<double> te_turn;  // as GearboxTile::te_turn
+    std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
+};
+// `meshes`: mesh periods of sensor signal, 0 for none.
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes);
 
 }  // namespace gearpod::mc

@@ -29,7 +29,19 @@ namespace gearpod::mc {
 // Raised when a reader of the current version would misread the file.
 inline constexpr int kResultsFormatVersion = 2;
 
-enum class Status { ok = 0, diverged = 1, not_settled = 2 };
+// diverged: for no reason that is known. supercritical, parametric, step_too_long: for a known one,
+// whether it diverged or just did not settle (lockstep/instability.hpp). no_equilibrium: without
+// inertia, and no tooth carries the load.
+enum class Status {
+    ok = 0,
+    diverged = 1,
+    not_settled = 2,
+    supercritical = 3,
+    parametric = 4,
+    step_too_long = 5,
+    no_equilibrium = 6
+};
+inline constexpr int kStatuses = 7;
 
 struct ParameterResult {
     std::string name;

@@ -6,7 +6,9 @@
 namespace gearpod::mc {
 
 inline constexpr const char* kResultsFormat = "gearpod results";
-inline constexpr const char* kStatusMeanings = "0 ok, 1 diverged, 2 not settled";
+inline constexpr const char* kStatusMeanings =
+    "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
+    "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
 inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded";
 
 inline const char* alarm_text(analysis::Alarm alarm) {

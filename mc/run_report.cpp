@@ -42,16 +42,50 @@ RowCounts count_rows(const RowSource& rows) {
     rows.visit([&](const RowBlock& block) {
         counts.all += block.count();
         for (const int status : block.status) {
-            counts.diverged += status == static_cast<int>(Status::diverged) ? 1 : 0;
-            counts.not_settled += status == static_cast<int>(Status::not_settled) ? 1 : 0;
+            if (status >= 0 && status < kStatuses) {
+                ++counts.with_status[static_cast<std::size_t>(status)];
+            }
         }
     });
+    counts.not_settled = counts.with_status[static_cast<std::size_t>(Status::not_settled)];
+    counts.diverged =
+        counts.all - counts.not_settled - counts.with_status[static_cast<std::size_t>(Status::ok)];
     return counts;
+}
+
+const char* failure_text(Status status) {
+    switch (status) {
+        case Status::ok:
+            return "worked";
+        case Status::diverged:
+            return "diverged without a known reason";
+        case Status::not_settled:
+            return "did not settle";
+        case Status::supercritical:
+            return "is unstable above a critical speed of the turning carrier: at steady mesh "
+                   "stiffness its motion grows";
+        case Status::parametric:
+            return "is unstable by parametric resonance: the changing mesh stiffness makes its "
+                   "motion grow";
+        case Status::step_too_long:
+            return "is too stiff or too light for the study's step: set numerics.steps_per_mesh, "
+                   "or an implicit numerics.integrator";
+        case Status::no_equilibrium:
+            return "has no equilibrium: where its teeth are gone nothing carries the load";
+    }
+    return "";
 }
 
 void print_failures(const RowCounts& rows, int max_meshes) {
     fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n", rows.failed(),
                rows.all, rows.diverged, rows.not_settled);
+    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
+                                Status::no_equilibrium}) {
+        const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
+        if (count > 0) {
+            fmt::print("  {} of them: each {}\n", count, failure_text(status));
+        }
+    }
     if (rows.not_settled > 0) {
         fmt::print(
             "  (their orbit or the fault's disturbance was not back within {} mesh periods: "

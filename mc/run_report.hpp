@@ -1,19 +1,25 @@
 // What a run says at its end, beside its detection rates.
 #pragma once
 
+#include <array>
+
 #include "mc/ensemble.hpp"
 #include "mc/row_source.hpp"
 
 namespace gearpod::mc {
 
-// All rows, and those without a value.
+// All rows, and those without a value; `diverged` holds all but those that did not settle.
 struct RowCounts {
     std::size_t all = 0, diverged = 0, not_settled = 0;
+    std::array<std::size_t, kStatuses> with_status{};
 
     std::size_t failed() const { return diverged + not_settled; }
 };
 
 RowCounts count_rows(const RowSource& rows);
+
+// One sentence on a gearbox of that status, without its subject: "is unstable ...".
+const char* failure_text(Status status);
 
 void print_failures(const RowCounts& rows, int max_meshes);
 

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mc/instance_features.hpp"
+#include "mc/numerics_choice.hpp"
 #include "mc/scene_body.hpp"
 #include "mc/study_gears.hpp"
 
@@ -23,12 +25,42 @@ const Study& with_gears(const Study& study) {
 
 Scene::Scene(const Study& study)
     : study_(with_gears(study)), drive_(make_drive(study_)), span_(drive_->span()) {
+    if (auto choice = choose_numerics(study_)) {
+        study_.numerics = choice->numerics;
+        choice_ = std::make_unique<const NumericsChoice>(*std::move(choice));
+    }
     const InstanceInputs nominal = Sampler(study_).nominal();
     nominal_mesh_frequency_Hz_ = drive_->mesh_frequency_rad_s(nominal.speed_rad_s) / (2.0 * pi);
     meshes_ = make_meshes(study_, drive_->mesh_force_N(nominal));
     pairs_ = make_pairs(meshes_, *drive_);
     fault_.emplace(study_, meshes_, pairs_);
     build_plan();
+    signal_meshes_ = meshes_needed(*this, needs_of(used_features(study_)));
+}
+
+Scene::~Scene() = default;
+
+void Scene::use(const Numerics& numerics) {
+    const Numerics before = study_.numerics;
+    Numerics settled_alike = before;
+    settled_alike.settle_tolerance = numerics.settle_tolerance;
+    study_.numerics = numerics;
+    if (settled_alike == numerics) {
+        settle();
+        return;
+    }
+    try {
+        build_plan();
+    } catch (...) {
+        study_.numerics = before;
+        throw;
+    }
+}
+
+void Scene::settle() {
+    if (!study_.effects.quasi_static()) {
+        max_meshes_ = choose_max_meshes(study_, stepping_.decay_meshes);
+    }
 }
 
 std::vector<double> Scene::mean_pairs() const {
@@ -73,9 +105,9 @@ void Scene::build_plan() {
     stepping_.steps = sampling.samples;
     if (!study_.effects.quasi_static()) {
         stepping_ = choose_stepping(study_, *drive_, plan_.layout, stiffest_pairs());
-        max_meshes_ = choose_max_meshes(study_, stepping_.decay_meshes);
         plan_.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
     }
+    settle();
     plan_.integrator = stepping_.integrator;
     plan_.grid = lockstep::make_phase_grid(sampling.samples, stepping_.steps, transitions());
     plan_.grid.stage_nodes = lockstep::stage_nodes(plan_.integrator);

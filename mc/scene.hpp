@@ -19,14 +19,21 @@
 
 namespace gearpod::mc {
 
+struct NumericsChoice;  // numerics_choice.hpp
+
 class Scene {
   public:
-    // The study must have gears (has_gears). Throws SceneError.
+    // The study must have gears (has_gears). With numerics.tolerance, its other numerics are chosen
+    // here. Throws SceneError.
     explicit Scene(const Study& study);
+    ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
+    // With the numerics that were chosen.
     const Study& study() const { return study_; }
+    // How they were chosen; null without numerics.tolerance.
+    const NumericsChoice* numerics_choice() const { return choice_.get(); }
     const Drive& drive() const { return *drive_; }
     const std::vector<SceneMesh>& meshes() const { return meshes_; }
     const lockstep::PairSet& pairs() const { return pairs_; }
@@ -45,6 +52,9 @@ class Scene {
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
     int span_meshes() const { return span_.meshes(); }
+    // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
+    // the sun or the ring need it.
+    int signal_meshes() const { return signal_meshes_; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
@@ -53,9 +63,12 @@ class Scene {
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return stepping_.least; }
+    double explicit_steps() const { return stepping_.explicit_steps; }
     double decay_meshes() const { return stepping_.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
+    // Marches the same gearboxes another way from now on. Throws SceneError.
+    void use(const Numerics& numerics);
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     std::vector<double> mean_pairs() const;
@@ -66,10 +79,12 @@ class Scene {
 
   private:
     void build_plan();
+    void settle();
     void add_errors();
     std::vector<double> transitions() const;
 
     Study study_;
+    std::unique_ptr<const NumericsChoice> choice_;
     std::unique_ptr<const Drive> drive_;
     signals::SpanLayout span_;
     std::vector<SceneMesh> meshes_;
@@ -79,6 +94,7 @@ class Scene {
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
     int te_samples_ = 0;
+    int signal_meshes_ = 0;
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };

@@ -143,7 +143,7 @@ Stepping explicit_stepping(const StepNeeds& needs, int given) {
             "leave the key out to have the steps chosen");
     }
     return {lockstep::Integrator::rk4, given > 0 ? given : static_cast<int>(chosen),
-            static_cast<int>(least), needs.decay_meshes()};
+            static_cast<int>(least), needs.decay_meshes(), 0.0};
 }
 
 Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
@@ -154,7 +154,7 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
                                      chosen, kMostSteps),
                          "lower sensor.low_pass_Hz or raise the speed");
     }
-    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes()};
+    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 0.0};
 }
 
 lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
@@ -202,8 +202,11 @@ Stepping choose_stepping(const Study& study, const Drive& drive,
     const StepNeeds needs(study, drive, layout, stiffest_N_m);
     const lockstep::Integrator integrator = integrator_of(study, needs);
     const int given = study.numerics.steps_per_mesh;
-    return integrator == lockstep::Integrator::rk4 ? explicit_stepping(needs, given)
-                                                   : implicit_stepping(needs, integrator, given);
+    Stepping stepping = integrator == lockstep::Integrator::rk4
+                            ? explicit_stepping(needs, given)
+                            : implicit_stepping(needs, integrator, given);
+    stepping.explicit_steps = needs.stable();
+    return stepping;
 }
 
 // Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the

@@ -26,6 +26,8 @@ struct Stepping {
     // Mesh periods that a disturbance of the nominal gearbox takes to decay by 1/e; infinite
     // without damping.
     double decay_meshes = 0.0;
+    // Steps a mesh period with which the classical Runge-Kutta method is stable, marched or not.
+    double explicit_steps = 0.0;
 };
 // `stiffest_N_m`: all pairs at their stiffest, the bound for an explicit step. Throws SceneError.
 Stepping choose_stepping(const Study& study, const Drive& drive,

@@ -192,7 +192,7 @@ struct Sensor {
 };
 
 struct Features {
-    std::vector<std::string> use;  // as in the file; all known ones by default
+    std::vector<std::string> use;  // as in the file; the basic ones by default
     double tukey_taper = 0.1;
     int te_harmonics = 8;
 
@@ -211,6 +211,8 @@ struct Detection {
 struct Numerics {
     Integrator integrator = Integrator::automatic;
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
+    double tolerance = 0.0;
     double settle_tolerance = 1e-10;
     int max_meshes = 0;  // 0: from the damping
     Horizon horizon = Horizon::reuse;

@@ -96,7 +96,7 @@ class ValueReader {
     }
 
     void operator()(const TonesAccess& access) {
-        if (nonempty_list("tones")) {
+        if (is_list("tones")) {
             access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
                            reject(std::move(what), std::move(remedy));
                        }));
@@ -132,10 +132,17 @@ class ValueReader {
         return false;
     }
 
+    bool is_list(std::string_view of) {
+        if (value_.kind == Value::Kind::array) {
+            return true;
+        }
+        reject(fmt::format("must be a list of {}, but is {}", of, value_.kind_name()),
+               "write it in [brackets]");
+        return false;
+    }
+
     bool nonempty_list(std::string_view of) {
-        if (value_.kind != Value::Kind::array) {
-            reject(fmt::format("must be a list of {}, but is {}", of, value_.kind_name()),
-                   "write it in [brackets]");
+        if (!is_list(of)) {
             return false;
         }
         if (value_.elements.empty()) {

@@ -7,21 +7,6 @@
 #include "mc/results_file.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-int status_of(lockstep::LaneStatus status) {
-    switch (status) {
-        case lockstep::LaneStatus::diverged:
-            return static_cast<int>(Status::diverged);
-        case lockstep::LaneStatus::unsettled:
-            return static_cast<int>(Status::not_settled);
-        case lockstep::LaneStatus::ok:
-            break;
-    }
-    return static_cast<int>(Status::ok);
-}
-
-}  // namespace
 
 Seconds& Seconds::operator+=(const Seconds& other) {
     sampling += other.sampling;
@@ -38,7 +23,9 @@ RowShape row_shape(const Sampler& sampler, const Study& study) {
 }
 
 TileWorker::TileWorker(const TileTask& task)
-    : task_(task), features_(task.scene), shape_(row_shape(task.sampler, task.scene.study())) {}
+    : task_(task),
+      features_(task.scene, &task.healthy),
+      shape_(row_shape(task.sampler, task.scene.study())) {}
 
 TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
     std::vector<GearboxId> ids;
@@ -73,19 +60,15 @@ void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int l
                          TileRows& rows) {
     const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
     rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
-    const auto status = computed.march.status[static_cast<std::size_t>(lane)];
-    rows.status.push_back(status_of(status));
+    const Status status = computed.status[static_cast<std::size_t>(lane)];
+    rows.status.push_back(static_cast<int>(status));
 
     std::vector<double> values(shape_.features * shape_.levels,
                                std::numeric_limits<double>::quiet_NaN());
-    if (status == lockstep::LaneStatus::ok) {
-        const auto lanes = static_cast<std::size_t>(computed.views.lanes);
-        std::vector<double> folded(computed.folded.size() / lanes);
-        std::vector<double> te(computed.te_turn.size() / lanes);
-        signals::copy_lane(computed.folded, computed.views.lanes, lane, folded);
-        signals::copy_lane(computed.te_turn, computed.views.lanes, lane, te);
-        values = features_.compute(folded, te, computed.inputs[static_cast<std::size_t>(lane)],
-                                   id.group, id.index);
+    if (status == Status::ok) {
+        values = features_.compute(
+            lane_signals(task_.scene, task_.path, computed, lane, features_.meshes()),
+            computed.inputs[static_cast<std::size_t>(lane)], id);
     }
     rows.values.insert(rows.values.end(), values.begin(), values.end());
 }

@@ -1,7 +1,5 @@
 #include "gears/power_flow.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace gearpod::gears {
@@ -19,18 +17,6 @@ Member member_of(FixedMember fixed) {
     return Member::ring;
 }
 
-const char* name_of(Member member) {
-    switch (member) {
-        case Member::sun:
-            return "sun";
-        case Member::carrier:
-            return "carrier";
-        case Member::ring:
-            break;
-    }
-    return "ring";
-}
-
 double speed_of(const Speeds& speeds, Member member) {
     return member == Member::sun    ? speeds.sun
            : member == Member::ring ? speeds.ring
@@ -44,13 +30,6 @@ double& value_of(Members& members, Member member) {
 }
 
 }  // namespace
-
-std::vector<std::string> power_flow_problems(const PowerFlow& flow) {
-    if (member_of(flow.fixed) != flow.input)
-        return {};
-    return {fmt::format("the {0} is held and cannot drive (hold or drive another member)",
-                        name_of(flow.input))};
-}
 
 Member output_member(const PowerFlow& flow) {
     for (const Member member : {Member::sun, Member::ring})

@@ -10,9 +10,6 @@
 // opposites, and leaves every deflection, frequency and phase as it is.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "gears/planetary.hpp"
 
 namespace gearpod::gears {
@@ -23,9 +20,6 @@ struct PowerFlow {
     FixedMember fixed = FixedMember::ring;
     Member input = Member::sun;
 };
-
-// Empty unless the input is the fixed member.
-std::vector<std::string> power_flow_problems(const PowerFlow& flow);
 
 // The member that is neither fixed nor the input.
 Member output_member(const PowerFlow& flow);

@@ -24,19 +24,8 @@ double longest_step(std::complex<double> lambda) {
     return (z - kResolution) * unit;
 }
 
-// (q, v)' = system (q, v).
-Eigen::MatrixXd first_order(const dynamics::GearboxMatrices& m) {
-    const Eigen::Index n = m.mass.rows();
-    const Eigen::MatrixXd inverse_mass = m.mass.inverse();
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-    system.topRightCorner(n, n).setIdentity();
-    system.bottomLeftCorner(n, n) = -inverse_mass * (m.stiffness + m.centrifugal);
-    system.bottomRightCorner(n, n) = -inverse_mass * (m.damping + m.gyroscopic);
-    return system;
-}
-
 Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
-    return Eigen::EigenSolver<Eigen::MatrixXd>(first_order(m), false).eigenvalues();
+    return Eigen::EigenSolver<Eigen::MatrixXd>(state_matrix(m), false).eigenvalues();
 }
 
 // Below this a mode is the rigid rotation: what rounding, and the linearised centrifugal term,
@@ -48,6 +37,16 @@ double rigid_rate(const dynamics::GearboxMatrices& m) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
+    const Eigen::Index n = m.mass.rows();
+    const Eigen::MatrixXd inverse_mass = m.mass.inverse();
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    system.topRightCorner(n, n).setIdentity();
+    system.bottomLeftCorner(n, n) = -inverse_mass * (m.stiffness + m.centrifugal);
+    system.bottomRightCorner(n, n) = -inverse_mass * (m.damping + m.gyroscopic);
+    return system;
+}
 
 StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m) {
     StepLimit limit{std::numeric_limits<double>::infinity(),
@@ -68,7 +67,7 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
                         const dynamics::GearboxInputs& inputs,
                         const std::vector<double>& pair_stiffness_N_m) {
     const dynamics::GearboxMatrices m = dynamics::assemble(layout, inputs, pair_stiffness_N_m);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(first_order(m));
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(m));
     Eigen::Index fastest = 0;
     solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
     const double rate = std::abs(solver.eigenvalues()(fastest));

@@ -8,6 +8,9 @@
 
 namespace gearpod::lockstep {
 
+// A of (q, v)' = A (q, v) + ..., first q, then v.
+Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& matrices);
+
 struct StepLimit {
     double step_s = 0.0;             // longest step that lets no decaying mode grow
     double slowest_decay_1_s = 0.0;  // smallest decay rate of the modes; 0 without damping

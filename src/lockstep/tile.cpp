@@ -123,6 +123,7 @@ class TileMarch {
 
     void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
         (*march_mesh_)(overrides, state_, record);
+        ++result_.marched;
         remove_rigid_rotation(state_.q);
         remove_rigid_rotation(state_.v);
     }

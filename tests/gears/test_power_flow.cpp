@@ -36,7 +36,6 @@ TEST_CASE("Speed decreases or increases, along or against the input, as Park's T
     for (int i = 0; i < 6; ++i) {
         INFO("condition " << i + 1);
         const PowerFlow flow = kConditions[i];
-        CHECK(power_flow_problems(flow).empty());
         const Speeds s = driven_speeds(kPark, flow, flow.input, 3.0);
         const double ratio = of(s, output_member(flow)) / of(s, flow.input);
         CHECK(std::abs(of(s, flow.input)) == Approx(3.0));
@@ -123,10 +122,7 @@ TEST_CASE("Phases of the mirrored train are those of its mirrored planets in the
     }
 }
 
-TEST_CASE("A held member cannot drive") {
-    const auto problems = power_flow_problems({FixedMember::sun, Member::sun});
-    REQUIRE(problems.size() == 1);
-    CHECK(problems[0].find("the sun is held") != std::string::npos);
+TEST_CASE("A held member has no speed to be given") {
     CHECK_THROWS_AS(driven_speeds(kPark, {FixedMember::ring, Member::sun}, Member::ring, 1.0),
                     std::invalid_argument);
 }

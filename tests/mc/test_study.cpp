@@ -154,6 +154,19 @@ TEST_CASE("Zero settling periods stand for a choice by the program and are the d
     CHECK(study_of(kExampleStudy, {"operation.torque_N_m=0"}).operation.torque_N_m == 0.0);
 }
 
+TEST_CASE("An override switches off tones and pitch errors that the file asks for") {
+    const std::string toned =
+        replaced(kFixedShaftStudy, "[sensor]",
+                 "[sensor]\ntones = [{ frequency_Hz = 50, amplitude_m_s2 = 3 }]");
+    CHECK(study_of(toned).sensor.tones.size() == 1);
+    CHECK(study_of(toned, {"sensor.tones=[]"}) == study_of(kFixedShaftStudy));
+    const std::vector<std::string> rough{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
+    auto smooth = rough;
+    smooth.push_back("gearbox.pitch_error_um=0");
+    CHECK(study_of(kQuasiStaticStudy, rough).errors.pitch_error_m == Approx(3e-6));
+    CHECK(study_of(kQuasiStaticStudy, smooth).errors.pitch_error_m == 0.0);
+}
+
 TEST_CASE("The resolved text reads back to the same study, bit for bit") {
     std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {

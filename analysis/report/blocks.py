@@ -1,0 +1,54 @@
+"""Pieces of HTML that the sections are made of: figures with their data, tables, notes."""
+
+from charts import SvgNames
+from words import escape
+
+
+class Page:
+    """Numbers figures and charts in order, and knows the sections for the table of contents."""
+
+    def __init__(self):
+        self.names = SvgNames()
+        self.figures = 0
+        self.sections = []
+
+    def section(self, name, title, body):
+        self.sections.append((name, title))
+        return (f'<section id="{name}" aria-labelledby="{name}-heading">'
+                f'<h2 id="{name}-heading">{escape(title)}</h2>\n{body}\n</section>')
+
+    def figure(self, title, charts, how_to_read, data):
+        """`charts`: SVG, one or more side by side; `data`: HTML of the table behind them."""
+        self.figures += 1
+        label = f"Figure {self.figures}"
+        kind = {1: "one", 2: "two", 4: "two"}.get(len(charts), "many")
+        return (f'<figure id="figure-{self.figures}">'
+                f'<h3>{label}. {escape(title)}</h3>'
+                f'<div class="charts {kind}">{"".join(charts)}</div>'
+                f"<figcaption>{escape(how_to_read)}</figcaption>"
+                f'<details><summary>Numbers of {label.lower()}</summary>{data}</details></figure>')
+
+
+def table(caption, head, rows, first_is_header=True):
+    """`rows`: lists of cells; a cell is text, not HTML."""
+    tag = 'th scope="row"' if first_is_header else "td"
+    close = "th" if first_is_header else "td"
+    body = "".join(
+        "<tr>" + f"<{tag}>{escape(row[0])}</{close}>"
+        + "".join(f"<td>{escape(cell)}</td>" for cell in row[1:]) + "</tr>" for row in rows)
+    columns = "".join(f'<th scope="col">{escape(cell)}</th>' for cell in head)
+    return (f'<div class="scroll" role="region" tabindex="0" aria-label="{escape(caption)}"><table>'
+            f"<caption>{escape(caption)}</caption><thead><tr>{columns}</tr></thead>"
+            f"<tbody>{body}</tbody></table></div>")
+
+
+def note(text):
+    return f'<p class="note">{escape(text)}</p>'
+
+
+def paragraph(text):
+    return f"<p>{escape(text)}</p>"
+
+
+def bullets(texts):
+    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"

@@ -1,0 +1,94 @@
+"""Writes the page of a report to standard output.
+
+    gearpod report F.h5 --json F.json
+    python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
+
+gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
+loads nothing and runs no script.
+"""
+
+import json
+import pathlib
+import sys
+
+
+def missing_packages():
+    packages = []
+    for module, package in (("numpy", "python3-numpy"), ("matplotlib", "python3-matplotlib")):
+        try:
+            __import__(module)
+        except ImportError:
+            packages.append(package)
+    return packages
+
+
+def state_banner(report):
+    state = report.data["provenance"].get("state", "complete")
+    if state == "running" or state.startswith("interrupted"):
+        asked = report.data["provenance"].get("gearboxes_asked_for", "?")
+        return (f'<p class="banner" role="note">Not the whole study: {report.data["gearboxes"]} of '
+                f"{asked} gearboxes ({state}).</p>")
+    return ""
+
+
+def page_html(data):
+    import charts
+    import headline
+    import sections
+    from blocks import Page
+    from report import Report
+    from words import escape
+
+    report, page = Report(data), Page()
+    body = sections.all_of(report, page)
+    contents = "".join(f'<li><a href="#{name}">{escape(title)}</a></li>'
+                       for name, title in page.sections)
+    style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="description" content="{escape(headline.sentence(report))}">
+<title>{escape(report.title())} – gearpod report</title>
+<link rel="icon" href="data:,">
+<style>
+{charts.scheme_css()}{style}</style>
+</head>
+<body>
+<a class="skip" href="#main">Skip to the answer</a>
+<header><p class="product">gearpod report</p><h1>{escape(report.title())}</h1></header>
+<main id="main" tabindex="-1">
+<section id="answer" aria-label="Answer">
+{state_banner(report)}{headline.html_of(report)}
+</section>
+<nav aria-label="Contents"><h2>Contents</h2><ul>{contents}</ul></nav>
+{body}
+</main>
+<footer><p>Every number of this page is in <code>gearpod report --json</code>.</p></footer>
+</body>
+</html>
+"""
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    missing = missing_packages()
+    if missing:
+        print(f"{sys.executable} lacks what figures are drawn with: apt-get install "
+              + " ".join(missing), file=sys.stderr)
+        return 2
+    if arguments[0] == "-":
+        data = json.load(sys.stdin)
+    else:
+        data = json.loads(pathlib.Path(arguments[0]).read_text(encoding="utf-8"))
+    sys.stdout.reconfigure(encoding="utf-8")
+    sys.stdout.write(page_html(data))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

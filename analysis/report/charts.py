@@ -1,0 +1,145 @@
+"""Charts as inline SVG: matplotlib's drawing, with text that stays text, colours that follow the
+page's light or dark scheme, and a name and description for screen readers."""
+
+import html
+import io
+import re
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
+from matplotlib.patches import Rectangle  # noqa: E402
+
+# Told apart by people with any colour vision, and at least 3 : 1 against the page in either scheme;
+# lines differ in their dashes as well. (light, dark)
+SERIES = [("#0072b2", "#5cb8f0"), ("#c24e00", "#ff9b54"), ("#00795b", "#3fd0a4"),
+          ("#a23f7d", "#f09ccb"), ("#806000", "#e3c14d"), ("#4b4fb8", "#a9adff"),
+          ("#5b6066", "#b9bec5"), ("#9b2226", "#ff8f8f")]
+DASHES = ["-", (0, (6, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1)),
+          (0, (8, 2, 2, 2, 2, 2)), (0, (1.2, 2.4)), (0, (10, 2))]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
+INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8f979f"
+_SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
+_SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
+
+GAP = "#d3d8dd"  # a square of a map without a number
+
+# From quiet to loud, light to dark blue; the same in either scheme with a thin edge.
+QUIET, LOUD = (0.42, 0.68, 0.88), (0.33, 0.07, 0.20)
+
+matplotlib.rcParams.update({
+    "svg.fonttype": "none", "svg.hashsalt": "gearpod", "font.size": 10, "font.family": "DejaVu Sans",
+    "axes.edgecolor": MUTED, "axes.labelcolor": INK, "text.color": INK, "xtick.color": MUTED,
+    "ytick.color": MUTED, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "axes.linewidth": 0.8,
+    "axes.spines.top": False, "axes.spines.right": False, "grid.color": RULE,
+    "grid.linewidth": 0.6, "axes.grid": True, "axes.axisbelow": True, "legend.frameon": False,
+    "legend.fontsize": 9, "figure.facecolor": "none", "axes.facecolor": "none",
+    "savefig.facecolor": "none", "lines.linewidth": 1.7, "path.simplify": True,
+    "path.simplify_threshold": 0.3, "axes.unicode_minus": True})
+
+
+def colour(index):
+    return SERIES[index % len(SERIES)][0]
+
+
+def dash(index):
+    return DASHES[index % len(DASHES)]
+
+
+def marker(index):
+    return MARKERS[index % len(MARKERS)]
+
+
+def shade(share):
+    """A colour between quiet (0) and loud (1)."""
+    return between(QUIET, LOUD, share)
+
+
+def panel(height=3.2):
+    """One chart, as wide as keeps its text readable on a phone."""
+    return plt.subplots(figsize=(4.4, height), layout="constrained")
+
+
+def legend_below(axes, columns, **options):
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=columns, **options)
+
+
+def legend_above(axes):
+    axes.legend(loc="lower right", bbox_to_anchor=(1.02, 0.98), ncol=2, borderpad=0,
+                columnspacing=1, handlelength=1.6)
+
+
+def _scheme_colours(text):
+    for hexadecimal, name in _SCHEME.items():
+        text = text.replace(f": {hexadecimal}", f": var({name}, {hexadecimal})")
+    return text
+
+
+def _short_numbers(match):
+    return re.sub(r"-?\d+\.\d+", lambda number: f"{float(number.group()):.1f}".replace(".0", ""),
+                  match.group())
+
+
+def between(low, high, share):
+    """A colour from low (share 0) to high (1), as parts of red, green and blue."""
+    return tuple(a + share * (b - a) for a, b in zip(low, high))
+
+
+def cell(axes, column, row, fill, text):
+    """A coloured square of a map with a number on it, dark or light, whichever is read better."""
+    axes.add_patch(Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill,
+                             edgecolor="none"))
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+                        for part in to_rgb(fill))
+    bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18
+    # Not INK: it stands on the square, whatever the page's scheme.
+    axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=9,
+              color="#101418" if bright else "#fefefe")
+
+
+class SvgNames:
+    """Gives every chart of a page ids of its own, in order."""
+
+    def __init__(self):
+        self.count = 0
+
+    def next(self):
+        self.count += 1
+        return f"chart{self.count}"
+
+
+def to_svg(figure, title, description, names):
+    """Inline SVG of a matplotlib figure, which is closed."""
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+    text = buffer.getvalue()
+    text = text[text.index("<svg"):]
+    view_box = re.search(r'viewBox="([^"]+)"', text).group(1)
+    body = text[text.index(">") + 1:text.rindex("</svg>")]
+    body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.S)
+    body = re.sub(r"<!--.*?-->", "", body, flags=re.S)
+    body = re.sub(r'<style type="text/css">.*?</style>', "", body, flags=re.S)
+    body = re.sub(r' id="(?:figure|axes|patch|text|line2d|matplotlib|xtick|ytick|legend|Quad|Path|Poly'
+                  r'|Line|Fill)[^"]*"', "", body)
+    name = names.next()
+    body = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', body)
+    body = re.sub(r'xlink:href="#([^"]+)"', rf'href="#{name}-\1"', body)
+    body = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", body)
+    body = re.sub(r' d="[^"]*"', _short_numbers, body)
+    body = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", body)
+    body = re.sub(r"font: (\w+) ([\d.]+)px [^;\"]*", r"font-weight: \1; font-size: \2px", body)
+    body = re.sub(r"\s*\n\s*", "\n", _scheme_colours(body))
+    return (f'<svg viewBox="{view_box}" role="img" aria-labelledby="{name}-title {name}-about">'
+            f'<title id="{name}-title">{html.escape(title)}</title>'
+            f'<desc id="{name}-about">{html.escape(description)}</desc>{body}</svg>')
+
+
+def scheme_css():
+    """The colours of both schemes."""
+    light = "".join(f"--series-{i}:{c};" for i, (c, _) in enumerate(SERIES))
+    dark = "".join(f"--series-{i}:{c};" for i, (_, c) in enumerate(SERIES))
+    return (f":root{{{light}}}\n"
+            f"@media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n")

@@ -1,0 +1,206 @@
+"""The answer: the smallest fault found, by which feature, at which noise, and what limits it."""
+
+import math
+
+from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
+                   rate_with_bounds)
+
+ARCSECONDS = 180 * 3600 / math.pi  # in a radian
+
+
+def _promise(report):
+    return f"90 % probability at {percent(report.confidence)} confidence"
+
+
+def _fault(report):
+    kinds = {"fault_depth_m": "crack"}
+    return kinds.get(report.data["detection"]["size"]["name"], "fault")
+
+
+def _best_rate(report, level):
+    """Of all features, the one that finds most of the largest faults, with its cell."""
+    best = None
+    for f, name in enumerate(report.names):
+        cells = [c for c in report.cells(f, level) if c["size_high"] > 0 and c["pd"] is not None]
+        if cells and (best is None or cells[-1]["pd"] > best[1]["pd"]):
+            best = (name, cells[-1])
+    return best
+
+
+def sentence(report):
+    """The headline, as text."""
+    silence = report.silence()
+    if silence:
+        return silence
+    level = report.reference
+    found = report.smallest_fault(level)
+    at = noise(report.levels[level])
+    if found:
+        return (f"A {_fault(report)} of {report.sizes.text(found['size'])} is found with "
+                f"{_promise(report)} by {found['feature']} at {at}.")
+    best = _best_rate(report, level)
+    if best is None:
+        return f"At {at} no feature has a detection rate."
+    name, cell = best
+    return (f"No tested {_fault(report)} is found with {_promise(report)} at {at}. The best is "
+            f"{name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
+            f"those of {report.sizes.group(cell['size_low'], cell['size_high'])}.")
+
+
+def _noise_limit(report):
+    """How the smallest fault found depends on noise."""
+    sizes = [(report.levels[n], report.smallest_fault(n)) for n in range(len(report.levels))]
+    here = report.smallest_fault(report.reference)
+    if len(sizes) < 2:
+        return None
+    texts = []
+    first = sizes[0]
+    if first[0] < report.levels[report.reference] and first[1]:
+        quiet = report.sizes.text(first[1]["size"])
+        low = "without noise" if first[0] == 0 else f"at {noise(first[0])}"
+        if here is None or first[1]["size"] < 0.9 * here["size"]:
+            tested = "" if first[1]["from_curve"] else " (a tested size)"
+            texts.append(f"{low} it would be {quiet}{tested}")
+        else:
+            texts.append(f"{low} it is no smaller ({quiet})")
+    last = sizes[-1]
+    if last[0] > report.levels[report.reference]:
+        if last[1] is None:
+            texts.append(f"at {noise(last[0])} no tested size is found")
+        elif here and last[1]["size"] > 1.1 * here["size"]:
+            texts.append(f"at {noise(last[0])} it is {report.sizes.text(last[1]['size'])}")
+    return "Noise: " + joined(texts) + "." if texts else None
+
+
+def influences(misses):
+    """Inputs that are told apart from chance, the strongest first."""
+    return [i for i in misses["inputs"] if i["p_value"] is not None and i["p_value"] < 0.05]
+
+
+def _input_limit(report, found):
+    if not report.reliability:
+        return None
+    f = report.feature_number(found["feature"])
+    misses = report.reliable(f, report.reference)["misses"]
+    if misses["refusal"]:
+        return None
+    strong = influences(misses)
+    sizes = report.sizes.group(misses["smallest"], misses["largest"])
+    if not strong:
+        return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): "
+                "no random input has an influence told apart from chance.")
+    texts = []
+    for i in strong[:3]:
+        larger = i["larger_in_misses"] >= 0.5
+        share = i["larger_in_misses"] if larger else 1 - i["larger_in_misses"]
+        side = "larger" if larger else "smaller"
+        texts.append(f"{side} {input_name(i['name'], i['unit'])} ({number(100 * share, 2)} %)")
+    return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): the "
+            f"missed gearbox tends to have the {joined(texts)}. In brackets: how often it does, "
+            "against a detected one of the same size; 50 % is chance.")
+
+
+def _sample_limit(report, found):
+    if not report.reliability:
+        return ("Sizes: the study is too large for detection curves, so this is one of the sizes "
+                "tested, not a size between them.")
+    f = report.feature_number(found["feature"])
+    pod = report.reliable(f, report.reference)["hit_miss"]
+    if not found["from_curve"]:
+        why = pod["refusal"] or ("its goodness of fit is rejected" if pod["doubtful"]
+                                 else "its curve does not reach that far")
+        return ("Sizes: no detection curve vouches for it "
+                f"({found['feature']}: {why}), so it is one of the sizes tested, not a size between them.")
+    estimate = pod["a90"]["estimate"]
+    if estimate["where"] != "reached":
+        return None
+    return (f"Sample: {report.sizes.text(estimate['size'])} is the estimate (a90); "
+            f"{plural(pod['tests'], 'faulty gearbox', 'faulty gearboxes')} leave it uncertain up to "
+            f"{report.sizes.text(found['size'])} (a90/{number(100 * report.confidence)}).")
+
+
+def limits(report):
+    """What limits the answer, as sentences; empty where there is none."""
+    if report.silence():
+        return []
+    found = report.smallest_fault(report.reference)
+    texts = [_noise_limit(report)]
+    if found:
+        texts += [_input_limit(report, found), _sample_limit(report, found)]
+    return [text for text in texts if text]
+
+
+def _threshold(report, name, n):
+    detection = report.detection[report.feature_number(name)]
+    level = detection["levels"][n]
+    side = ">" if detection["alarm"] == "high" else "<"
+    unit = report.unit(name)
+    text = (f"{side} {quantity(level['threshold'], unit, 4)}" if level["threshold"] is not None
+            else "none")
+    return text, rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])
+
+
+def table(report):
+    """Smallest fault by noise level, as HTML."""
+    rows = []
+    for n, level in enumerate(report.levels):
+        found = report.smallest_fault(n)
+        mark = ' class="reference"' if n == report.reference else ""
+        if found is None:
+            cells = '<td>none tested</td><td>–</td><td>–</td><td class="wide">–</td>'
+        else:
+            alarm, false = _threshold(report, found["feature"], n)
+            basis = "" if found["from_curve"] else '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
+            cells = (f"<td><strong>{escape(report.sizes.text(found['size']))}</strong>{basis}</td>"
+                     f"<td>{escape(found['feature'])}</td><td>{escape(alarm)}</td>"
+                     f'<td class="wide">{false}</td>')
+        rows.append(f'<tr{mark}><th scope="row">× {number(level)}</th>{cells}</tr>')
+    confidence = number(100 * report.confidence)
+    return ('<div class="scroll" role="region" tabindex="0" aria-label="Smallest fault found, by noise">'
+            f"<table><caption>Smallest {_fault(report)} found with {_promise(report)}</caption>"
+            '<thead><tr><th scope="col">Noise</th>'
+            f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'
+            '<th scope="col">by</th><th scope="col">alarm if</th>'
+            f'<th scope="col" class="wide">false alarms [{confidence} %]</th></tr></thead>'
+            f"<tbody>{''.join(rows)}</tbody></table></div>"
+            + ('<p class="small">* a tested size; no detection curve vouches for one between.</p>'
+               if any((f := report.smallest_fault(n)) and not f["from_curve"]
+                      for n in range(len(report.levels))) else ""))
+
+
+def noise_unit(report):
+    """What noise x 1 is."""
+    given = report.data["noise"]
+    texts = []
+    if not given["sensor_m_s2"] and given["encoder_rad"] == 0:
+        return "The study adds no noise. "
+    if given["sensor_m_s2"] is not None:
+        texts.append(f"{quantity(given['sensor_m_s2'], 'm/s^2')} rms at the sensor")
+    if given["encoder_rad"] is not None:
+        texts.append(f"{number(given['encoder_rad'] * ARCSECONDS)} arc seconds rms on the "
+                     "transmission error")
+    return f"Noise × 1 is {joined(texts)} (nominal). " if texts else ""
+
+
+def facts(report):
+    failures = report.data["failures"]
+    failed = failures["diverged"] + failures["not_settled"]
+    healthy, faulty = report.sample()
+    set_ = any(level["threshold"] is not None for f in report.detection for level in f["levels"])
+    thresholds = (f" Thresholds from an independent healthy sample at a false-alarm rate of "
+                  f"{percent(report.data['detection']['false_alarm_rate'])}." if set_ else "")
+    return (f"{noise_unit(report)}{count(failures['gearboxes'])} simulated gearboxes, of which "
+            f"{plural(failed, 'failed', 'failed')}; {count(healthy)} healthy and {count(faulty)} "
+            f"faulty ones have values.{thresholds}")
+
+
+def html_of(report):
+    parts = [f'<p class="answer">{escape(sentence(report))}</p>']
+    texts = limits(report)
+    if report.silence() is None:
+        parts.append(table(report))
+    if texts:
+        parts.append('<h2 id="limits">What limits it</h2><ul class="limits">'
+                     + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>")
+    parts.append(f'<p class="facts">{facts(report)}</p>')
+    return "\n".join(parts)

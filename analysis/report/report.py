@@ -1,0 +1,85 @@
+"""The report's JSON (gearpod report --json), with what several parts of the page ask of it."""
+
+from words import Sizes
+
+FEWEST = 10  # healthy and faulty gearboxes below which nothing is said of detection
+
+
+class Report:
+    def __init__(self, data):
+        self.data = data
+        self.sizes = Sizes(data["detection"]["size"])
+        self.levels = data["noise"]["levels"]
+        self.reference = data["noise"]["reference"]
+        self.detection = data["detection"]["features"]
+        self.reliability = data["reliability"]
+        self.confidence = data["detection"]["confidence"]
+        self.names = [feature["name"] for feature in data["features"]]
+
+    def title(self):
+        return self.data.get("title") or "Detection study"
+
+    def reliable(self, feature, level):
+        """What the reliability part says of a feature at a noise level, by number."""
+        return self.reliability["features"][feature]["levels"][level]
+
+    def cells(self, feature, level):
+        return self.detection[feature]["levels"][level]["sizes"]
+
+    def feature_number(self, name):
+        return self.names.index(name)
+
+    def smallest_fault(self, level):
+        if self.reliability:
+            return self.reliability["levels"][level]["smallest_fault"]
+        # Without curves: from which tested size on the rates alone vouch for a feature.
+        tested = [(feature["levels"][level]["reliable_size"][1], feature["name"])
+                  for feature in self.detection if feature["levels"][level]["reliable_size"]]
+        if not tested:
+            return None
+        size, name = min(tested)
+        return {"feature": name, "size": size, "from_curve": False}
+
+    def unit(self, name):
+        return self.data["features"][self.feature_number(name)]["unit"]
+
+    def order(self, level):
+        """Numbers of the features, the best ranked first, those without a rank last."""
+        if not self.reliability:
+            return list(range(len(self.names)))
+        ranks = [rank["name"] for rank in self.reliability["levels"][level]["ranking"]["ranks"]]
+        ranked = [self.feature_number(name) for name in ranks]
+        return ranked + [f for f in range(len(self.names)) if f not in ranked]
+
+    def sample(self):
+        """Healthy and faulty gearboxes with a value, of the feature and noise that have most."""
+        healthy = faulty = 0
+        for feature in self.detection:
+            for level in feature["levels"]:
+                graded = [cell for cell in level["sizes"] if cell["size_high"] > 0]
+                sound = [cell for cell in level["sizes"] if cell["size_high"] == 0]
+                faulty = max(faulty, sum(cell["tested"] for cell in graded))
+                healthy = max(healthy, level["threshold_sample"]
+                              + sum(cell["tested"] for cell in sound))
+        return healthy, faulty
+
+    def silence(self):
+        """Why nothing can be said of detection, or None."""
+        healthy, faulty = self.sample()
+        if not self.names or not self.levels:
+            return "The study computes no feature, so there is nothing to detect a fault with."
+        if healthy == 0 and faulty == 0:
+            return "No gearbox has a value of any feature, so nothing can be said of detection."
+        if faulty == 0:
+            return ("No gearbox of this study has a fault, so it says nothing of detection: only "
+                    "what healthy gearboxes look like.")
+        if healthy == 0:
+            return ("No healthy gearbox has a value, so no alarm threshold can be set and nothing "
+                    "can be said of detection.")
+        if all(level["threshold"] is None for f in self.detection for level in f["levels"]):
+            return ("No alarm threshold could be set for any feature at the false-alarm rate asked "
+                    "for, so nothing can be said of detection.")
+        if min(healthy, faulty) < FEWEST:
+            return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; fewer than "
+                    f"{FEWEST} of a kind say too little of detection to be judged.")
+        return None

@@ -1,0 +1,158 @@
+"""The sections of the page below the answer."""
+
+import detection_figures
+import influence_figures
+import input_figures
+import signal_figures
+from blocks import bullets, note, paragraph, table
+from words import count, escape, noise, number, percent, plural, rate, rate_with_bounds
+
+
+def detection(report, page):
+    if not report.names or not report.levels:
+        return page.section("detection", "Detection", note(report.silence()))
+    body = ""
+    if report.reliability and report.silence() is None:
+        body += detection_figures.pod(report, page)
+    else:
+        body += note(report.silence() or "No detection curves, areas and ranking: they need the "
+                     "values of all gearboxes at once, and this study has too many.")
+    tested = any(c["tested"] for f in report.detection for level in f["levels"]
+                 for c in level["sizes"])
+    if tested:
+        body += detection_figures.heat_maps(report, page)
+    return page.section("detection", "Detection", body)
+
+
+def features(report, page):
+    if not report.reliability or report.silence():
+        return ""
+    return page.section("features", "Features compared", detection_figures.ranking(report, page)
+                        + detection_figures.roc(report, page)
+                        + input_figures.combined(report, page))
+
+
+def inputs(report, page):
+    if not report.reliability or report.silence():
+        return ""
+    body = (influence_figures.misses(report, page) + input_figures.sensitivity(report, page)
+            + input_figures.rates_by_input(report, page) + input_figures.a90_maps(report, page))
+    by_condition = influence_figures.conditions(report)
+    if by_condition:
+        body += "<h3>Thresholds by operating condition</h3>" + by_condition
+    return page.section("misses", "What makes a fault be missed", body)
+
+
+def signals(report, page):
+    examples = report.data["examples"]
+    if examples["refusal"]:
+        return page.section("signals", "Example signals",
+                            note(f"No example signals: {examples['refusal']}"))
+    gearboxes = examples["gearboxes"]
+    body = paragraph("The first healthy gearbox of the results and the first with the largest "
+                     "fault. They differ in their other random inputs as well. "
+                     + signal_figures.same_bits(report))
+    if all(g["size"] == 0 for g in gearboxes):
+        body += note("No gearbox with a fault has values, so only a healthy one is shown.")
+    elif all(g["size"] > 0 for g in gearboxes):
+        body += note("No healthy gearbox has values, so only a faulty one is shown.")
+    if any(g["sensor"] for g in gearboxes):
+        body += (signal_figures.sensor(report, page) + signal_figures.spectrum(report, page)
+                 + signal_figures.tooth_rms(report, page))
+    else:
+        body += note("The gearbox is quasi-static: nothing accelerates, so there is no sensor "
+                     "signal.")
+    body += signal_figures.transmission_error(report, page)
+    body += f"<details><summary>Their inputs and features</summary>{signal_figures.gearbox_table(report)}</details>"
+    return page.section("signals", "Example signals", body)
+
+
+def stiffness(report, page):
+    given = report.data["stiffness"]
+    body = (note(f"No stiffness curves: {given['refusal']}") if given["refusal"]
+            else signal_figures.stiffness(report, page))
+    return page.section("stiffness", "Mesh stiffness", body)
+
+
+def thresholds(report, page):
+    rows = []
+    for f, feature in enumerate(report.detection):
+        sign = ">" if feature["alarm"] == "high" else "<"
+        for level in feature["levels"]:
+            rows.append([feature["name"], f"× {number(level['noise_level'])}",
+                         f"{sign} {number(level['threshold'], 5)}"
+                         if level["threshold"] is not None else "none",
+                         f"{count(level['threshold_alarms'])} of {count(level['threshold_sample'])}",
+                         _bounds(level["threshold_rate"]),
+                         rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])])
+    units = ", ".join(f"{f['name']} in {f['unit']}" for f in report.data["features"]
+                      if f["unit"] not in ("", "1"))
+    body = paragraph(
+        f"Thresholds are set on a healthy sample of their own for a false-alarm rate of "
+        f"{percent(report.data['detection']['false_alarm_rate'])}; intervals are at "
+        f"{percent(report.confidence)}." + (f" Units: {units}; others are pure numbers." if units else ""))
+    body += ('<details><summary>Thresholds of every feature and noise level</summary>'
+             + table("Alarm thresholds", ["feature", "noise", "alarm if", "alarms in the sample",
+                                          "its false-alarm rate", "with graded healthy gearboxes"], rows)
+             + "</details>")
+    body += '<details><summary>What the features are</summary>' + table(
+        "Features", ["feature", "unit", "alarms when", "definition"],
+        [[f["name"], f["unit"], f["alarm"], f["doc"]] for f in report.data["features"]]) + "</details>"
+    return page.section("thresholds", "Thresholds and false alarms", body)
+
+
+def _bounds(pair):
+    return "–" if pair[0] is None or pair[1] is None else f"[{rate(pair[0])}, {rate(pair[1])}]"
+
+
+def failures(report, page):
+    given = report.data["failures"]
+    failed = given["diverged"] + given["not_settled"]
+    body = paragraph(
+        f"{count(failed)} of {plural(given['gearboxes'], 'gearbox', 'gearboxes')} failed: "
+        f"{count(given['diverged'])} diverged, {count(given['not_settled'])} did not settle. Failed "
+        "ones are counted, and stand for neither a detection nor a miss.")
+    if given["first_rows"]:
+        meaning = dict(part.strip().split(" ", 1) for part in given["status_meanings"].split(","))
+        named = ", ".join(f"{row['row']} ({meaning.get(str(row['status']), row['status'])})"
+                          for row in given["first_rows"])
+        more = failed - len(given["first_rows"])
+        body += note(f"Rows: {named}" + (f" and {count(more)} more." if more > 0 else "."))
+    without = [f"{f['name']} at {noise(level)}: {count(number_)}" for f in given["no_value"]
+               for level, number_ in zip(report.levels, f["gearboxes"]) if number_]
+    if without:
+        body += paragraph("Gearboxes that worked, but for which a feature has no value (not a "
+                          "number):") + bullets(without)
+    elif given["gearboxes"] > failed:
+        body += paragraph("Every feature has a value for every gearbox that worked.")
+    warnings = [f"{f['name']}: {warning}" for f in report.detection for warning in f["warnings"]]
+    if warnings:
+        body += paragraph("Warnings:") + bullets(warnings)
+    return page.section("failures", "Failures and warnings", body)
+
+
+def provenance(report, page):
+    given = report.data["provenance"]
+    names = ["date", "code_version", "git_hash", "compiler", "instruction_set", "host", "seed",
+             "ranks", "threads", "lanes", "state", "gearboxes_asked_for"]
+    rows = [[name.replace("_", " "), given[name]] for name in names if name in given]
+    rows += [[name.replace("_", " "), value] for name, value in given.items()
+             if name not in names and name != "study"]
+    if "results" in report.data:
+        rows.insert(0, ["results file", report.data["results"]])
+    body = table("Where the numbers come from", ["", "value"], rows)
+    if report.data["timing"]:
+        body += "<details><summary>Where the time went</summary>" + table(
+            "Seconds; thread seconds are sums over all threads", ["part", "s"],
+            [[name.replace("_", " ").removesuffix(" s"), number(value)]
+             for name, value in sorted(report.data["timing"].items())]) + "</details>"
+    if given.get("study"):
+        body += ("<details><summary>The study, with all defaults</summary>"
+                 '<pre tabindex="0" aria-label="Study file">' + escape(given["study"])
+                 + "</pre></details>")
+    return page.section("provenance", "Provenance", body)
+
+
+def all_of(report, page):
+    parts = [detection, features, inputs, signals, stiffness, thresholds, failures, provenance]
+    return "\n".join(part(report, page) for part in parts)

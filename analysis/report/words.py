@@ -1,0 +1,129 @@
+"""Numbers, units and names as the page says them."""
+
+import html
+import math
+
+
+def escape(text):
+    return html.escape(str(text))
+
+
+def number(value, digits=3):
+    """Significant digits, the whole part in full; an exponent only where that is shorter."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value == 0:
+        return "0"
+    size = math.floor(math.log10(abs(value)))
+    if -4 <= size < 6:
+        decimals = max(0, digits - 1 - size)
+        text = f"{round(value, decimals):.{decimals}f}"
+        if "." in text:
+            text = text.rstrip("0").rstrip(".")
+        return text.replace("-", "−")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return f"{mantissa} × 10{superscript(int(exponent))}".replace("-", "−")
+
+
+def superscript(integer):
+    return str(integer).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def rate(value):
+    """A probability with two decimals, more next to 0 and 1."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if 0 < value < 0.005 or 0.995 < value < 1:
+        return f"{value:.4f}".rstrip("0")
+    text = f"{value:.2f}"
+    return "0.00" if text == "-0.00" else text.replace("-", "−")
+
+
+def rate_with_bounds(value, lower, upper):
+    if value is None:
+        return "–"
+    if lower is None or upper is None:
+        return rate(value)
+    return f"{rate(value)} [{rate(lower)}, {rate(upper)}]"
+
+
+def percent(value):
+    return f"{number(100 * value)} %"
+
+
+def count(value):
+    """With thin spaces between thousands."""
+    return f"{value:,}".replace(",", "\u202f")
+
+
+def p_value(value):
+    if value is None:
+        return "–"
+    return "< 0.0001" if value < 1e-4 else number(value, 2)
+
+
+def plural(amount, singular, many=None):
+    return f"{count(amount)} {singular if amount == 1 else many or singular + 's'}"
+
+
+def joined(texts):
+    """"a", "a and b", "a, b and c"."""
+    texts = list(texts)
+    if len(texts) < 2:
+        return "".join(texts)
+    return ", ".join(texts[:-1]) + " and " + texts[-1]
+
+
+def noise(level):
+    return f"noise × {number(level)}"
+
+
+def _suffix(unit):
+    return "_" + unit.replace("^", "").replace("/", "_").replace(" ", "_")
+
+
+def input_name(name, unit):
+    """planet_bearing_stiffness_N_m: planet bearing stiffness."""
+    if name == "noise_m_s2":
+        return "sensor noise"
+    suffix = _suffix(unit)
+    if unit not in ("", "1") and name.endswith(suffix):
+        name = name[:-len(suffix)]
+    return name.replace("_", " ")
+
+
+_SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
+
+
+def unit_text(unit):
+    return _SHOWN.get(unit, unit)
+
+
+def quantity(value, unit, digits=3):
+    shown = unit_text(unit)
+    return number(value, digits) + (f" {shown}" if shown else "")
+
+
+class Sizes:
+    """Fault sizes: lengths are shown in mm, others as they are."""
+
+    def __init__(self, size):
+        self.name = input_name(size["name"], size["unit"])
+        self.unit = "mm" if size["unit"] == "m" else ""
+        self.factor = 1e3 if size["unit"] == "m" else 1.0
+
+    def shown(self, value):
+        return value * self.factor
+
+    def text(self, value, digits=3):
+        return number(self.shown(value), digits) + (f" {self.unit}" if self.unit else "")
+
+    def group(self, low, high):
+        if low == high:
+            return self.text(high)
+        return f"{number(self.shown(low))} to {self.text(high)}"
+
+    def axis(self):
+        return self.name[0].upper() + self.name[1:] + (f", {self.unit}" if self.unit else "")

@@ -1,0 +1,14 @@
+// The HTML page of a report, made by the Python program in analysis/report.
+#pragma once
+
+#include <string>
+
+namespace gearpod::mc {
+
+// The page for a report's JSON. Python is GEARPOD_PYTHON, by default /usr/bin/python3; the
+// program's folder is GEARPOD_REPORT_DIR, by default the one that this program was built from.
+// Throws std::runtime_error with what is missing; what the Python program itself finds wrong it
+// says on standard error.
+std::string report_page(const std::string& json);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,15 @@
+// Processor time of the calling thread: what a computation cost, however busy the machine was.
+#pragma once
+
+#include <ctime>
+
+namespace gearpod::mc {
+
+// Seconds since some fixed moment (POSIX CLOCK_THREAD_CPUTIME_ID).
+inline double thread_processor_s() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace gearpod::mc

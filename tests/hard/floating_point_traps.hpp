@@ -1,0 +1,43 @@
+// Floating-point exceptions as faults, glibc's feenableexcept. New threads inherit them.
+#pragma once
+
+#include <cfenv>
+
+namespace gearpod::test {
+
+inline constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+
+// Traps as long as it lives.
+class FloatingPointTraps {
+  public:
+    FloatingPointTraps() : before_(fegetexcept()) {
+        std::feclearexcept(FE_ALL_EXCEPT);
+        feenableexcept(kTrapped);
+    }
+    ~FloatingPointTraps() { restore(before_); }
+    FloatingPointTraps(const FloatingPointTraps&) = delete;
+    FloatingPointTraps& operator=(const FloatingPointTraps&) = delete;
+
+    static void restore(int excepts) {
+        std::feclearexcept(FE_ALL_EXCEPT);
+        fedisableexcept(FE_ALL_EXCEPT);
+        feenableexcept(excepts);
+    }
+
+  private:
+    int before_;
+};
+
+// No traps as long as it lives: a gearbox that is meant to diverge overflows before it is retired.
+class ExpectedOverflow {
+  public:
+    ExpectedOverflow() : before_(fedisableexcept(FE_ALL_EXCEPT)) {}
+    ~ExpectedOverflow() { FloatingPointTraps::restore(before_); }
+    ExpectedOverflow(const ExpectedOverflow&) = delete;
+    ExpectedOverflow& operator=(const ExpectedOverflow&) = delete;
+
+  private:
+    int before_;
+};
+
+}  // namespace gearpod::test

@@ -1,0 +1,213 @@
+"""The page of a report in headless Chromium: python3 test_browser.py CASES PROGRAM SOURCES
+
+CASES holds the JSON that make_report_cases writes, PROGRAM is gearpod, SOURCES its sources. Ends
+with 77, which ctest shows as skipped, where the browser or its driver is missing.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.keys import Keys
+except ImportError as error:
+    print(f"skipped: {error} (Debian: python3-selenium)")
+    sys.exit(77)
+for missing in (name for name in ("chromium", "chromedriver") if shutil.which(name) is None):
+    print(f"skipped: no {missing} (Debian: chromium chromium-driver)")
+    sys.exit(77)
+
+PHONE, DESKTOP = (390, 844), (1280, 800)
+# In a browser of its own: a small study of every kind of gearbox.
+STUDIES = {
+    "planet": ["planet-crack.toml", "--instances", "350", "--set",
+               "ensemble.threshold_instances=200"],
+    "quasi_static": ["park-fig-13.toml"],
+    "fixed_shaft": ["tian-fig-4-9.toml"]}
+# Of the cases made without a simulation, those whose pages differ most in what stands on them.
+SHOWN = ["usual", "many", "all_failed", "no_features", "none_detected", "nan_now_and_then",
+         "continuous_size", "by_condition", "interrupted"]
+
+
+def make_page(arguments):
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"{arguments}: {done.stderr}")
+    return done.stdout
+
+
+class InBrowser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.pages = {}
+        for name, study in STUDIES.items():
+            results = os.path.join(cls.folder.name, name + ".h5")
+            cls.pages[name] = os.path.join(cls.folder.name, name + ".html")
+            make_page([PROGRAM, "run", SOURCES / "studies" / study[0], *study[1:], "--quiet",
+                       "--out", results])
+            make_page([PROGRAM, "report", results, "--html", cls.pages[name]])
+        for name in SHOWN:
+            cls.pages[name] = os.path.join(cls.folder.name, name + ".html")
+            text = make_page(["/usr/bin/python3", "-Bs",
+                              SOURCES / "analysis" / "report" / "build_page.py",
+                              CASES / f"{name}.json"])
+            pathlib.Path(cls.pages[name]).write_text(text)
+        options = webdriver.ChromeOptions()
+        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu",
+                         "--disable-dev-shm-usage", "--window-size=1280,800",
+                         f"--user-data-dir={cls.folder.name}/browser"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")),
+                                       options=options)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.folder.cleanup()
+
+    def open(self, name, screen, dark=False):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": screen[0], "height": screen[1], "deviceScaleFactor": 1,
+            "mobile": screen == PHONE})
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
+        self.browser.get("file://" + self.pages[name])
+
+    def script(self, text, *arguments):
+        return self.browser.execute_script(text, *arguments)
+
+    def on_each(self, check):
+        """Calls check(name) with every page open, on either screen."""
+        for name in self.pages:
+            for screen in (PHONE, DESKTOP):
+                with self.subTest(page=name, width=screen[0]):
+                    self.open(name, screen)
+                    check(name)
+
+    def test_nothing_is_logged_and_nothing_is_loaded(self):
+        def check(_):
+            self.assertEqual(self.browser.get_log("browser"), [])
+            self.assertEqual(self.script(
+                "return performance.getEntriesByType('resource').map(e => e.name)"
+                ".filter(n => !n.startsWith('data:'))"), [])
+        self.on_each(check)
+
+    def test_the_page_is_as_wide_as_the_screen(self):
+        def check(_):
+            self.script("document.querySelectorAll('details').forEach(d => d.open = true)")
+            self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
+                                 self.script("return document.documentElement.clientWidth"))
+            outside = self.script("""
+                const width = document.documentElement.clientWidth;
+                return [...document.querySelectorAll('main > section > *, figure, svg, .answer')]
+                    .filter(e => e.getBoundingClientRect().right > width + 0.5
+                                 || e.getBoundingClientRect().left < -0.5)
+                    .map(e => e.outerHTML.slice(0, 80));""")
+            self.assertEqual(outside, [])
+        self.on_each(check)
+
+    def test_every_chart_is_drawn_and_its_text_stays_on_it(self):
+        def check(name):
+            charts = self.script("""
+                return [...document.querySelectorAll('figure svg')].map(svg => {
+                    const box = svg.getBoundingClientRect();
+                    const out = [...svg.querySelectorAll('text')].filter(text => {
+                        const t = text.getBoundingClientRect();
+                        return t.width > 0 && (t.left < box.left - 4 || t.right > box.right + 4
+                            || t.top < box.top - 4 || t.bottom > box.bottom + 4);
+                    }).map(text => text.textContent);
+                    return {width: box.width, height: box.height, out: out,
+                            marks: svg.querySelectorAll('path, use').length};});""")
+            for chart in charts:
+                self.assertGreater(chart["width"], 250)
+                self.assertGreater(chart["height"], 80)
+                self.assertGreater(chart["marks"], 3)
+                self.assertEqual(chart["out"], [])
+            figures = self.script("return [...document.querySelectorAll('figure')]"
+                                  ".map(f => f.querySelectorAll('svg').length)")
+            self.assertTrue(all(figures))
+            if name in ("planet", "usual"):
+                self.assertGreaterEqual(len(figures), {"planet": 11, "usual": 6}[name])
+        self.on_each(check)
+
+    def test_the_answer_is_on_the_first_screen(self):
+        def check(_):
+            bottom = self.script("return document.querySelector('.answer')"
+                                 ".getBoundingClientRect().bottom")
+            self.assertLess(bottom, self.script("return innerHeight"))
+        self.on_each(check)
+        for screen in (PHONE, DESKTOP):
+            self.open("planet", screen)
+            for part in (".answer", "#answer table", "#limits + ul li"):
+                self.assertLess(self.script(
+                    "return document.querySelector(arguments[0]).getBoundingClientRect().bottom",
+                    part), screen[1], part)
+
+    def test_every_chart_has_a_name_and_a_description(self):
+        self.open("planet", DESKTOP)
+        charts = self.script("return document.querySelectorAll('svg').length")
+        self.browser.execute_cdp_cmd("Accessibility.enable", {})
+        nodes = self.browser.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+        images = [n for n in nodes if not n.get("ignored")
+                  and n.get("role", {}).get("value") in ("image", "img")]
+        self.assertEqual(len(images), charts)
+        names = [n["name"]["value"] for n in images]
+        self.assertTrue(all(len(name) > 20 for name in names))
+        self.assertEqual(len(set(names)), len(names))
+        regions = [n for n in nodes if n.get("role", {}).get("value") in ("main", "navigation")]
+        self.assertEqual(len(regions), 2)
+
+    def test_the_keyboard_goes_through_the_page_in_order(self):
+        self.open("planet", DESKTOP)
+        wanted = self.script("""
+            const all = 'a[href], summary, [tabindex="0"]';
+            return [...document.querySelectorAll(all)].filter(e => e.offsetParent !== null
+                && e.checkVisibility() || e.className === 'skip').map((e, i) => {
+                    e.dataset.order = i; return e.tagName; });""")
+        reached = []
+        for _ in wanted:
+            ActionChains(self.browser).send_keys(Keys.TAB).perform()
+            reached.append(self.script("return document.activeElement.dataset.order"))
+            self.assertNotEqual(self.script(
+                "return getComputedStyle(document.activeElement).outlineStyle"), "none")
+        self.assertEqual(reached, [str(i) for i in range(len(wanted))])
+        self.assertEqual(wanted[0], "A")  # past the header with one key
+        self.script("document.querySelector('figure summary').focus()")
+        ActionChains(self.browser).send_keys(Keys.ENTER).perform()
+        self.assertTrue(self.script("return document.querySelector('figure details').open"))
+
+    def test_a_dark_screen_has_light_text(self):
+        self.open("planet", DESKTOP, dark=True)
+        colours = self.script("""
+            const of = (e, p) => getComputedStyle(e)[p].match(/[0-9]+/g).map(Number);
+            return [of(document.body, 'backgroundColor'), of(document.body, 'color'),
+                    of(document.querySelector('figure svg text'), 'fill')];""")
+        self.assertLess(max(colours[0]), 60)
+        self.assertGreater(min(colours[1]), 200)
+        self.assertGreater(min(colours[2]), 200)
+
+    def test_it_prints(self):
+        self.open("planet", DESKTOP)
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.assertEqual(self.script(
+            "return getComputedStyle(document.querySelector('nav')).display"), "none")
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
+                             self.script("return document.documentElement.clientWidth"))
+        printed = self.browser.execute_cdp_cmd("Page.printToPDF", {})
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertGreater(len(printed["data"]), 50000)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

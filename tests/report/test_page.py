@@ -1,0 +1,253 @@
+"""The page of a report as HTML: python3 test_page.py CASES PROGRAM SOURCES
+
+CASES holds the JSON that make_report_cases writes, PROGRAM is gearpod, SOURCES its sources.
+"""
+
+import functools
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
+sys.path.insert(0, str(SOURCES / "analysis" / "report"))
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+try:
+    import build_page
+    import charts
+    import words
+except ImportError as error:
+    print(f"skipped: {error} (Debian: python3-matplotlib)")
+    sys.exit(77)
+from page_html import PageHtml  # noqa: E402
+
+
+def case(name):
+    return json.loads((CASES / f"{name}.json").read_text())
+
+
+@functools.lru_cache(maxsize=None)
+def case_page(name):
+    return build_page.page_html(case(name))
+
+
+def said(name):
+    """All words of a case's page."""
+    return PageHtml(case_page(name)).text()
+
+
+def answer(name):
+    """The headline of a case."""
+    return PageHtml(re.search(r'<p class="answer">(.*?)</p>', case_page(name), re.S).group(1)).text()
+
+
+class EveryCase(unittest.TestCase):
+    def test_pages_are_whole(self):
+        files = sorted(CASES.glob("*.json"))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            with self.subTest(file.stem):
+                self.check(case_page(file.stem))
+
+    def check(self, text):
+        parsed = PageHtml(text)
+        self.assertEqual(parsed.problems, [])
+        self.assertEqual(len(parsed.ids), len(set(parsed.ids)), "an id stands twice")
+        for link in parsed.links:
+            self.assertTrue(link == "data:," or link[0] == "#" and link[1:] in parsed.ids, link)
+        for reference in re.findall(r"url\(([^)]*)\)", text):
+            self.assertIn(reference.lstrip("#"), parsed.ids)
+        for outside in ("http://", "https://", "@import", "<script", "javascript:"):
+            self.assertNotIn(outside, text)
+        self.assertEqual(parsed.count("h1"), 1)
+        self.assertNotRegex(parsed.text(), r"\b(nan|inf|None|NaN|Infinity)\b")
+        for chart in parsed.charts:
+            self.assertEqual(chart["attributes"]["role"], "img")
+            for name in chart["attributes"]["aria-labelledby"].split():
+                self.assertTrue(chart["names"][name].strip())
+        figures = parsed.count("figure")
+        self.assertEqual(figures, parsed.count("figcaption"))
+        self.assertGreaterEqual(parsed.count("details"), figures)
+        self.assertLess(len(text), 3e6)
+
+
+class Answers(unittest.TestCase):
+    def test_smallest_fault(self):
+        data = case("usual")
+        n = data["noise"]["reference"]
+        found = data["reliability"]["levels"][n]["smallest_fault"]
+        self.assertEqual(
+            answer("usual"),
+            f"A crack of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
+            f"95 % confidence by {found['feature']} at noise × 1.")
+
+    def test_nothing_is_made_up(self):
+        for name, said in (("no_rows", "nothing can be said"), ("all_failed", "nothing can be said"),
+                           ("no_features", "computes no feature"),
+                           ("no_fault", "No gearbox of this study has a fault"),
+                           ("no_graded", "No gearbox of this study has a fault"),
+                           ("only_faulty", "no alarm threshold"), ("few", "No alarm threshold"),
+                           ("none_detected", "No tested crack is found")):
+            with self.subTest(name):
+                self.assertIn(said, answer(name))
+                self.assertNotRegex(answer(name), r"\d mm is found")
+
+    def test_all_detected_is_a_tested_size(self):
+        self.assertIn("A crack of 0.5 mm is found", answer("all_detected"))
+        self.assertIn("no detection curve vouches for it (te_fm0: every faulty gearbox was",
+                      said("all_detected"))
+
+    def test_without_curves_the_rates_answer(self):
+        self.assertIn("mm is found with 90 % probability", answer("too_large"))
+        self.assertIn("this study has too many", said("too_large"))
+
+    def test_pure_numbers_have_no_unit(self):
+        self.assertIn("A fault of 0.001 is found", answer("pure_number"))
+
+    def test_an_interrupted_run_says_so(self):
+        self.assertIn("Not the whole study: 1000 of 2000 gearboxes (interrupted by SIGTERM)",
+                      said("interrupted"))
+
+
+class Statements(unittest.TestCase):
+    def test_values_that_are_missing_are_counted(self):
+        self.assertIn("te_fm0 at noise × 1: 1 000", said("nan_feature"))
+        self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not settle",
+                      said("all_failed"))
+        self.assertIn("0 (diverged), 1 (not settled)", said("all_failed"))
+
+    def test_a_constant_feature_is_named(self):
+        self.assertIn("the feature is constant there or nearly so",
+                      said("constant_feature"))
+
+    def test_signals_that_cannot_be_made_again_are_refused(self):
+        words_ = said("study_of_another_version")
+        self.assertIn("No example signals: this program cannot build the file's study", words_)
+        self.assertIn("gearbox.colour", words_)
+
+    def test_every_detection_rate_is_on_the_page(self):
+        words_ = said("usual")
+        for feature in case("usual")["detection"]["features"]:
+            for level in feature["levels"]:
+                for cell in level["sizes"]:
+                    self.assertIn(words.rate_with_bounds(cell["pd"], cell["lower"], cell["upper"]),
+                                  words_)
+
+    def test_text_is_never_markup(self):
+        data = case("usual")
+        data["title"] = 'A <b>"crack"</b> & <script>alert(1)</script>'
+        data["provenance"]["host"] = "</table><img src=x>"
+        text = build_page.page_html(data)
+        self.assertNotIn("<script", text)
+        self.assertNotIn("<img", text)
+        self.assertIn(data["title"], PageHtml(text).text())
+
+    def test_same_results_same_page(self):
+        self.assertEqual(build_page.page_html(case("usual")), case_page("usual"))
+
+
+class Numbers(unittest.TestCase):
+    def test_digits(self):
+        for value, text in ((0, "0"), (1.0330, "1.03"), (0.5, "0.5"), (1234.5, "1234"),
+                            (0.00012, "0.00012"), (2.1e-6, "2.1 × 10⁻⁶"), (-3.14159, "−3.14"),
+                            (0.9996, "1"), (99.96, "100"), (999999, "999999"), (2.068e11, "2.07 × 10¹¹"), (None, "–"),
+                            (math.nan, "–"), (math.inf, "–")):
+            self.assertEqual(words.number(value), text)
+        self.assertEqual(words.rate(0.9986), "0.9986")
+        self.assertEqual(words.rate(1), "1.00")
+        self.assertEqual(words.input_name("ring_bearing_stiffness_N_m", "N/m"),
+                         "ring bearing stiffness")
+        self.assertEqual(words.joined(["a", "b", "c"]), "a, b and c")
+
+
+class Colours(unittest.TestCase):
+    """Contrast as WCAG 2.1 defines it: text 4.5 : 1, lines 3 : 1."""
+
+    @staticmethod
+    def luminance(colour):
+        def linear(part):
+            part = int(part, 16) / 255
+            return part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+        red, green, blue = (linear(colour[i:i + 2]) for i in (1, 3, 5))
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    def contrast(self, a, b):
+        low, high = sorted((self.luminance(a), self.luminance(b)))
+        return (high + 0.05) / (low + 0.05)
+
+    def test_contrast(self):
+        css = (SOURCES / "analysis" / "report" / "page.css").read_text()
+        schemes = [dict(re.findall(r"--(\w+): (#\w{6})", block))
+                   for block in re.findall(r":root \{(.*?)\}", css, re.S)]
+        self.assertEqual(len(schemes), 2)
+        for i, scheme in enumerate(schemes):
+            for text in ("ink", "muted", "link", "warn"):
+                for ground in ("paper", "soft"):
+                    self.assertGreaterEqual(self.contrast(scheme[text], scheme[ground]), 4.5,
+                                            (i, text, ground))
+            lines = [pair[i] for pair in charts.SERIES] + [scheme["muted"], scheme["accent"]]
+            for line in lines:
+                self.assertGreaterEqual(self.contrast(line, scheme["paper"]), 3.0, (i, line))
+        for name in ("INK", "MUTED", "RULE", "PAPER", "NOISY"):
+            self.assertEqual(getattr(charts, name), schemes[0][name.lower()])
+
+
+class Program(unittest.TestCase):
+    """gearpod report --html."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.results = os.path.join(cls.folder.name, "r.h5")
+        cls.gearpod("run", SOURCES / "studies" / "park-fig-13.toml", "--quiet", "--out",
+                    cls.results)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def gearpod(cls, *arguments, **environment):
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False,
+                              env={**os.environ, **environment})
+
+    def html(self):
+        return os.path.join(self.folder.name, "r.html")
+
+    def test_page_and_json_hold_the_same(self):
+        both = self.gearpod("report", self.results, "--html", self.html(), "--json", "-")
+        self.assertEqual(both.returncode, 0, both.stderr)
+        written = pathlib.Path(self.html()).read_text()
+        self.assertEqual(written, build_page.page_html(json.loads(both.stdout)))
+        words_ = PageHtml(written).text()
+        self.assertIn("The gearbox is quasi-static", words_)
+        self.assertIn("have the same bits", words_)
+        os.remove(self.html())
+
+    def test_what_is_missing_is_named_and_nothing_is_left(self):
+        with tempfile.TemporaryDirectory() as fake:
+            for module in ("matplotlib", "numpy"):
+                pathlib.Path(fake, module + ".py").write_text("raise ImportError")
+            for environment, named in (
+                    ({"PYTHONPATH": fake}, "python3-numpy python3-matplotlib"),
+                    ({"GEARPOD_PYTHON": "/nonexistent/python"}, "/nonexistent/python"),
+                    ({"GEARPOD_REPORT_DIR": "/nonexistent"}, "GEARPOD_REPORT_DIR")):
+                failed = self.gearpod("report", self.results, "--html", self.html(), **environment)
+                self.assertEqual(failed.returncode, 2)
+                self.assertIn(named, failed.stderr)
+                self.assertFalse(os.path.exists(self.html()))
+
+    def test_a_page_that_cannot_be_written_is_said_first(self):
+        failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")
+        self.assertEqual(failed.returncode, 2)
+        self.assertIn("/nonexistent/folder/r.html", failed.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
