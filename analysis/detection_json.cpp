@@ -26,7 +26,9 @@ nlohmann::json to_json(const DetectionCell& cell) {
             {"exact", to_json(cell.exact)}};
 }
 
-nlohmann::json to_json(const LevelDetection& level) {
+}  // namespace
+
+nlohmann::json level_json(const LevelDetection& level) {
     nlohmann::json sizes = nlohmann::json::array();
     for (const DetectionCell& cell : level.cells) {
         sizes.push_back(to_json(cell));
@@ -47,15 +49,13 @@ nlohmann::json to_json(const LevelDetection& level) {
             {"sizes", sizes}};
 }
 
-}  // namespace
-
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request) {
     nlohmann::json list = nlohmann::json::array();
     for (const FeatureDetection& feature : features) {
         nlohmann::json levels = nlohmann::json::array();
         for (const LevelDetection& level : feature.levels) {
-            levels.push_back(to_json(level));
+            levels.push_back(level_json(level));
         }
         list.push_back({{"name", feature.feature},
                         {"alarm", feature.alarm == Alarm::high ? "high" : "low"},

@@ -18,4 +18,7 @@ namespace gearpod::analysis {
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
                               const DetectionRequest& request);
 
+// An entry of "levels" above.
+nlohmann::json level_json(const LevelDetection& level);
+
 }  // namespace gearpod::analysis

@@ -8,13 +8,13 @@
 #include <map>
 
 #include "analysis/reliable_size.hpp"
+#include "analysis/text_lines.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
 using Features = std::span<const FeatureDetection>;
 
-constexpr std::size_t kWidth = 120;
 constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
 constexpr std::size_t kCountWidth = 8;  // gearboxes, failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
@@ -122,7 +122,7 @@ void add_warnings(std::string& out, Features features) {
         }
     }
     for (const std::string& warning : order) {
-        out += fmt::format("warning: {} ({})\n", warning, names[warning]);
+        add_wrapped(out, fmt::format("warning: {} ({})", warning, names[warning]), 4);
     }
 }
 
@@ -130,7 +130,7 @@ void add_warnings(std::string& out, Features features) {
 template <typename Block>
 void in_blocks(std::string& out, Features features, Block block) {
     const std::size_t fit =
-        std::max<std::size_t>(1, (kWidth - kLabelWidth) / column_width(features));
+        std::max<std::size_t>(1, (kTextWidth - kLabelWidth) / column_width(features));
     for (std::size_t first = 0; first < features.size(); first += fit) {
         out += '\n';
         block(features.subspan(first, std::min(fit, features.size() - first)));

@@ -11,6 +11,8 @@ namespace {
 
 using Where = SizeEstimate::Where;
 constexpr double kAtEnd = 1e-12;
+constexpr int kSizeBits = 22;  // of a bound's place: 2e-7
+constexpr int kBandBits = 12;  // 2e-4
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Signed distance to the bound in the root of the deviance, which is nearly linear.
@@ -48,9 +50,10 @@ class Profile {
 
 // Between `inside`, where the function is negative, and `outside`, where it is `value` > 0.
 template <typename Function>
-double crossing(Function beyond, double inside, double outside, double at_inside, double value) {
-    std::uintmax_t steps = 60;
-    const boost::math::tools::eps_tolerance<double> tolerance(22);
+double crossing(Function beyond, double inside, double outside, double at_inside, double value,
+                int bits) {
+    auto steps = static_cast<std::uintmax_t>(bits);  // as many as halving would need
+    const boost::math::tools::eps_tolerance<double> tolerance(static_cast<unsigned>(bits));
     const bool up = outside > inside;
     const auto bracket = up ? boost::math::tools::toms748_solve(beyond, inside, outside, at_inside,
                                                                 value, tolerance, steps)
@@ -87,7 +90,7 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
             const double value = beyond(at);
             if (value > 0.0) {
                 return {Where::reached,
-                        likelihood.size(crossing(beyond, inside, at, at_inside, value))};
+                        likelihood.size(crossing(beyond, inside, at, at_inside, value, kSizeBits))};
             }
             inside = at;
             at_inside = value;
@@ -163,7 +166,7 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                 }
                 const double value = beyond(outside);
                 if (value > 0.0) {
-                    bound = pod_of(crossing(beyond, inside, outside, at_inside, value));
+                    bound = pod_of(crossing(beyond, inside, outside, at_inside, value, kBandBits));
                     break;
                 }
                 inside = outside;

@@ -4,17 +4,43 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kTiny = 1e-290;
+constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr double kInTransition = 1e-6;
 
-// k ln P, 0 where nothing was counted.
-double term(double count, double probability) {
-    return count > 0.0 ? count * std::log(probability) : 0.0;
+// Sum of k ln P; P is held off 0, where nothing was counted if the sum is finite.
+double terms(const Eigen::ArrayXd& count, const Eigen::ArrayXd& probability) {
+    // Eigen takes many logarithms at once only in an array of their own.
+    const Eigen::ArrayXd logs = probability.max(kLeast).log();
+    return (count * logs).sum();
+}
+
+// link_values() of many; Eigen's exponential has the same bits on every processor, too.
+struct LinkArrays {
+    Eigen::ArrayXd up, down, density;
+};
+LinkArrays link_arrays(Link link, const Eigen::ArrayXd& eta) {
+    LinkArrays values;
+    Eigen::ArrayXd small;
+    if (link == Link::logit) {
+        const Eigen::ArrayXd e = (-eta.abs()).exp();
+        small = e / (1.0 + e);
+        values.density = small / (1.0 + e);
+    } else {
+        small = eta.unaryExpr(
+            [](double at) { return 0.5 * std::erfc(std::abs(at) / std::numbers::sqrt2); });
+        values.density =
+            (-0.5 * eta.square()).exp() * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+    }
+    values.up = (eta > 0.0).select(1.0 - small, small);
+    values.down = (eta > 0.0).select(small, 1.0 - small);
+    return values;
 }
 
 }  // namespace
@@ -34,8 +60,15 @@ PodLikelihood::PodLikelihood(const HitMissTable& table, const PodForm& form)
         square += row.tests * away * away / tests;
     }
     spread_ = std::sqrt(square);
-    for (const HitMissRow& row : table) {
-        u_.push_back(standardised(row.size));
+    const auto rows = static_cast<Eigen::Index>(table.size());
+    u_.resize(rows);
+    hits_.resize(rows);
+    tests_.resize(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const HitMissRow& row = table[static_cast<std::size_t>(i)];
+        u_[i] = standardised(row.size);
+        hits_[i] = row.hits;
+        tests_[i] = row.tests;
     }
 }
 
@@ -50,36 +83,28 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
         const double eta = link_quantile(form_.link, (through->pod - floor) / rise);
         eta_by_ceiling = -(through->pod - floor) / (rise * rise * link_density(form_.link, eta));
     }
-    // Plain sums: this loop is nearly all of the time of a report.
-    double value = 0.0, s0 = 0.0, s1 = 0.0, s2 = 0.0;
-    double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
+    // Arrays at once: this is nearly all of the time of a report.
     const double origin = through ? through->u : 0.0;
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-        const HitMissRow& row = table_[i];
-        const LinkValues link = link_values(form_.link, parameters[0] + parameters[1] * u_[i]);
-        const double hit = floor + rise * link.up;
-        const double miss = (1.0 - ceiling) + rise * link.down;
-        value += term(row.hits, hit) + term(row.tests - row.hits, miss);
-        if (hit * miss < kTiny) {
-            continue;
-        }
-        const double weight = 1.0 / (hit * miss);
-        const double left = (row.hits - row.tests * hit) * weight;
-        const double by_eta = rise * link.density;
-        const double by_slope = by_eta * (u_[i] - origin);
-        const double bend = row.tests * weight;
-        s0 += left * by_eta;
-        s1 += left * by_slope;
-        i00 += bend * by_eta * by_eta;
-        i01 += bend * by_eta * by_slope;
-        i11 += bend * by_slope * by_slope;
-        if (form_.free_ceiling) {
-            const double by_ceiling = link.up + by_eta * eta_by_ceiling;
-            s2 += left * by_ceiling;
-            i02 += bend * by_eta * by_ceiling;
-            i12 += bend * by_slope * by_ceiling;
-            i22 += bend * by_ceiling * by_ceiling;
-        }
+    const LinkArrays link = link_arrays(form_.link, parameters[0] + parameters[1] * u_);
+    const Eigen::ArrayXd hit = floor + rise * link.up;
+    const Eigen::ArrayXd miss = (1.0 - ceiling) + rise * link.down;
+    const double value = terms(hits_, hit) + terms(tests_ - hits_, miss);
+    const Eigen::ArrayXd both = hit * miss;
+    const Eigen::ArrayXd weight = (both < kTiny).select(0.0, both.max(kTiny).inverse());
+    const Eigen::ArrayXd left = (hits_ - tests_ * hit) * weight;
+    const Eigen::ArrayXd bend = tests_ * weight;
+    const Eigen::ArrayXd by_eta = rise * link.density;
+    const Eigen::ArrayXd by_slope = by_eta * (u_ - origin);
+    const double s0 = (left * by_eta).sum(), s1 = (left * by_slope).sum();
+    const double i00 = (bend * by_eta * by_eta).sum(), i01 = (bend * by_eta * by_slope).sum();
+    const double i11 = (bend * by_slope * by_slope).sum();
+    double s2 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
+    if (form_.free_ceiling) {
+        const Eigen::ArrayXd by_ceiling = link.up + by_eta * eta_by_ceiling;
+        s2 = (left * by_ceiling).sum();
+        i02 = (bend * by_eta * by_ceiling).sum();
+        i12 = (bend * by_slope * by_ceiling).sum();
+        i22 = (bend * by_ceiling * by_ceiling).sum();
     }
     Slopes slopes;
     slopes.value = value;
@@ -109,12 +134,15 @@ bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& thr
 
 PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
                                              const std::optional<Point>& through) const {
-    constexpr int kMostSteps = 100;
-    constexpr double kConverged = 1e-10;  // of the log likelihood
+    // Of a profile only the deviance counts; where a degenerate curve steps from size to size its
+    // likelihood has no smooth maximum, and a search without end would find none.
+    const int most_steps = through ? 40 : 100;
+    const double converged = through ? 1e-7 : 1e-10;  // of the log likelihood
+    const double shortest = through ? 1e-3 : 1e-8;    // step
     Maximum maximum;
     meet(parameters, through);
     Slopes here = evaluate(parameters, through);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < most_steps; ++step) {
         Eigen::Matrix3d system = here.information;
         Parameters score = here.score;
         // A parameter that is fixed, or a ceiling that pushes against 1, does not move.
@@ -134,12 +162,12 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
         if (!std::isfinite(gain)) {
             break;
         }
-        if (gain < kConverged) {
+        if (gain < converged) {
             maximum.converged = true;
             break;
         }
         bool better = false;
-        for (double length = 1.0; length > 1e-8 && !better; length *= 0.5) {
+        for (double length = 1.0; length > shortest && !better; length *= 0.5) {
             Parameters next = parameters + length * move;
             next[2] = std::min(next[2], 1.0);
             if (!meet(next, through)) {

@@ -68,7 +68,7 @@ class PodLikelihood {
     PodForm form_;
     double centre_ = 0.0;
     double spread_ = 1.0;
-    std::vector<double> u_;
+    Eigen::ArrayXd u_, hits_, tests_;
 };
 
 }  // namespace gearpod::analysis

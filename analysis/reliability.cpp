@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "analysis/outcomes.hpp"
 #include "analysis/reliable_size.hpp"
 #include "analysis/size_groups.hpp"
-#include "analysis/threshold.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -51,24 +51,6 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
     return values;
 }
 
-HitMissPod hit_miss_of(const ReliabilityData& data, const std::vector<int>& hit,
-                       const LevelDetection& detection, double confidence) {
-    HitMissPod pod;
-    if (std::isnan(detection.threshold)) {
-        pod.refusal = "no threshold";
-        return pod;
-    }
-    std::vector<double> sizes;
-    std::vector<char> outcomes;
-    for (std::size_t i = 0; i < hit.size(); ++i) {
-        if (hit[i] >= 0) {
-            sizes.push_back(data.graded_size[i]);
-            outcomes.push_back(hit[i] == 1 ? 1 : 0);
-        }
-    }
-    return hit_miss_pod(hit_miss_table(sizes, outcomes), {detection.healthy_rate, confidence});
-}
-
 LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns& feature,
                               const LevelValues& values, const LevelDetection& detection,
                               double confidence) {
@@ -80,13 +62,8 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     for (const std::vector<double>& faulty : values.by_size) {
         level.auc_by_size.push_back(auc(values.healthy, faulty, high, confidence));
     }
-    std::vector<int> hit;
-    for (const double value : values.graded) {
-        hit.push_back(!std::isfinite(value)                                 ? -1
-                      : is_alarm(value, detection.threshold, feature.alarm) ? 1
-                                                                            : 0);
-    }
-    level.hit_miss = hit_miss_of(data, hit, detection, confidence);
+    const std::vector<int> hit = outcomes(values.graded, detection.threshold, feature.alarm);
+    level.hit_miss = pod_of_outcomes(data.graded_size, hit, detection, confidence);
     level.signal_response = signal_response_pod(data.graded_size, values.graded,
                                                 detection.threshold, feature.alarm, confidence);
     if (std::isnan(detection.threshold)) {
@@ -94,13 +71,51 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     } else {
         level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);
     }
+    level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
+                                 transition_sizes(detection.cells), confidence);
     level.tested_size = reliable_size(detection, 0.9);
     return level;
 }
 
-// Calls work(0) .. work(count - 1) from as many threads as there are processors; rethrows what one
-// of them threw.
-void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work) {
+CombinedDetector combined_at(const ReliabilityData& data, std::size_t level,
+                             const DetectionRequest& request) {
+    const std::size_t levels = request.noise_levels.size();
+    std::vector<std::vector<double>> healthy, graded;
+    std::vector<CombinedFeature> features;
+    for (const FeatureColumns& feature : data.features) {
+        healthy.push_back(column(feature.healthy, level, levels));
+        graded.push_back(column(feature.graded, level, levels));
+    }
+    for (std::size_t f = 0; f < data.features.size(); ++f) {
+        features.push_back({data.features[f].name, data.features[f].alarm, healthy[f], graded[f]});
+    }
+    DetectionRequest here = request;
+    here.noise_levels = {request.noise_levels[level]};
+    return combine_features(features, data.healthy_size, data.graded_size, here);
+}
+
+LevelSensitivity sensitivity_at(const ReliabilityData& data,
+                                const std::vector<FeatureDetection>& detections,
+                                const FeatureRanking& ranking, std::size_t level,
+                                const DetectionRequest& request) {
+    const auto best = std::find_if(
+        data.features.begin(), data.features.end(), [&](const FeatureColumns& feature) {
+            return !ranking.ranks.empty() && feature.name == ranking.ranks.front().name;
+        });
+    if (best == data.features.end()) {
+        return {};
+    }
+    const auto f = static_cast<std::size_t>(best - data.features.begin());
+    const LevelDetection& detection = detections[f].levels[level];
+    const auto values = column(best->graded, level, request.noise_levels.size());
+    return level_sensitivity(best->name, values, outcomes(values, detection.threshold, best->alarm),
+                             {request.size.name, request.size.unit, data.graded_size}, data.inputs,
+                             detection, request.confidence);
+}
+
+// Calls work(0) .. work(count - 1); rethrows what one of them threw.
+void for_each_index(std::size_t count, int threads_wanted,
+                    const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
@@ -116,7 +131,7 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& w
     };
     {
         std::vector<std::jthread> threads;
-        const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+        const auto most = static_cast<std::size_t>(std::max(1, threads_wanted));
         for (std::size_t t = 1; t < std::min(most, count); ++t) {
             threads.emplace_back(take);
         }
@@ -166,7 +181,7 @@ std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std:
 
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
-                               const DetectionRequest& request) {
+                               const DetectionRequest& request, int threads) {
     if (detections.size() != data.features.size()) {
         throw std::invalid_argument("reliability: one detection a feature is needed");
     }
@@ -191,7 +206,7 @@ Reliability assess_reliability(const ReliabilityData& data,
         }
     }
     // Each entry on its own: the same numbers whatever the threads.
-    for_each_index(values.size(), [&](std::size_t i) {
+    for_each_index(values.size(), threads, [&](std::size_t i) {
         const std::size_t f = i / levels, n = i % levels;
         result.features[f].levels[n] = assess_level(data, data.features[f], values[i],
                                                     detections[f].levels[n], request.confidence);
@@ -205,6 +220,12 @@ Reliability assess_reliability(const ReliabilityData& data,
         }
         result.rankings.push_back(rank_features(ranked, request.confidence));
     }
+    result.combined.resize(levels);
+    result.sensitivities.resize(levels);
+    for_each_index(levels, threads, [&](std::size_t n) {
+        result.combined[n] = combined_at(data, n, request);
+        result.sensitivities[n] = sensitivity_at(data, detections, result.rankings[n], n, request);
+    });
     return result;
 }
 

@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "analysis/combined_detector.hpp"
 #include "analysis/condition_detection.hpp"
 #include "analysis/feature_ranking.hpp"
 #include "analysis/hit_miss_pod.hpp"
+#include "analysis/input_effects.hpp"
+#include "analysis/level_sensitivity.hpp"
 #include "analysis/miss_sensitivity.hpp"
 #include "analysis/roc.hpp"
 #include "analysis/signal_response_pod.hpp"
@@ -25,6 +28,7 @@ struct LevelReliability {
         auc_by_size;            // in the order of the request's groups; no faulty ones in one at 0
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
+    InputEffects inputs;
     std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
 };
 
@@ -36,7 +40,10 @@ struct FeatureReliability {
 
 struct Reliability {
     std::vector<FeatureReliability> features;
-    std::vector<FeatureRanking> rankings;  // one a noise level
+    std::vector<FeatureRanking> rankings;    // one a noise level
+    std::vector<CombinedDetector> combined;  // one a noise level
+    std::vector<LevelSensitivity>
+        sensitivities;  // one a noise level, of its best ranked feature; without a name if none
     std::vector<ConditionDetection>
         conditions;  // one a feature; empty if no condition was asked for
 };
@@ -70,9 +77,10 @@ std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, s
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the
-// threshold sample and the graded ones of size 0.
+// threshold sample and the graded ones of size 0. The same numbers whatever the
+// threads.
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
-                               const DetectionRequest& request);
+                               const DetectionRequest& request, int threads);
 
 }  // namespace gearpod::analysis

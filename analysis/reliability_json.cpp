@@ -1,33 +1,13 @@
 #include "analysis/reliability_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "analysis/detector_json.hpp"
+#include "analysis/json_values.hpp"
+#include "analysis/robustness_json.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-using Json = nlohmann::json;
-
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) {
-    return text.empty() ? Json(nullptr) : Json(text);
-}
-
-Json to_json(const SizeEstimate& estimate) {
-    const char* where[] = {"reached", "below_tested", "not_reached"};
-    return {{"where", where[static_cast<int>(estimate.where)]},
-            {"size",
-             estimate.where == SizeEstimate::Where::reached ? Json(estimate.size) : Json(nullptr)}};
-}
-
-Json to_json(const SizeBounds& bounds) {
-    return {{"estimate", to_json(bounds.estimate)},
-            {"lower", to_json(bounds.lower)},
-            {"upper", to_json(bounds.upper)}};
-}
 
 Json to_json(const std::vector<PodPoint>& band) {
     Json json{{"size", Json::array()},
@@ -226,12 +206,22 @@ Json to_json(const ConditionDetection& detection) {
 
 }  // namespace
 
+nlohmann::json hit_miss_json(const HitMissPod& pod) {
+    return to_json(pod);
+}
+
+nlohmann::json auc_json(const Auc& auc) {
+    return to_json(auc);
+}
+
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array(), conditions = Json::array();
     for (std::size_t n = 0; n < reliability.rankings.size(); ++n) {
         levels.push_back({{"noise_level", request.noise_levels[n]},
                           {"smallest_fault", to_json(smallest_fault(reliability, n))},
-                          {"ranking", to_json(reliability.rankings[n])}});
+                          {"ranking", to_json(reliability.rankings[n])},
+                          {"combined", combined_json(reliability.combined[n])},
+                          {"sensitivity", sensitivity_json(reliability.sensitivities[n])}});
     }
     for (const FeatureReliability& feature : reliability.features) {
         Json at = Json::array();
@@ -250,7 +240,9 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
             {"confidence", request.confidence},
             {"levels", levels},
             {"features", features},
-            {"conditions", conditions}};
+            {"conditions", conditions},
+            {"robustness", robustness_json(reliability, request)},
+            {"a90_maps", a90_maps_json(reliability, request)}};
 }
 
 }  // namespace gearpod::analysis

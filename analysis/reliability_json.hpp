@@ -11,7 +11,7 @@ namespace gearpod::analysis {
 // {"size": {"name", "unit"}, "confidence",
 //  "levels": [{"noise_level", "smallest_fault": {"feature", "size", "from_curve"} or null,
 //    "ranking": {"healthy", "faulty", "refusal", "left_out",
-//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}}],
+//      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined", "sensitivity"}],
 //  "features": [{"name", "alarm", "levels": [{"noise_level",
 //    "hit_miss": {"tests", "hits", "smallest", "largest", "refusal", "doubtful", "supported",
 //    "model", "link",
@@ -20,10 +20,15 @@ namespace gearpod::analysis {
 //    "signal_response": {...}, "auc": {...}, "auc_by_size": [...],
 //    "roc": {"false_alarm_rate", "detection_rate"}, "misses": {...},
 //    "smallest_fault": as above}]}],
-//  "conditions": [...]}
+//  "conditions": [...], "robustness", "a90_maps"}
 // Sizes are in their unit; a50 and a90 are {"estimate", "lower", "upper"}, each {"where", "size"},
 // the bounds one-sided. Curves: POD = floor + (ceiling - floor) F(intercept + slope x), x the size
 // or its natural logarithm.
+// Robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
+
+// Entries "hit_miss" and "auc" above.
+nlohmann::json hit_miss_json(const HitMissPod& pod);
+nlohmann::json auc_json(const Auc& auc);
 
 }  // namespace gearpod::analysis

@@ -5,17 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/robustness_text.hpp"
+#include "analysis/text_lines.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kLevel = 0.05;  // of the tests named in the text
-constexpr std::size_t kWidth = 120;
-constexpr long kFewest = 10;  // healthy and faulty gearboxes for the text to say anything
-
-std::string with_unit(double size, const SizeUnit& unit) {
-    const std::string shown = unit.shown_unit();
-    return fmt::format("{:.3g}{}", size / unit.per_unit(), shown.empty() ? "" : " " + shown);
-}
+constexpr long kFewest = 10;     // healthy and faulty gearboxes for the text to say anything
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -24,23 +21,6 @@ std::string auc_text(const Auc& auc) {
     return std::isnan(auc.bounds.lower) ? fmt::format("{:.3f}", auc.auc)
                                         : fmt::format("{:.3f} [{:.3f}, {:.3f}]", auc.auc,
                                                       auc.bounds.lower, auc.bounds.upper);
-}
-
-// Breaks at spaces; further lines are indented.
-void add_wrapped(std::string& out, const std::string& text, std::size_t indent) {
-    std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        const std::string word = text.substr(at, end - at);
-        if (!line.empty() && line.size() + 1 + word.size() > kWidth) {
-            out += line + '\n';
-            line = std::string(indent, ' ') + word;
-        } else {
-            line += (line.empty() || at == 0 ? "" : " ") + word;
-        }
-        at = end + 1;
-    }
-    out += line + '\n';
 }
 
 // The features in order of rank, those without a rank last.
@@ -146,10 +126,7 @@ void add_misses(std::string& out, const FeatureReliability& feature, std::size_t
     if (!misses.refusal.empty()) {
         return;
     }
-    const std::string range =
-        misses.smallest == misses.largest
-            ? with_unit(misses.largest, unit)
-            : with_unit(misses.smallest, unit) + " to " + with_unit(misses.largest, unit);
+    const std::string range = range_text({misses.smallest, misses.largest}, unit);
     std::string text =
         fmt::format("misses of {} at {} ({} of {}), chance that a missed gearbox has the larger",
                     feature.feature, range, misses.misses, misses.misses + misses.hits);
@@ -201,6 +178,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     for (const FeatureReliability* feature : features) {
         add_misses(out, *feature, n, unit);
     }
+    out += robustness_text(reliability, n, request);
 }
 
 // Gearboxes of the feature and noise level that have most.
@@ -267,19 +245,6 @@ void add_condition(std::string& out, const ConditionDetection& detection, const 
 }
 
 }  // namespace
-
-std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
-                               const SizeUnit& unit) {
-    switch (estimate.where) {
-        case SizeEstimate::Where::reached:
-            return fmt::format("{:.3g}", estimate.size / unit.per_unit());
-        case SizeEstimate::Where::below_tested:
-            return fmt::format("< {:.3g}", smallest / unit.per_unit());
-        case SizeEstimate::Where::not_reached:
-            break;
-    }
-    return fmt::format("> {:.3g}", largest / unit.per_unit());
-}
 
 std::string reliability_text(const Reliability& reliability, const DetectionRequest& request) {
     if (reliability.features.empty() || request.noise_levels.empty()) {

@@ -9,12 +9,8 @@ namespace gearpod::analysis {
 
 // Per noise level: the smallest fault found, a row per feature in order of rank with AUC, a50, a90,
 // a90 at the confidence, the curve and its fit, what cannot be told apart, and what decides the
-// best feature's misses; then detection by condition. One line where fewer than ten healthy or ten
-// faulty gearboxes have values. At most 120 columns. Ends with a newline.
+// best feature's misses (robustness_text.hpp); then detection by condition. One line where fewer
+// than ten healthy or ten faulty gearboxes have values. At most 120 columns. Ends with a newline.
 std::string reliability_text(const Reliability& reliability, const DetectionRequest& request);
-
-// "1.24" in the unit shown, "< 0.5" and "> 4.28" beyond the tested sizes.
-std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
-                               const SizeUnit& unit);
 
 }  // namespace gearpod::analysis

@@ -7,6 +7,7 @@
 
 #include "mc/atomic_file.hpp"
 #include "mc/command_support.hpp"
+#include "mc/ranks.hpp"
 #include "mc/reliability_of_results.hpp"
 #include "mc/report_json.hpp"
 #include "mc/report_page.hpp"
@@ -41,7 +42,7 @@ int report_command(const ReportOptions& options) {
         Results results = read_frame(options.results);
         const FileRows rows(options.results, results);
         results.detection = detect_all(results, rows);
-        const auto reliability = reliability_of(results, rows, options.condition);
+        const auto reliability = reliability_of(results, rows, options.condition, processors());
         if (!options.json.empty() || !options.html.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;

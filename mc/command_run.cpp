@@ -176,7 +176,8 @@ class Run {
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && !options_.quiet) {
-                    text = results_text(all, rows, reliability_of(all, rows, ""));
+                    text = results_text(all, rows,
+                                        reliability_of(all, rows, "", thread_count(study_, 1)));
                 }
             } catch (const std::exception& error) {
                 trouble = error.what();

@@ -51,7 +51,7 @@ void check_condition(const Results& frame, const std::string& condition) {
 }  // namespace
 
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
-                                                    const std::string& condition,
+                                                    const std::string& condition, int threads,
                                                     std::size_t most_values) {
     check_condition(frame, condition);
     const RowShape shape = row_shape(frame);
@@ -87,7 +87,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
         data.features.push_back({frame.features[f].name, frame.features[f].alarm,
                                  healthy.features[f], graded.features[f]});
     }
-    return analysis::assess_reliability(data, frame.detection, frame.request);
+    return analysis::assess_reliability(data, frame.detection, frame.request, threads);
 }
 
 std::string reliability_text(const std::optional<analysis::Reliability>& reliability,

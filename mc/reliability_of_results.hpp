@@ -17,7 +17,7 @@ inline constexpr std::size_t kMostAssessedValues = std::size_t{1} << 24;
 // get thresholds of their own, "" for none; std::runtime_error names the parameters if it is
 // unknown. None beyond `most_values`.
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
-                                                    const std::string& condition,
+                                                    const std::string& condition, int threads,
                                                     std::size_t most_values = kMostAssessedValues);
 
 // As the terminal shows it, or why there is none.

@@ -61,7 +61,7 @@ struct Study {
         return all;
     }
 
-    Reliability assess(bool by_torque = false) const {
+    Reliability assess(bool by_torque = false, int threads = 2) const {
         ReliabilityData data;
         data.healthy_size = healthy_size;
         data.graded_size = graded_size;
@@ -72,7 +72,7 @@ struct Study {
         for (std::size_t f = 0; f < names.size(); ++f) {
             data.features.push_back({names[f], Alarm::high, healthy[f], graded[f]});
         }
-        return assess_reliability(data, detections(), request);
+        return assess_reliability(data, detections(), request, threads);
     }
 };
 

@@ -40,7 +40,7 @@ Results example() {
 
 TEST_CASE("The fault's size is the column that the request names, all others are inputs") {
     const Results r = example();
-    const auto reliability = reliability_of(r, ColumnRows(r), "");
+    const auto reliability = reliability_of(r, ColumnRows(r), "", 2);
     REQUIRE(reliability);
     const auto& level = reliability->features.at(0).levels.at(0);
     CHECK(level.auc.healthy == 600);
@@ -49,15 +49,16 @@ TEST_CASE("The fault's size is the column that the request names, all others are
     REQUIRE(level.misses.inputs.size() == 1);
     CHECK(level.misses.inputs[0].name == "fault_depth_m");
     CHECK(reliability->conditions.empty());
-    CHECK(reliability_of(r, ColumnRows(r), "fault_depth_m")->conditions.size() == 1);
-    CHECK_THROWS_WITH(reliability_of(r, ColumnRows(r), "fault_broken"),
+    CHECK(reliability_of(r, ColumnRows(r), "fault_depth_m", 2)->conditions.size() == 1);
+    CHECK_THROWS_WITH(reliability_of(r, ColumnRows(r), "fault_broken", 2),
                       Catch::Contains("it has fault_depth_m"));
 }
 
 TEST_CASE("An ensemble too large to hold is not assessed, and the text says so") {
     const Results r = example();
-    CHECK(reliability_of(r, ColumnRows(r), "", 2000));
-    const auto none = reliability_of(r, ColumnRows(r), "", 1999);  // 1000 gearboxes, 2 values each
+    CHECK(reliability_of(r, ColumnRows(r), "", 2, 2000));
+    const auto none =
+        reliability_of(r, ColumnRows(r), "", 2, 1999);  // 1000 gearboxes, 2 values each
     CHECK(!none);
     CHECK_THAT(reliability_text(none, r), Catch::Contains("at most 8388608 gearboxes"));
 }

@@ -23,13 +23,13 @@ int main(int argc, char** argv) {
     for (const tests::ReportCase& each : tests::report_cases()) {
         const mc::ColumnRows rows(each.results);
         good &= write(each.name, mc::report_json(each.results, rows,
-                                                 mc::reliability_of(each.results, rows, "")));
+                                                 mc::reliability_of(each.results, rows, "", 2)));
         if (each.name == "usual") {
             good &= write("too_large", mc::report_json(each.results, rows, std::nullopt));
             good &= write("by_condition",
                           mc::report_json(each.results, rows,
                                           mc::reliability_of(each.results, rows,
-                                                             "ring_bearing_stiffness_N_m")));
+                                                             "ring_bearing_stiffness_N_m", 2)));
         }
     }
     return good ? 0 : 1;

@@ -16,7 +16,7 @@ namespace {
 
 Json json_of(const mc::Results& results) {
     const mc::ColumnRows rows(results);
-    return mc::report_json(results, rows, mc::reliability_of(results, rows, ""));
+    return mc::report_json(results, rows, mc::reliability_of(results, rows, "", 2));
 }
 
 Json case_json(const std::string& name) {

@@ -1,0 +1,115 @@
+#include "analysis/binary_regression.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace gearpod::analysis {
+namespace {
+
+struct Slopes {
+    double log_likelihood = 0.0;
+    double objective = 0.0;  // with the penalty
+    Eigen::VectorXd score;
+    Eigen::MatrixXd information;
+};
+
+Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+                const Eigen::VectorXd& b) {
+    constexpr double kTiny = 1e-290;
+    const Eigen::VectorXd eta = design * b;
+    const double rise = model.ceiling - model.floor;
+    Eigen::VectorXd left(eta.size()), weight(eta.size());
+    Slopes slopes;
+    for (Eigen::Index i = 0; i < eta.size(); ++i) {
+        const LinkValues link = link_values(model.link, eta[i]);
+        const double hit = model.floor + rise * link.up;
+        const double miss = (1.0 - model.ceiling) + rise * link.down;
+        const bool is_yes = yes[static_cast<std::size_t>(i)] != 0;
+        slopes.log_likelihood += std::log(is_yes ? hit : miss);
+        const double by_eta = rise * link.density;
+        const bool flat = hit * miss < kTiny;
+        left[i] = flat ? 0.0 : by_eta * (is_yes ? 1.0 / hit : -1.0 / miss);
+        weight[i] = flat ? 0.0 : by_eta * by_eta / (hit * miss);
+    }
+    Eigen::VectorXd penalty = Eigen::VectorXd::Constant(b.size(), model.ridge);
+    penalty[0] = 0.0;
+    slopes.objective = slopes.log_likelihood - 0.5 * penalty.dot(b.cwiseAbs2());
+    slopes.score = design.transpose() * left - penalty.cwiseProduct(b);
+    slopes.information = design.transpose() * weight.asDiagonal() * design;
+    slopes.information.diagonal() += penalty;
+    return slopes;
+}
+
+// Steps from `b` until the gain of a further one is negligible; false if there is no maximum within
+// reach.
+bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+            Eigen::VectorXd& b, Slopes& here) {
+    constexpr int kMostSteps = 60;
+    constexpr double kConverged = 1e-10;  // of the log likelihood
+    constexpr double kFarthest = 1e3;     // coefficients of covariates of order 1
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Eigen::VectorXd move = here.information.ldlt().solve(here.score);
+        const double gain = here.score.dot(move);
+        if (!std::isfinite(gain) || b.cwiseAbs().maxCoeff() > kFarthest) {
+            return false;
+        }
+        if (gain < kConverged) {
+            return true;
+        }
+        bool better = false;
+        for (double length = 1.0; length > 1e-8 && !better; length *= 0.5) {
+            const Eigen::VectorXd next = b + length * move;
+            Slopes there = evaluate(design, yes, model, next);
+            if (there.objective > here.objective - 1e-14 * std::abs(here.objective)) {
+                better = true;
+                b = next;
+                here = std::move(there);
+            }
+        }
+        if (!better) {
+            return gain < 1e-6;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
+                     const BinaryModel& model) {
+    if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
+        throw std::invalid_argument("binary regression: a row of the design for each outcome");
+    }
+    BinaryFit fit;
+    const auto count = static_cast<double>(yes.size());
+    const auto hits = static_cast<double>(
+        std::count_if(yes.begin(), yes.end(), [](char outcome) { return outcome != 0; }));
+    if (hits == 0.0 || hits == count) {
+        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are alike";
+        return fit;
+    }
+    const double share =
+        std::clamp((hits / count - model.floor) / (model.ceiling - model.floor), 0.01, 0.99);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(design.cols());
+    b[0] = link_quantile(model.link, share);
+    Slopes here = evaluate(design, yes, model, b);
+    if (!ascend(design, yes, model, b, here)) {
+        fit.refusal = "the likelihood has no maximum within reach";
+        return fit;
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(here.information);
+    const Eigen::VectorXd pivots = solver.vectorD();
+    if (pivots.minCoeff() <= 1e-10 * pivots.maxCoeff()) {
+        fit.refusal = "the outcomes do not determine all coefficients";
+        return fit;
+    }
+    fit.coefficients = b;
+    fit.covariance = solver.solve(Eigen::MatrixXd::Identity(design.cols(), design.cols()));
+    fit.log_likelihood = here.log_likelihood;
+    return fit;
+}
+
+}  // namespace gearpod::analysis
