@@ -15,6 +15,6 @@ std::vector<int> outcomes(std::span<const double> values, double threshold, Alar
 // Refused without a threshold. The floor is the detection's healthy rate.
 HitMissPod pod_of_outcomes(std::span<const double> sizes, const std::vector<int>& hit,
                            const LevelDetection& detection, double confidence,
-                           int band_points = 21);
+                           int band_points = HitMissRequest{}.band_points);
 
 }  // namespace gearpod::analysis

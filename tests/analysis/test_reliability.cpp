@@ -159,6 +159,30 @@ TEST_CASE("The JSON holds curves, bounds and tests, null where there is no numbe
     CHECK(json["conditions"][0]["levels"][0]["thresholds"].size() == 2);
 }
 
+TEST_CASE("The JSON maps detection over every input; the threads leave no trace in it") {
+    const Study study;
+    const auto json = reliability_json(study.assess(false, 1), study.request);
+    CHECK(json.dump() == reliability_json(study.assess(false, 4), study.request).dump());
+    const auto& torque = json["robustness"]["torque"]["features"];
+    REQUIRE(torque.size() == 5);
+    const auto& good = torque[0]["levels"][0];
+    REQUIRE(good["bins"].size() == 2);  // torque 0 and 1
+    CHECK(good["bins"][0]["pd"] < good["bins"][1]["pd"]);
+    CHECK(good["p_value"] < 0.05);
+    CHECK(torque[1]["levels"][0]["refusal"] == "no gearboxes with a value");  // failed
+    CHECK(torque[3]["levels"][0]["p_value"].is_null());                       // finds all
+    const auto& map = json["a90_maps"]["torque"]["features"][0]["levels"][0];
+    // Torque adds 0.3 to the logarithm, as 0.3 mm do.
+    CHECK(map["a90"][0]["estimate"]["size"].get<double>() -
+              map["a90"][1]["estimate"]["size"].get<double>() ==
+          Approx(0.3e-3).margin(0.15e-3));
+    CHECK(json["robustness"]["noise_level"]["features"][0]["bins"].size() == 2);
+    CHECK(json["levels"][0]["combined"]["refusal"].is_null());
+    CHECK(json["levels"][0]["combined"]["left_out"].size() == 2);  // failed, flat
+    CHECK(json["levels"][0]["sensitivity"]["feature"] == "all");
+    CHECK(json["levels"][0]["sensitivity"]["misses"]["refusal"] == "all gearboxes give the same");
+}
+
 TEST_CASE("Studies without gearboxes of a kind are stated, not computed") {
     const std::pair<int, int> counts[] = {{0, 0}, {0, 70}, {50, 0}, {1, 7}, {400, 7}};
     for (const auto& [healthy, graded] : counts) {
