@@ -135,18 +135,27 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         const double zeta = link_quantile(form.link, (point.pod - form.floor) / (1.0 - form.floor));
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
-        const double start = std::isfinite(se) && se > 0.0 ? 1.2 * profile.limit() * se : 0.5;
+        const double first_step = std::isfinite(se) && se > 0.0 ? 1.2 * profile.limit() * se : 0.5;
         for (const double sign : {-1.0, 1.0}) {
             double& bound = sign < 0.0 ? point.lower : point.upper;
-            if (const auto extreme = likelihood.extreme_zeta(u, least, sign < 0.0 ? -1 : 1,
-                                                             extremes[sign < 0.0 ? 0 : 1])) {
+            const int side = sign < 0.0 ? -1 : 1;
+            PodLikelihood::Parameters& start = extremes[sign < 0.0 ? 0 : 1];
+            const auto found = [&](const std::optional<double>& extreme) {
+                return extreme && sign * (*extreme - zeta) >= 0.0;
+            };
+            auto extreme = likelihood.extreme_zeta(u, least, side, start);
+            if (!found(extreme)) {  // the last size's curve may lead astray
+                start = maximum.parameters;
+                extreme = likelihood.extreme_zeta(u, least, side, start);
+            }
+            if (found(extreme)) {
                 bound = pod_of(*extreme);
                 continue;
             }
             profile.restart();
             const auto beyond = [&](double at) { return profile.beyond(u, pod_of(at)); };
             double inside = zeta, at_inside = -profile.limit();
-            for (double step = start; std::isfinite(zeta); step *= 2.0) {
+            for (double step = first_step; std::isfinite(zeta); step *= 2.0) {
                 const double outside = zeta + sign * step;
                 if (pod_of(outside) < form.floor + kAtEnd || pod_of(outside) > 1.0 - kAtEnd) {
                     break;  // the bound is the end itself

@@ -184,7 +184,8 @@ PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
 std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
                                                   Parameters& start) const {
     constexpr int kMostSteps = 30;
-    constexpr double kSettled = 1e-3;  // of a standard error; what the move leaves is its square
+    constexpr double kSettled = 1e-3;    // of a standard error; what the move leaves is its square
+    constexpr double kOnContour = 1e-2;  // of the log likelihood
     const double floor = form_.floor;
     Parameters parameters = start;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -212,6 +213,11 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         }
         parameters += move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
+            // Far out the likelihood is flat, and a move is small there wherever it leads.
+            const double reached = evaluate(parameters, std::nullopt).value;
+            if (!(std::abs(reached - log_likelihood) < kOnContour)) {
+                return std::nullopt;
+            }
             start = parameters;
             return zeta + gradient.dot(move);
         }

@@ -38,18 +38,25 @@ std::vector<RocPoint> corners(const std::vector<double>& healthy,
     return points;
 }
 
-// The corners next to `most` places that divide the way from (0, 0) to (1, 1) evenly.
+double way(const RocPoint& point) {
+    return 0.5 * (point.false_alarm_rate + point.detection_rate);
+}
+
+// The corners nearest to `most` places that divide the way from (0, 0) to (1, 1) evenly.
 std::vector<RocPoint> thinned(const std::vector<RocPoint>& points, std::size_t most) {
-    std::vector<RocPoint> kept{points.front()};
-    for (const RocPoint& point : points) {
-        const double way = 0.5 * (point.false_alarm_rate + point.detection_rate);
-        const double wanted = static_cast<double>(kept.size()) / static_cast<double>(most - 1);
-        if (way >= wanted && kept.size() + 1 < most) {
-            kept.push_back(point);
+    std::vector<RocPoint> kept;
+    std::size_t at = 0, last = points.size();
+    for (std::size_t place = 0; place < most; ++place) {
+        const double wanted = static_cast<double>(place) / static_cast<double>(most - 1);
+        while (at + 1 < points.size() && way(points[at]) < wanted) {
+            ++at;
         }
-    }
-    if (kept.back().false_alarm_rate < 1.0 || kept.back().detection_rate < 1.0) {
-        kept.push_back(points.back());
+        const bool before = at > 0 && wanted - way(points[at - 1]) < way(points[at]) - wanted;
+        const std::size_t nearest = before ? at - 1 : at;
+        if (nearest != last) {
+            kept.push_back(points[nearest]);
+            last = nearest;
+        }
     }
     return kept;
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "mc/gearbox_tile.hpp"
+#include "mc/healthy_reference.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/thread_clock.hpp"
 #include "mc/tile_rows.hpp"
@@ -113,7 +114,8 @@ PilotRecord Pilot::run(const Scene& scene) const {
     record.features_used = static_cast<int>(scene.study().features.use.size());
     record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
     record.steps = static_cast<int>(scene.plan().grid.steps.size());
-    InstanceFeatures features(scene);
+    const HealthyReference healthy = healthy_reference(scene, sampler_, path_);
+    InstanceFeatures features(scene, &healthy);
     const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
     double signal_s = 0.0;
     const double start = thread_processor_s();
@@ -123,8 +125,6 @@ PilotRecord Pilot::run(const Scene& scene) const {
         const GearboxTile tile = run_gearboxes(scene, sampler_, path_, some, kTileRows);
         record.tile_meshes += tile.march.marched;
         record.march_s += tile.march_cpu_s;
-        machine::AlignedVector folded(tile.folded.size() / kTileRows),
-            te_turn(tile.te_turn.size() / kTileRows);
         for (std::size_t g = 0; g < some.size(); ++g) {
             const int lane = static_cast<int>(g);
             const InstanceInputs& inputs = tile.inputs[g];
@@ -136,10 +136,8 @@ PilotRecord Pilot::run(const Scene& scene) const {
             if (!ok) {
                 continue;
             }
-            signals::copy_lane(tile.folded, kTileRows, lane, folded);
-            signals::copy_lane(tile.te_turn, kTileRows, lane, te_turn);
-            record.features.back() =
-                features.compute(folded, te_turn, inputs, some[g].group, some[g].index);
+            record.features.back() = features.compute(
+                lane_signals(scene, path_, tile, lane, features.meshes()), inputs, some[g]);
             const double signal_start = thread_processor_s();
             record.sensor.back() =
                 signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path_,

@@ -11,12 +11,11 @@
 #include "mc/command_support.hpp"
 #include "mc/gearbox_tile.hpp"
 #include "mc/hdf5_data.hpp"
+#include "mc/healthy_reference.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/provenance.hpp"
 #include "mc/run_report.hpp"
 #include "mc/simulation.hpp"
-#include "signals/sensor.hpp"
-#include "signals/sensor_noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -56,18 +55,15 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
                 const InstanceFeatures& features, const GearboxId& id, std::size_t rows,
                 Simulation& out) {
     const InstanceInputs& inputs = tile.inputs[0];
-    const auto clean =
-        signals::synthesize(tile.views, 0, tile.march.content, span_layout(scene), path,
-                            inputs.path_exponent, 0, scene.span_meshes(), tile.tones);
+    const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
+    const auto noise = sample_noise(scene, clean, features.noise().sensor, id);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
     out.columns.push_back({"sensor", "m/s^2", first(clean)});
     for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
-        Philox engine = noise_direction_stream(scene.study(), id.group, id.index);
-        const auto noisy = signals::noisy_samples(
-            clean, features.noise().sensor.along.size(), features.noise().sensor,
-            out.noise_levels[level] * inputs.noise_m_s2, engine);
+        std::vector<double> noisy = clean;
+        add_noise(noise, out.noise_levels[level] * inputs.noise_m_s2, noisy);
         out.columns.push_back(
             {fmt::format("sensor_noise_{:g}", out.noise_levels[level]), "m/s^2", first(noisy)});
     }
@@ -90,11 +86,13 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }
-    InstanceFeatures features(scene);
+    const HealthyReference healthy = healthy_reference(scene, sampler, path);
+    InstanceFeatures features(scene, &healthy);
     Simulation out;
     out.noise_levels = scene.study().sensor.noise_levels;
     out.feature_names = scene.study().features.use;
-    out.features = features.compute(tile.folded, tile.te_turn, tile.inputs[0], id.group, id.index);
+    out.features =
+        features.compute(lane_signals(scene, path, tile, 0, features.meshes()), tile.inputs[0], id);
 
     const int samples = scene.samples_per_mesh();
     const auto inputs = scene.inputs(tile.inputs[0]);
@@ -198,9 +196,9 @@ int simulate_command(const SimulateOptions& options) {
     const Study& study = scene->study();
     const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
     const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
-    if (options.instance < 0 || options.instance >= rows || meshes > scene->span_meshes()) {
+    if (options.instance < 0 || options.instance >= rows || meshes > scene->signal_meshes()) {
         fmt::print(stderr, "--instance is a row of the results, 0 to {}; --meshes is at most {}\n",
-                   rows - 1, scene->span_meshes());
+                   rows - 1, scene->signal_meshes());
         return kBadInput;
     }
     try {

@@ -1,10 +1,12 @@
-// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed, 4 stopped
-// before its end with a checkpoint to resume from.
+// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed,
+// 4 stopped before its end with a checkpoint to resume from.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "mc/measured_signal.hpp"
 
 namespace gearpod::mc {
 
@@ -23,8 +25,8 @@ struct RunOptions {
     StudyOptions study;
     std::string out;  // "": the study's name with .h5, in the working folder
     bool resume = false;
-    std::string time_limit;  // "hh:mm:ss", "": none
-    std::string watch;       // feature whose Pd the progress shows, "": the study's first
+    std::string time_limit;     // "hh:mm:ss", "": none
+    std::string watch;          // feature whose Pd the progress shows, "": the study's first
     std::vector<long> signals;  // rows whose signals the results hold as well
     bool quiet = false;
 };
@@ -57,6 +59,16 @@ struct ModesOptions {
 };
 int modes_command(const ModesOptions& options);
 
+struct AccuracyOptions {
+    StudyOptions study;
+    std::string json;      // "": none; "-": standard output instead of the table
+    std::string peers;     // table of other programs' results, "": none
+    int repeats = 3;       // of every rung's time
+    long gearboxes = 480;  // of the pilot ensemble; 0: no detection rates
+    bool quiet = false;
+};
+int accuracy_command(const AccuracyOptions& options);
+
 struct SimulateOptions {
     StudyOptions study;
     long instance = 0;  // row of the results file
@@ -64,5 +76,15 @@ struct SimulateOptions {
     std::string out;    // .h5 or .csv
 };
 int simulate_command(const SimulateOptions& options);
+
+struct FeaturesOptions {
+    StudyOptions study;
+    std::string signal;
+    SignalColumns columns;
+    std::vector<std::string> healthy;  // recordings of healthy gearboxes
+    double noise_level = 1.0;          // of the simulated ones, where there are no recordings
+    std::string json;                  // "": none; "-": standard output
+};
+int features_command(const FeaturesOptions& options);
 
 }  // namespace gearpod::mc

@@ -154,7 +154,8 @@ class Examples {
           frame_(frame),
           path_(path_grid(scene)),
           sampler_(scene.study()),
-          features_(scene),
+          healthy_(healthy_reference(scene, sampler_, path_)),
+          features_(scene, &healthy_),
           level_(reference_level(frame.noise_levels)) {}
 
     Json run(const ExampleRow& row) {
@@ -165,8 +166,8 @@ class Examples {
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const auto values = features_.compute(tile.folded, tile.te_turn, tile.inputs[0], id.group,
-                                              id.index, &levels);
+        const auto values = features_.compute(
+            lane_signals(scene_, path_, tile, 0, features_.meshes()), tile.inputs[0], id, &levels);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
@@ -205,13 +206,10 @@ class Examples {
                     const std::vector<double>& noisy_rms, Json& json) {
         const signals::SpanLayout layout = span_layout(scene_);
         const int samples = scene_.samples_per_mesh();
-        const auto clean =
-            signals::synthesize(tile.views, 0, tile.march.content, layout, path_,
-                                tile.inputs[0].path_exponent, 0, scene_.span_meshes(), tile.tones);
-        Philox engine = noise_direction_stream(scene_.study(), id.group, id.index);
-        const signals::NoiseDraw& draw = features_.noise().sensor;
-        const auto noisy = signals::noisy_samples(
-            clean, draw.along.size(), draw, noise_level() * tile.inputs[0].noise_m_s2, engine);
+        const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
+        auto noisy = clean;
+        add_noise(sample_noise(scene_, clean, features_.noise().sensor, id),
+                  noise_level() * tile.inputs[0].noise_m_s2, noisy);
         const std::size_t turn =
             static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);
         json["sensor"] = {{"clean", time_json({clean.data(), turn}, samples)},
@@ -228,6 +226,7 @@ class Examples {
     const Results& frame_;
     const signals::PathGrid path_;
     const Sampler sampler_;
+    const HealthyReference healthy_;
     InstanceFeatures features_;
     const std::size_t level_;
 };

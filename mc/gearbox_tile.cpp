@@ -10,6 +10,7 @@
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
 #include "signals/path_window.hpp"
+#include "signals/sensor.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -29,7 +30,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     lockstep::TileSettings settings;
     settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
-    settings.march_meshes = n.horizon == Horizon::march ? scene.span_meshes() : 0;
+    settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
     settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
     settings.with_motion = with_motion;
     return settings;
@@ -144,6 +145,22 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                         tile.te_turn);
     tile.signals_s = lap(start);
     return tile;
+}
+
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
+    LaneSignals own;
+    own.folded.resize(tile.folded.size() / lanes);
+    own.te_turn.resize(tile.te_turn.size() / lanes);
+    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    if (meshes > 0) {
+        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
+                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
+                                         0, meshes, tile.tones);
+    }
+    return own;
 }
 
 }  // namespace gearpod::mc

@@ -36,4 +36,14 @@ signals::PathGrid path_grid(const Scene& scene);
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false);
 
+// One lane of a tile.
+struct LaneSignals {
+    std::vector<double> folded;   // as GearboxTile::folded
+    std::vector<double> te_turn;  // as GearboxTile::te_turn
+    std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
+};
+// `meshes`: mesh periods of sensor signal, 0 for none.
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes);
+
 }  // namespace gearpod::mc

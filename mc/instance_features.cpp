@@ -1,5 +1,7 @@
 #include "mc/instance_features.hpp"
 
+#include <algorithm>
+#include <boost/random/normal_distribution.hpp>
 #include <chrono>
 #include <stdexcept>
 
@@ -59,73 +61,124 @@ std::vector<const features::Feature*> used_features(const Study& study) {
     return used;
 }
 
-InstanceFeatures::InstanceFeatures(const Scene& scene)
+unsigned needs_of(std::span<const features::Feature* const> features) {
+    unsigned needs = 0;
+    for (const features::Feature* feature : features) {
+        needs |= feature->needs;
+    }
+    return needs;
+}
+
+std::vector<double> sample_noise(const Scene& scene, std::span<const double> clean,
+                                 const signals::NoiseDraw& draw, const GearboxId& id) {
+    Philox engine = noise_direction_stream(scene.study(), id.group, id.index);
+    const std::size_t bins = draw.along.size();
+    const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
+    std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
+    boost::random::normal_distribution<double> normal;
+    while (unit.size() < clean.size()) {
+        unit.push_back(normal(engine));
+    }
+    return unit;
+}
+
+void add_noise(std::span<const double> unit, double sigma, std::span<double> samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] += sigma * unit[i];
+    }
+}
+
+InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
     : scene_(scene),
-      features_(used_features(scene.study())),
       sensor_noise_(scene.span().ring_teeth),
       windowing_(span_layout(scene), scene.samples_per_mesh(), scene.study().features.tukey_taper),
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
+      analysis_(scene, needs),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
-void InstanceFeatures::draw_noise(std::size_t bins, std::size_t te_samples, Group group,
-                                  std::uint64_t instance) {
+void InstanceSignals::draw_noise(const LaneSignals& gearbox, const GearboxId& id) {
     const Stopwatch watch(noise_s_);
-    if (bins > 0) {
-        Philox sensor = sensor_noise_stream(scene_.study(), group, instance);
-        sensor_noise_.draw(sensor, bins, noise_.sensor);
+    if (!gearbox.folded.empty()) {
+        Philox sensor = sensor_noise_stream(scene_.study(), id.group, id.index);
+        sensor_noise_.draw(sensor, gearbox.folded.size(), noise_.sensor);
     }
-    Philox encoder = encoder_noise_stream(scene_.study(), group, instance);
-    noise_.encoder.resize(te_samples);
+    Philox encoder = encoder_noise_stream(scene_.study(), id.group, id.index);
+    noise_.encoder.resize(gearbox.te_turn.size());
     signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
+    if (!gearbox.sensor.empty()) {
+        unit_noise_ = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
+    }
 }
 
-void InstanceFeatures::add_noise(std::span<const double> folded, double sensor_noise,
-                                 std::span<const double> te_turn, double te_noise) {
+void InstanceSignals::add_level(const LaneSignals& gearbox, double sensor_noise, double te_noise) {
     const Stopwatch watch(noise_s_);
-    if (!folded.empty()) {
-        signals::add_sensor_noise(folded, noise_.sensor, sensor_noise, folded_);
+    folded_.resize(gearbox.folded.size());
+    if (!folded_.empty()) {
+        signals::add_sensor_noise(gearbox.folded, noise_.sensor, sensor_noise, folded_);
     }
+    te_.resize(gearbox.te_turn.size());
     for (std::size_t i = 0; i < te_.size(); ++i) {
-        te_[i] = te_turn[i] + te_noise * noise_.encoder[i];
+        te_[i] = gearbox.te_turn[i] + te_noise * noise_.encoder[i];
     }
+    samples_ = gearbox.sensor;
+    mc::add_noise(unit_noise_, sensor_noise, samples_);
 }
 
-std::vector<double> InstanceFeatures::compute(std::span<const double> folded,
-                                              std::span<const double> te_turn,
-                                              const InstanceInputs& inputs, Group group,
-                                              std::uint64_t instance,
-                                              std::vector<LevelSignals>* signals) {
-    const Study& study = scene_.study();
-    const auto& levels = study.sensor.noise_levels;
-    const bool sensed = !folded.empty();  // a quasi-static gearbox has no sensor
-    draw_noise(folded.size(), te_turn.size(), group, instance);
-    spectrum_.load(te_turn, noise_.encoder);
-    folded_.resize(folded.size());
-    te_.resize(te_turn.size());
-
-    std::vector<double> values(features_.size() * levels.size());
+void InstanceSignals::each_level(
+    const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id,
+    const std::function<void(std::size_t, const features::FeatureInput&)>& visit) {
+    const auto& levels = scene_.study().sensor.noise_levels;
+    const bool sensed = !gearbox.folded.empty();  // a quasi-static gearbox has no sensor
+    draw_noise(gearbox, id);
+    spectrum_.load(gearbox.te_turn, noise_.encoder);
     for (std::size_t level = 0; level < levels.size(); ++level) {
         const double te_noise = levels[level] * inputs.encoder_noise_rad;
-        add_noise(folded, levels[level] * inputs.noise_m_s2, te_turn, te_noise);
+        add_level(gearbox, levels[level] * inputs.noise_m_s2, te_noise);
         spectrum_.amplitudes(te_noise, amplitude_);
         features::FeatureInput input;
         if (sensed) {
-            windowing_.search(folded_, tooth_rms_);
+            const int offset = windowing_.search(folded_, tooth_rms_);
             input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
+            if (analysis_.needs_samples()) {
+                analysis_.sensor(samples_, offset, input);
+            }
         }
+        analysis_.te(te_, input);
         input.te_turn = te_;
         input.te_amplitude = amplitude_;
         input.planet_teeth = scene_.span().planet_teeth;
-        input.te_harmonics = study.features.te_harmonics;
+        input.te_harmonics = scene_.study().features.te_harmonics;
         input.tooth_rms = tooth_rms_;
+        visit(level, input);
+    }
+}
+
+InstanceFeatures::InstanceFeatures(const Scene& scene, const HealthyReference* healthy)
+    : InstanceSignals(scene, needs_of(used_features(scene.study()))),
+      features_(used_features(scene.study())),
+      healthy_(healthy),
+      levels_(scene.study().sensor.noise_levels.size()) {}
+
+std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
+                                              const InstanceInputs& inputs, const GearboxId& id,
+                                              std::vector<LevelSignals>* signals) {
+    std::vector<double> values(features_.size() * levels_);
+    each_level(gearbox, inputs, id, [&](std::size_t level, features::FeatureInput input) {
+        if (!healthy_->amplitude.empty()) {
+            input.healthy = healthy_->at(level);
+        }
         if (signals != nullptr) {
-            signals->push_back({te_, sensed ? tooth_rms_ : std::vector<double>{}});
+            const auto own = [](std::span<const double> signal) {
+                return std::vector<double>(signal.begin(), signal.end());
+            };
+            signals->push_back({own(input.te_turn), gearbox.folded.empty() ? std::vector<double>{}
+                                                                           : own(input.tooth_rms)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            values[f * levels.size() + level] = features_[f]->compute(input);
+            values[f * levels_ + level] = features_[f]->compute(input);
         }
-    }
+    });
     return values;
 }
 

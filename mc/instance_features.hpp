@@ -1,13 +1,17 @@
-// From one gearbox's folded sensor signal and averaged TE to its features at every noise level.
+// From one gearbox's signals to its features at every noise level.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "features/feature.hpp"
+#include "mc/gearbox_tile.hpp"
+#include "mc/healthy_reference.hpp"
 #include "mc/philox.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
+#include "mc/span_analysis.hpp"
 #include "signals/order_spectrum.hpp"
 #include "signals/sensor_noise.hpp"
 #include "signals/windowing.hpp"
@@ -23,8 +27,16 @@ Philox noise_direction_stream(const Study& study, Group group, std::uint64_t ins
 // The layout that windowing looks at.
 signals::SpanLayout span_layout(const Scene& scene);
 
-// The features that a study uses, in its order.
+// The features that a study uses, in its order; all their needs (features::Need).
 std::vector<const features::Feature*> used_features(const Study& study);
+unsigned needs_of(std::span<const features::Feature* const> features);
+
+// The unit noise of every sample of a gearbox's noise-free sensor signal, which begins with the
+// span: there it folds to what `draw` says, and beyond it is drawn sample by sample.
+std::vector<double> sample_noise(const Scene& scene, std::span<const double> clean,
+                                 const signals::NoiseDraw& draw, const GearboxId& id);
+// samples[i] += sigma * unit[i]
+void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
 
 // What the noise adds to one gearbox, for all noise levels.
 struct NoiseOfInstance {
@@ -38,37 +50,55 @@ struct LevelSignals {
     std::vector<double> tooth_rms;  // m/s^2, Z_p; empty without a sensor
 };
 
-// Holds scratch memory: one object per thread.
-class InstanceFeatures {
+// A gearbox's signals as features look at them. Holds scratch memory: one object per thread.
+class InstanceSignals {
   public:
-    explicit InstanceFeatures(const Scene& scene);
+    // For features with these needs.
+    InstanceSignals(const Scene& scene, unsigned needs);
 
-    // Values of all used features: [feature * noise levels + level]. `folded`: Z_p P bins of
-    // squared sensor signal; `te_turn`: Z_p P_te samples of averaged TE, rad. `signals` gets what
-    // they look at, an entry a noise level, unless it is null.
-    std::vector<double> compute(std::span<const double> folded, std::span<const double> te_turn,
-                                const InstanceInputs& inputs, Group group, std::uint64_t instance,
-                                std::vector<LevelSignals>* signals = nullptr);
+    // Mesh periods of sensor signal that LaneSignals must hold, perhaps none.
+    int meshes() const { return analysis_.needs_samples() ? scene_.signal_meshes() : 0; }
 
-    // The noise that compute() used last.
+    // visit(level, input) for every noise level; `input` is valid during the call.
+    void each_level(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id,
+                    const std::function<void(std::size_t, const features::FeatureInput&)>& visit);
+
+    // The noise that each_level() used last.
     const NoiseOfInstance& noise() const { return noise_; }
     // Seconds that drawing and adding noise has taken so far.
     double noise_s() const { return noise_s_; }
 
   private:
-    void draw_noise(std::size_t bins, std::size_t te_samples, Group group, std::uint64_t instance);
-    // Into folded_ and te_; rms in m/s^2 and rad.
-    void add_noise(std::span<const double> folded, double sensor_noise,
-                   std::span<const double> te_turn, double te_noise);
+    void draw_noise(const LaneSignals& gearbox, const GearboxId& id);
+    // Into folded_, te_ and samples_; rms in m/s^2 and rad.
+    void add_level(const LaneSignals& gearbox, double sensor_noise, double te_noise);
 
     const Scene& scene_;
-    std::vector<const features::Feature*> features_;
     signals::SensorNoise sensor_noise_;
     signals::Windowing windowing_;
     signals::OrderSpectrum spectrum_;
+    SpanAnalysis analysis_;
     NoiseOfInstance noise_;
-    std::vector<double> folded_, te_, amplitude_, tooth_rms_;
+    std::vector<double> unit_noise_;  // of every sample
+    std::vector<double> folded_, te_, samples_, amplitude_, tooth_rms_;
     double noise_s_ = 0.0;
+};
+
+// The features that a study uses.
+class InstanceFeatures : public InstanceSignals {
+  public:
+    // `healthy` is that of healthy_reference() and outlives the object.
+    InstanceFeatures(const Scene& scene, const HealthyReference* healthy);
+
+    // Values of all used features: [feature * noise levels + level]. `signals` gets what they look
+    // at, an entry a noise level, unless it is null.
+    std::vector<double> compute(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                const GearboxId& id, std::vector<LevelSignals>* signals = nullptr);
+
+  private:
+    std::vector<const features::Feature*> features_;
+    const HealthyReference* healthy_;
+    std::size_t levels_;
 };
 
 }  // namespace gearpod::mc

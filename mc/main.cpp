@@ -11,11 +11,15 @@ namespace {
 
 using namespace gearpod::mc;
 
-CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
+void add_study_keys(CLI::App& command, StudyOptions& options) {
     command
         .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
+}
+
+CLI::Option* add_study(CLI::App& command, StudyOptions& options) {
+    add_study_keys(command, options);
     return command.add_option("study", options.path, "study file (TOML)")->required();
 }
 
@@ -111,6 +115,22 @@ int run_program(int argc, char** argv) {
     modes_app->add_option("--json", modes.json, "write JSON to a file, or to -");
     modes_app->callback([&] { code = modes_command(modes); });
 
+    AccuracyOptions accuracy;
+    auto* accuracy_app = app.add_subcommand(
+        "accuracy", "what accuracy costs: every way to march a study, its time and its error");
+    add_study(*accuracy_app, accuracy.study);
+    accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -");
+    accuracy_app->add_option("--peers", accuracy.peers,
+                             "table (CSV) of other programs' results to show beside ours");
+    accuracy_app->add_option("--repeats", accuracy.repeats, "how often every rung is timed")
+        ->check(CLI::Range(1, 1000));
+    accuracy_app
+        ->add_option("--gearboxes", accuracy.gearboxes,
+                     "gearboxes whose detection rates are compared; 0 for none")
+        ->check(CLI::Range(0L, 1000000L));
+    accuracy_app->add_flag("--quiet", accuracy.quiet, "no progress");
+    accuracy_app->callback([&] { code = accuracy_command(accuracy); });
+
     SimulateOptions simulate;
     auto* simulate_app = app.add_subcommand("simulate", "one gearbox's signals and features");
     add_study(*simulate_app, simulate.study);
@@ -121,6 +141,31 @@ int run_program(int argc, char** argv) {
         ->add_option("--meshes", simulate.meshes, "mesh periods to write (default: a planet turn)")
         ->check(CLI::PositiveNumber);
     simulate_app->callback([&] { code = simulate_command(simulate); });
+
+    FeaturesOptions features;
+    auto* features_app =
+        app.add_subcommand("features", "the features of a measured signal (CSV, HDF5, MAT)");
+    features_app->add_option("signal", features.signal, "signal file (.csv, .h5, .hdf5, .mat)")
+        ->required();
+    add_study_keys(*features_app, features.study);
+    features_app->add_option("--study", features.study.path, "study file (TOML)")->required();
+    features_app->add_option("--sensor", features.columns.sensor,
+                             "column of the acceleration, m/s^2 (default: sensor)");
+    features_app->add_option("--te", features.columns.te,
+                             "column of the transmission error, rad (default: te)");
+    features_app
+        ->add_option("--sampling-Hz", features.columns.sampling_Hz,
+                     "sampling rate (default: from the file)")
+        ->check(CLI::PositiveNumber);
+    features_app
+        ->add_option("--healthy", features.healthy,
+                     "recording of a healthy gearbox for na4, nb4 and nsds to compare with, as "
+                     "often as there are (default: gearboxes simulated from the study)")
+        ->allow_extra_args(false);
+    features_app->add_option("--noise-level", features.noise_level,
+                             "noise level of those simulated gearboxes (default: 1)");
+    features_app->add_option("--json", features.json, "write JSON to a file, or to -");
+    features_app->callback([&] { code = features_command(features); });
 
     if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
         return kBadInput;

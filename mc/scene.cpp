@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mc/instance_features.hpp"
 #include "mc/numerics_choice.hpp"
 #include "mc/scene_body.hpp"
 #include "mc/study_gears.hpp"
@@ -35,6 +36,7 @@ Scene::Scene(const Study& study)
     pairs_ = make_pairs(meshes_, *drive_);
     fault_.emplace(study_, meshes_, pairs_);
     build_plan();
+    signal_meshes_ = meshes_needed(*this, needs_of(used_features(study_)));
 }
 
 Scene::~Scene() = default;

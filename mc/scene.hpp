@@ -53,6 +53,9 @@ class Scene {
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
     int span_meshes() const { return span_.meshes(); }
+    // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
+    // the sun or the ring need it.
+    int signal_meshes() const { return signal_meshes_; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
@@ -61,6 +64,7 @@ class Scene {
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
     int least_steps() const { return stepping_.least; }
+    double explicit_steps() const { return stepping_.explicit_steps; }
     // How a pilot calibrated the steps, if one did.
     const std::optional<Calibration>& calibration() const { return calibration_; }
     double decay_meshes() const { return stepping_.decay_meshes; }
@@ -101,6 +105,7 @@ class Scene {
     Stepping stepping_;
     std::optional<Calibration> calibration_;
     int te_samples_ = 0;
+    int signal_meshes_ = 0;
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };

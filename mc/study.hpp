@@ -194,7 +194,7 @@ struct Sensor {
 };
 
 struct Features {
-    std::vector<std::string> use;  // as in the file; all known ones by default
+    std::vector<std::string> use;  // as in the file; the basic ones by default
     double tukey_taper = 0.1;
     int te_harmonics = 8;
 

@@ -128,6 +128,13 @@ void check_feature(StudyDraft& draft, const std::string& name) {
                                  "accelerations: effects.motion)",
                                  name),
                      "use features of the transmission error");
+    } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
+               draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
+               draft.usable("gearbox.kind")) {
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
+                     "use window features without sun_ or ring_: they look at the teeth of the gear "
+                     "with the fault, else of the pinion");
     }
 }
 

@@ -182,11 +182,11 @@ void read_sections(StudyDraft& draft, const Value& document) {
     }
 }
 
-// All that the motion has signals for.
+// The basic ones that the motion has signals for.
 void fill_features(Study& study) {
     if (study.features.use.empty()) {
         for (const features::Feature& feature : features::all_features()) {
-            if (!feature.from_sensor || !study.effects.quasi_static()) {
+            if (feature.basic() && (!feature.from_sensor || !study.effects.quasi_static())) {
                 study.features.use.emplace_back(feature.name);
             }
         }

@@ -23,7 +23,9 @@ RowShape row_shape(const Sampler& sampler, const Study& study) {
 }
 
 TileWorker::TileWorker(const TileTask& task)
-    : task_(task), features_(task.scene), shape_(row_shape(task.sampler, task.scene.study())) {}
+    : task_(task),
+      features_(task.scene, &task.healthy),
+      shape_(row_shape(task.sampler, task.scene.study())) {}
 
 TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
     std::vector<GearboxId> ids;
@@ -64,13 +66,9 @@ void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int l
     std::vector<double> values(shape_.features * shape_.levels,
                                std::numeric_limits<double>::quiet_NaN());
     if (status == Status::ok) {
-        const auto lanes = static_cast<std::size_t>(computed.views.lanes);
-        std::vector<double> folded(computed.folded.size() / lanes);
-        std::vector<double> te(computed.te_turn.size() / lanes);
-        signals::copy_lane(computed.folded, computed.views.lanes, lane, folded);
-        signals::copy_lane(computed.te_turn, computed.views.lanes, lane, te);
-        values = features_.compute(folded, te, computed.inputs[static_cast<std::size_t>(lane)],
-                                   id.group, id.index);
+        values = features_.compute(
+            lane_signals(task_.scene, task_.path, computed, lane, features_.meshes()),
+            computed.inputs[static_cast<std::size_t>(lane)], id);
     }
     rows.values.insert(rows.values.end(), values.begin(), values.end());
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mc/gearbox_tile.hpp"
+#include "mc/healthy_reference.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/tile_rows.hpp"
 
@@ -25,11 +26,15 @@ RowShape row_shape(const Sampler& sampler, const Study& study);
 // What all workers share, made once.
 struct TileTask {
     explicit TileTask(const Scene& shared_scene)
-        : scene(shared_scene), sampler(scene.study()), path(path_grid(scene)) {}
+        : scene(shared_scene),
+          sampler(scene.study()),
+          path(path_grid(scene)),
+          healthy(healthy_reference(scene, sampler, path)) {}
 
     const Scene& scene;
     const Sampler sampler;
     const signals::PathGrid path;
+    const HealthyReference healthy;
 };
 
 // Holds scratch memory: one object per thread.

@@ -9,6 +9,8 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
+from matplotlib.patches import Rectangle  # noqa: E402
 
 # Told apart by people with any colour vision, and at least 3 : 1 against the page in either scheme;
 # lines differ in their dashes as well. (light, dark)
@@ -21,6 +23,8 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8f979f"
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
 _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
+
+GAP = "#d3d8dd"  # a square of a map without a number
 
 # From quiet to loud, light to dark blue; the same in either scheme with a thin edge.
 QUIET, LOUD = (0.42, 0.68, 0.88), (0.33, 0.07, 0.20)
@@ -50,7 +54,7 @@ def marker(index):
 
 def shade(share):
     """A colour between quiet (0) and loud (1)."""
-    return tuple(a + share * (b - a) for a, b in zip(QUIET, LOUD))
+    return between(QUIET, LOUD, share)
 
 
 def panel(height=3.2):
@@ -76,6 +80,23 @@ def _scheme_colours(text):
 def _short_numbers(match):
     return re.sub(r"-?\d+\.\d+", lambda number: f"{float(number.group()):.1f}".replace(".0", ""),
                   match.group())
+
+
+def between(low, high, share):
+    """A colour from low (share 0) to high (1), as parts of red, green and blue."""
+    return tuple(a + share * (b - a) for a, b in zip(low, high))
+
+
+def cell(axes, column, row, fill, text):
+    """A coloured square of a map with a number on it, dark or light, whichever is read better."""
+    axes.add_patch(Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill,
+                             edgecolor="none"))
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+                        for part in to_rgb(fill))
+    bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18
+    # Not INK: it stands on the square, whatever the page's scheme.
+    axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=9,
+              color="#101418" if bright else "#fefefe")
 
 
 class SvgNames:

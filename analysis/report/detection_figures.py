@@ -1,9 +1,13 @@
 """Probability of detection, ROC, detection rates over noise, ranking of the features."""
 
+import math
+
 from blocks import note, table
-from charts import (INK, MUTED, PAPER, RULE, colour, dash, legend_below, marker, panel, shade,
-                    to_svg)
+from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
+                    panel, shade, to_svg)
 from words import (joined, noise, number, p_value, percent, rate, rate_with_bounds)
+
+MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
 
 def _limits(axes, report):
@@ -81,8 +85,8 @@ def _pod_table(report, n):
 def _rate_table(report, f):
     head = ["size"] + [f"× {number(level)}" for level in report.levels]
     rows = []
-    for i, cell in enumerate(report.cells(f, 0)):
-        row = [report.sizes.group(cell["size_low"], cell["size_high"])]
+    for i, group in enumerate(report.cells(f, 0)):
+        row = [report.sizes.group(group["size_low"], group["size_high"])]
         for n in range(len(report.levels)):
             c = report.cells(f, n)[i]
             row.append(rate_with_bounds(c["pd"], c["lower"], c["upper"])
@@ -93,7 +97,8 @@ def _rate_table(report, f):
 
 def _comparison(report, page):
     n = report.reference
-    figure, axes = panel(4.1)
+    columns = 2 if max(len(name) for name in report.names) < 20 else 1
+    figure, axes = panel(3.3 + 0.2 * math.ceil(len(report.names) / columns))
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for position, f in enumerate(report.order(n)):
         level = report.reliable(f, n)
@@ -109,7 +114,7 @@ def _comparison(report, page):
                       textcoords="offset points", fontsize=9, color=INK,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.2, "alpha": 0.85})
     _limits(axes, report)
-    legend_below(axes, 2, handlelength=2.8)
+    legend_below(axes, columns, handlelength=2.8)
     about = "; ".join(_state(report, f, n) for f in report.order(n))
     svg = to_svg(figure, f"Probability of detection of every feature at "
                  f"{noise(report.levels[n])}", about, page.names)
@@ -179,13 +184,9 @@ def heat_maps(report, page):
         figure, axes = panel(0.95 + 0.36 * len(cells))
         axes.grid(False)
         for n, row in enumerate(cells):
-            for i, cell in enumerate(row):
-                known = cell["pd"] is not None
-                fill = _heat(cell["pd"]) if known else RULE
-                axes.add_patch(_square(i, n, fill))
-                dark = known and cell["pd"] > 0.55
-                axes.text(i + 0.5, n + 0.5, rate(cell["pd"]) if known else "–", ha="center",
-                          va="center", fontsize=9, color="#fefefe" if dark else "#1b1f24")
+            for i, c in enumerate(row):
+                known = c["pd"] is not None
+                cell(axes, i, n, between(MISSED, FOUND, c["pd"]) if known else GAP, rate(c["pd"]))
         axes.set_xlim(0, max(1, len(sizes)))
         axes.set_ylim(0, max(1, len(cells)))
         axes.set_xticks([i + 0.5 for i in range(len(sizes))], sizes,
@@ -205,17 +206,6 @@ def heat_maps(report, page):
            "found. The column of size 0, where there is one, holds false alarms.")
     return page.figure("Detection rate over noise and fault size", charts, how,
                        "".join(_rate_table(report, f) for f in report.order(report.reference)))
-
-
-def _heat(value):
-    """White to dark blue, whatever the scheme: the numbers stand on it."""
-    low, high = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
-    return tuple(a + value * (b - a) for a, b in zip(low, high))
-
-
-def _square(column, row, fill):
-    from matplotlib.patches import Rectangle
-    return Rectangle((column + 0.02, row + 0.03), 0.96, 0.94, facecolor=fill, edgecolor="none")
 
 
 def roc(report, page):

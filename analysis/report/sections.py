@@ -2,6 +2,7 @@
 
 import detection_figures
 import influence_figures
+import input_figures
 import signal_figures
 from blocks import bullets, note, paragraph, table
 from words import count, escape, noise, number, percent, plural, rate, rate_with_bounds
@@ -27,13 +28,15 @@ def features(report, page):
     if not report.reliability or report.silence():
         return ""
     return page.section("features", "Features compared", detection_figures.ranking(report, page)
-                        + detection_figures.roc(report, page))
+                        + detection_figures.roc(report, page)
+                        + input_figures.combined(report, page))
 
 
 def inputs(report, page):
     if not report.reliability or report.silence():
         return ""
-    body = influence_figures.misses(report, page)
+    body = (influence_figures.misses(report, page) + input_figures.sensitivity(report, page)
+            + input_figures.rates_by_input(report, page) + input_figures.a90_maps(report, page))
     by_condition = influence_figures.conditions(report)
     if by_condition:
         body += "<h3>Thresholds by operating condition</h3>" + by_condition

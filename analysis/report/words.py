@@ -37,7 +37,8 @@ def rate(value):
         return "–"
     if 0 < value < 0.005 or 0.995 < value < 1:
         return f"{value:.4f}".rstrip("0")
-    return f"{value:.2f}"
+    text = f"{value:.2f}"
+    return "0.00" if text == "-0.00" else text.replace("-", "−")
 
 
 def rate_with_bounds(value, lower, upper):

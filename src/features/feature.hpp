@@ -1,5 +1,5 @@
 // Condition indicators: one number for one gearbox at one noise level. A feature is one short file
-// with its definition, and one line in all_features.cpp.
+// with its definition, and one line in all_features.cpp. README.md lists all definitions.
 #pragma once
 
 #include <span>
@@ -10,7 +10,26 @@ namespace gearpod::features {
 // Which way the feature moves as damage grows, hence which side of a threshold raises the alarm.
 enum class AlarmSide { high, low };
 
-// The signals of one gearbox at one noise level.
+// A signal averaged over the turns of a gear, and its parts: signals/mesh_separation.hpp.
+struct TurnSignals {
+    std::span<const double> turn;  // mean not removed
+    std::span<const double> regular, residual, difference, envelope;
+    std::span<const double> amplitude;  // [order]
+};
+
+// Statistics of every tooth's windowed and mapped signal: signals/tooth_signals.hpp.
+struct ToothSignals {
+    std::span<const double> rms, kurtosis, crest, m8a;
+};
+
+// What trending indicators know of healthy gearboxes: means over several records.
+struct HealthyRecords {
+    double residual_variance = 0.0;     // (m/s^2)^2
+    double envelope_variance = 0.0;     // (m/s^2)^2, about the envelope's mean
+    std::span<const double> amplitude;  // m/s^2, [order] of the averaged turn
+};
+
+// The signals of one gearbox at one noise level. Empty where nobody asked for them.
 struct FeatureInput {
     std::span<const double> te_turn;       // rad, one planet turn, averaged, mean removed
     std::span<const double> te_amplitude;  // rad, [order], order 0 to the Nyquist order of te_turn
@@ -18,7 +37,29 @@ struct FeatureInput {
     int te_harmonics = 0;                  // mesh harmonics that te_fm0 counts
     std::span<const double> tooth_rms;     // m/s^2, one per planet tooth, at the best first window
     double sensor_mean_square = 0.0;       // (m/s^2)^2 over the span
+
+    TurnSignals te;                  // rad
+    TurnSignals sensor;              // m/s^2, averaged over planet turns
+    ToothSignals planet, sun, ring;  // of the sensor
+    double filtered_rms = 0.0;       // m/s^2, of the sensor without its average over carrier turns
+    HealthyRecords healthy;
 };
+
+// Signals that cost more than folded squares and the averaged TE do. A feature without needs is
+// basic: studies use those unless they name others.
+enum Need : unsigned {
+    kTeParts = 1,         // FeatureInput::te
+    kSensorTurn = 2,      // sensor
+    kSunRms = 4,          // sun.rms
+    kRingRms = 8,         // ring.rms
+    kPlanetMoments = 16,  // planet but for its rms, which is tooth_rms
+    kSunMoments = 32,     // sun but for its rms
+    kRingMoments = 64,    // ring but for its rms
+    kFiltered = 128,      // filtered_rms
+    kHealthy = 256,       // healthy
+};
+inline constexpr unsigned kSun = kSunRms | kSunMoments;
+inline constexpr unsigned kRing = kRingRms | kRingMoments;
 
 struct Feature {
     std::string_view name;
@@ -28,6 +69,9 @@ struct Feature {
     // NaN where the definition divides by zero (a signal that is exactly constant, say).
     double (*compute)(const FeatureInput& input) = nullptr;
     bool from_sensor = false;  // whether it needs the sensor's signal
+    unsigned needs = 0;        // of Need
+
+    bool basic() const { return needs == 0; }
 };
 
 std::span<const Feature> all_features();
@@ -39,8 +83,37 @@ double te_rms(const FeatureInput& input);
 double te_kurtosis(const FeatureInput& input);
 double te_fc(const FeatureInput& input);
 double te_fm0(const FeatureInput& input);
+double te_fm4(const FeatureInput& input);
+double te_m6a(const FeatureInput& input);
+double te_m8a(const FeatureInput& input);
+
 double sensor_rms(const FeatureInput& input);
+double crest_factor(const FeatureInput& input);
+double fm4(const FeatureInput& input);
+double m6a(const FeatureInput& input);
+double m8a(const FeatureInput& input);
+double na4(const FeatureInput& input);
+double nb4(const FeatureInput& input);
+double energy_ratio(const FeatureInput& input);
+double sideband_index(const FeatureInput& input);
+double sideband_level(const FeatureInput& input);
+double frms(const FeatureInput& input);
+double nsds(const FeatureInput& input);
+
 double window_ratio(const FeatureInput& input);
 double window_z(const FeatureInput& input);
+double window_kurtosis(const FeatureInput& input);
+double window_crest(const FeatureInput& input);
+double window_m8a(const FeatureInput& input);
+double sun_window_ratio(const FeatureInput& input);
+double sun_window_z(const FeatureInput& input);
+double sun_window_kurtosis(const FeatureInput& input);
+double sun_window_crest(const FeatureInput& input);
+double sun_window_m8a(const FeatureInput& input);
+double ring_window_ratio(const FeatureInput& input);
+double ring_window_z(const FeatureInput& input);
+double ring_window_kurtosis(const FeatureInput& input);
+double ring_window_crest(const FeatureInput& input);
+double ring_window_m8a(const FeatureInput& input);
 
 }  // namespace gearpod::features

@@ -9,6 +9,7 @@
 // serves all noise levels.
 #pragma once
 
+#include <algorithm>
 #include <boost/random/normal_distribution.hpp>
 #include <cstddef>
 #include <span>
@@ -61,33 +62,43 @@ void add_sensor_noise(std::span<const double> folded, const NoiseDraw& draw, dou
 void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise);
 
-// The time signal (synthesize, whole span: Z_p Z_r P samples) with noise of rms sigma that folds to
-// add_sensor_noise's values. Bins are visited in order b = 0, 1, ...; the engine gives the
-// directions.
+// The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
+// sigma times it the signal folds to add_sensor_noise's values. Bins are visited in order b = 0, 1,
+// ...; the engine gives the directions.
 template <typename Engine>
-std::vector<double> noisy_samples(std::span<const double> signal, std::size_t bins,
-                                  const NoiseDraw& draw, double sigma, Engine& engine) {
+std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
+                               const NoiseDraw& draw, Engine& engine) {
     if (bins == 0 || signal.size() % bins != 0 || draw.along.size() != bins ||
         draw.across.size() != bins) {
-        throw std::invalid_argument("noisy samples: signal, bins and draw disagree in size");
+        throw std::invalid_argument("unit noise: signal, bins and draw disagree in size");
     }
     const std::size_t turns = signal.size() / bins;
     boost::random::normal_distribution<double> normal;
-    std::vector<double> samples(turns);
-    std::vector<double> normals(turns);
-    std::vector<double> noise(turns);
-    std::vector<double> noisy(signal.begin(), signal.end());
-    for (std::size_t b = 0; b < bins; ++b) {
+    std::vector<double> all(signal.size());
+    // Eight bins, a cache line of the signal, at a time.
+    constexpr std::size_t kBlock = 8;
+    std::vector<double> samples(kBlock * turns), normals(turns), noise(kBlock * turns);
+    for (std::size_t b = 0; b < bins; b += kBlock) {
+        const std::size_t count = std::min(kBlock, bins - b);
         for (std::size_t i = 0; i < turns; ++i) {
-            samples[i] = signal[i * bins + b];
-            normals[i] = normal(engine);
+            for (std::size_t c = 0; c < count; ++c) {
+                samples[c * turns + i] = signal[i * bins + b + c];
+            }
         }
-        noise_of_bin(samples, draw.along[b], draw.across[b], normals, noise);
+        for (std::size_t c = 0; c < count; ++c) {
+            for (double& value : normals) {
+                value = normal(engine);
+            }
+            noise_of_bin(std::span(samples).subspan(c * turns, turns), draw.along[b + c],
+                         draw.across[b + c], normals, std::span(noise).subspan(c * turns, turns));
+        }
         for (std::size_t i = 0; i < turns; ++i) {
-            noisy[i * bins + b] += sigma * noise[i];
+            for (std::size_t c = 0; c < count; ++c) {
+                all[i * bins + b + c] = noise[c * turns + i];
+            }
         }
     }
-    return noisy;
+    return all;
 }
 
 }  // namespace gearpod::signals

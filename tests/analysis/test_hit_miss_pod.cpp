@@ -143,6 +143,45 @@ TEST_CASE("Every bound of the band lies where the profile deviance is z squared"
     }
 }
 
+TEST_CASE("The band of a rate that hardly rises is that of a search over all curves") {
+    // Alarms of a feature that hears nothing of the fault, at a false-alarm rate of 0.05; curves
+    // that fall steeply fit the smallest size best and are far from those that bound the others.
+    const HitMissTable table{{0.0005, 35, 500}, {0.001, 24, 500}, {0.0015, 23, 500},
+                             {0.002, 25, 500},  {0.003, 29, 500}, {0.00428, 31, 500}};
+    const PodForm form{Link::logit, false, 0.0488, false};
+    const PodLikelihood likelihood(table, form);
+    const auto maximum = likelihood.maximise();
+    std::vector<double> sizes;
+    for (int i = 0; i <= 20; ++i) {
+        sizes.push_back(0.0005 + 0.00378 * i / 20);
+    }
+    const auto band = pod_band(likelihood, maximum, sizes, 0.95);
+    // Curves by their logits at the smallest and the largest size.
+    const auto pod_at = [&](double first, double last, double size) {
+        const double eta = first + (last - first) * (size - 0.0005) / 0.00378;
+        return form.floor + (1.0 - form.floor) / (1.0 + std::exp(-eta));
+    };
+    std::vector<double> largest(sizes.size(), 0.0);
+    const double least = maximum.log_likelihood - 0.5 * 1.6448536269514722 * 1.6448536269514722;
+    for (double first = -14.0; first <= 0.0; first += 0.02) {
+        for (double last = -14.0; last <= 0.0; last += 0.02) {
+            double value = 0.0;
+            for (const HitMissRow& row : table) {
+                const double pod = pod_at(first, last, row.size);
+                value += row.hits * std::log(pod) + (row.tests - row.hits) * std::log1p(-pod);
+            }
+            for (std::size_t i = 0; value >= least && i < sizes.size(); ++i) {
+                largest[i] = std::max(largest[i], pod_at(first, last, sizes[i]));
+            }
+        }
+    }
+    for (std::size_t i = 3; i < sizes.size(); ++i) {
+        CHECK(band[i].upper == Approx(largest[i]).margin(6e-4));
+    }
+    CHECK(band[0].upper < 0.1);
+    CHECK(band[1].upper < 0.1);
+}
+
 TEST_CASE("The curve of least AIC keeps the floor and the ceiling that made the data") {
     const HitMissPod pod = hit_miss_pod(levels(), {0.05, 0.95, 9});
     CHECK(pod.refusal == "");

@@ -146,7 +146,7 @@ TEST_CASE("The JSON holds curves, bounds and tests, null where there is no numbe
     CHECK(good["hit_miss"]["a90"]["upper"]["where"] == "reached");
     CHECK(good["hit_miss"]["a90"]["upper"]["size"].is_number());
     CHECK(good["hit_miss"]["refusal"].is_null());
-    CHECK(good["hit_miss"]["band"]["lower"].size() == 21);
+    CHECK(good["hit_miss"]["band"]["lower"].size() == 41);
     CHECK(good["signal_response"]["candidates"].size() == 4);
     CHECK(good["auc_by_size"].size() == 7);
     const auto& failed = json["features"][1]["levels"][0];

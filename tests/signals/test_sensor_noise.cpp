@@ -111,7 +111,11 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
     const double sigma = 0.5;
     std::vector<double> expected(kBins);
     add_sensor_noise(folded, draw, sigma, expected);
-    const std::vector<double> noisy = noisy_samples(signal, kBins, draw, sigma, engine);
+    const std::vector<double> unit = unit_noise(signal, kBins, draw, engine);
+    std::vector<double> noisy(signal);
+    for (std::size_t i = 0; i < noisy.size(); ++i) {
+        noisy[i] += sigma * unit[i];
+    }
 
     std::vector<double> refolded(kBins, 0.0);
     std::vector<double> noise(signal.size());

@@ -1,0 +1,307 @@
+"""How detection depends on every random input: shares of the variance, rates in bins, a90 as a map
+over noise and input."""
+
+from blocks import note, table
+from charts import GAP, MUTED, between, cell, colour, legend_below, panel, to_svg
+from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
+
+MOST_CHARTS = 6
+SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # of a90
+
+
+def _headline_feature(report):
+    """Number of the feature that the headline names, else of the best ranked."""
+    found = report.smallest_fault(report.reference)
+    return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
+
+
+def sensitivity(report, page):
+    """Sobol indices of the misses and of the value, for the best ranked feature."""
+    given = report.reliability["levels"][report.reference].get("sensitivity")
+    if not given:
+        return ""
+    charts, tables, refusals = [], [], []
+    for key, what in (("misses", "whether it is missed"), ("values", "the feature's value")):
+        indices = given[key]
+        if indices["refusal"]:
+            refusals.append(f"{what}: {indices['refusal']}")
+            continue
+        charts.append(_index_chart(report, page, given["feature"], what, indices))
+        tables.append(table(
+            f"{what}: {indices['gearboxes']} gearboxes, {indices['terms']} terms explain "
+            f"{percent(indices['explained'])}",
+            ["input", "alone", "with all others"],
+            [[input_name(i["name"], i["unit"]),
+              rate_with_bounds(i["first"], i["first_lower"], i["first_upper"]),
+              rate_with_bounds(i["total"], i["total_lower"], i["total_upper"])]
+             for i in indices["inputs"]]))
+    left = note("No shares of " + "; ".join(refusals) + ".") if refusals else ""
+    if not charts:
+        return left
+    sizes = report.sizes.group(given["size_low"], given["size_high"])
+    how = (f"Shares of the variance that each input explains among faulty gearboxes of {sizes}, for "
+           f"{given['feature']}: alone, and together with all others (Sobol indices, with intervals "
+           f"at {percent(report.confidence)}). What no input explains is chance: noise, and what the "
+           "fitted model does not see.")
+    return page.figure(f"Which inputs decide, at {noise(report.levels[report.reference])}", charts,
+                       how, "".join(tables)) + left
+
+
+def _index_chart(report, page, feature, what, indices):
+    inputs = indices["inputs"]
+    figure, axes = panel(1.7 + 0.27 * max(1, len(inputs)))
+    for offset, key, paint, mark, label in ((-0.14, "first", colour(0), "o", "alone"),
+                                            (0.14, "total", colour(1), "s", "with all others")):
+        for row, i in enumerate(inputs):
+            if i[f"{key}_lower"] is not None and i[f"{key}_upper"] is not None:
+                axes.plot([i[f"{key}_lower"], i[f"{key}_upper"]], [row + offset] * 2, color=paint,
+                          linewidth=1.4)
+        points = [(row, i[key]) for row, i in enumerate(inputs) if i[key] is not None]
+        axes.plot([value for _, value in points], [row + offset for row, _ in points],
+                  linestyle="none", marker=mark, markersize=4.5, color=paint, label=label)
+    axes.set_yticks(range(len(inputs)), [input_name(i["name"], i["unit"]) for i in inputs],
+                    fontsize=9)
+    axes.set_ylim(len(inputs) - 0.4, -0.6)
+    axes.set_xlim(left=min(-0.02, axes.get_xlim()[0]))
+    axes.set_xlabel("Share of the variance")
+    axes.legend(loc="lower right")
+    figure.suptitle(f"{feature}: {what}", fontsize=10, x=0.01, ha="left")
+    top = "; ".join(f"{input_name(i['name'], i['unit'])} {number(i['total'], 2)}"
+                    for i in inputs[:4])
+    return to_svg(figure, f"Shares of the variance of {what}, {feature}",
+                  f"Largest, with all others: {top}", page.names)
+
+
+def _effects(report, f, n):
+    """The inputs of a feature at a noise level, those with the clearest influence first."""
+    robustness = report.reliability.get("robustness") or {}
+    effects = []
+    for name, entry in robustness.items():
+        if name != "noise_level":
+            effects.append((name, entry["unit"], entry["features"][f]["levels"][n]))
+    return sorted(effects, key=lambda e: (e[2]["p_value"] is None, e[2]["p_value"] or 0.0,
+                                          -(e[2]["statistic"] or 0.0)))
+
+
+def _clear(effects):
+    return [e for e in effects if e[2]["p_value"] is not None and e[2]["p_value"] < 0.05]
+
+
+def rates_by_input(report, page):
+    if not report.reliability.get("robustness"):
+        return ""
+    f, n = _headline_feature(report), report.reference
+    effects = [e for e in _effects(report, f, n) if e[2]["bins"]]
+    shown = (_clear(effects) or effects[:3])[:MOST_CHARTS]
+    if not shown:
+        return note("No detection rates by input: no random input varies where detection is "
+                    "neither certain nor absent.")
+    charts = [_bin_chart(report, page, f, effect) for effect in shown]
+    sizes = report.sizes.group(shown[0][2]["size_low"], shown[0][2]["size_high"])
+    clear = [input_name(e[0], e[1]) for e in _clear(effects)]
+    how = (f"Share of faulty gearboxes of {sizes} that {report.names[f]} finds, in bins of one input "
+           f"with equally many gearboxes; lines are Wilson intervals at {percent(report.confidence)}. "
+           + (f"The curve of detection changes with {joined(clear)} (likelihood ratio, 5 % for all "
+              "inputs together)." if clear
+              else "For no input does the curve of detection change by more than chance."))
+    data = "".join(_bin_table(report, f, effect) for effect in effects)
+    return page.figure(f"Detection rate against single inputs at {noise(report.levels[n])}", charts,
+                       how, data)
+
+
+def _bin_chart(report, page, f, effect):
+    name, unit, level = effect
+    factor, shown = _axis_scale(level["bins"], unit)
+    figure, axes = panel(2.6)
+    bins = [b for b in level["bins"] if b["pd"] is not None]
+    x = [b["middle"] * factor for b in bins]
+    axes.errorbar(x, [b["pd"] for b in bins],
+                  yerr=[[max(0.0, b["pd"] - b["lower"]) for b in bins],
+                        [max(0.0, b["upper"] - b["pd"]) for b in bins]],
+                  xerr=[[max(0.0, b["middle"] - b["low"]) * factor for b in bins],
+                        [max(0.0, b["high"] - b["middle"]) * factor for b in bins]],
+                  fmt="none", ecolor=MUTED, elinewidth=1)
+    axes.plot(x, [b["pd"] for b in bins], color=colour(0), marker="o", markersize=4.5, linewidth=1)
+    axes.set_ylim(-0.03, 1.03)
+    axes.set_xlabel(input_name(name, unit).capitalize() + (f", {shown}" if shown else ""))
+    axes.set_ylabel("Detection rate")
+    axes.locator_params(axis="x", nbins=6)
+    about = "; ".join(f"{quantity(b['middle'], unit)}: "
+                      f"{rate_with_bounds(b['pd'], b['lower'], b['upper'])}" for b in bins)
+    return to_svg(figure, f"Detection rate of {report.names[f]} against {input_name(name, unit)}",
+                  about, page.names)
+
+
+def _axis_scale(bins, unit):
+    """A factor that keeps the axis' numbers short, and the unit with it."""
+    largest = max((abs(b["high"]) for b in bins), default=0.0)
+    shown = quantity(1, unit).removeprefix("1").strip()
+    for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
+        if shown and largest * factor >= 1 and largest >= 1e4:
+            return factor, prefix + shown
+    for factor, prefix in ((1e3, "m"), (1e6, "µ")):
+        if shown and 0 < largest < 1e-2 and largest * factor >= 0.1:
+            return factor, prefix + shown
+    return 1.0, shown
+
+
+def _bin_table(report, f, effect):
+    name, unit, level = effect
+    rows = [[f"{quantity(b['low'], unit)} to {quantity(b['high'], unit)}",
+             f"{b['detected']} of {b['tested']}", rate_with_bounds(b["pd"], b["lower"], b["upper"])]
+            for b in level["bins"]]
+    test = (f"p {p_value(level['p_value'])}, adjusted" if level["p_value"] is not None
+            else f"no test: {level['refusal']}")
+    return table(f"{report.names[f]}, {input_name(name, unit)} ({test})",
+                 ["input", "found", "detection rate"], rows)
+
+
+def a90_maps(report, page):
+    """a90 over noise and one input, for the inputs that matter."""
+    maps = report.reliability.get("a90_maps")
+    if not maps:
+        return ""
+    f, n = _headline_feature(report), report.reference
+    names = [e[0] for e in _clear(_effects(report, f, n))]
+    shown = [name for name in names if any(
+        level["a90"] for level in maps[name]["features"][f]["levels"])][:MOST_CHARTS]
+    if not shown:
+        return ""
+    charts = [_map_chart(report, page, f, name, maps[name]) for name in shown]
+    tables = [_map_table(report, f, name, maps[name]) for name in shown]
+    how = (f"Fault size that {report.names[f]} finds with 90 % probability (estimate), for gearboxes "
+           "with the given value of one input (its 5, 25, 50, 75 and 95 % quantiles, or all its "
+           "values), at each noise level. Dark: only large faults are found; ‘>’: larger than "
+           "tested, ‘<’: smaller than tested, –: no curve. Bounds stand with the numbers.")
+    return page.figure("Smallest fault found over noise and input", charts, how, "".join(tables))
+
+
+def _estimate(report, estimate, f, n):
+    pod = report.reliable(f, n)["hit_miss"]
+    if estimate["where"] == "reached":
+        return number(report.sizes.shown(estimate["size"]))
+    sign, size = (("<", pod["smallest"]) if estimate["where"] == "below_tested"
+                  else (">", pod["largest"]))
+    return f"{sign} {number(report.sizes.shown(size))}"
+
+
+def _map_chart(report, page, f, name, entry):
+    levels = entry["features"][f]["levels"]
+    values = max((level["values"] for level in levels), key=len)
+    largest = max((c["size_high"] for c in report.cells(f, 0)), default=1) or 1
+    figure, axes = panel(0.95 + 0.36 * len(levels))
+    axes.grid(False)
+    texts = []
+    for n, level in enumerate(levels):
+        row = []
+        for i in range(len(values)):
+            known = i < len(level["a90"])
+            estimate = level["a90"][i]["estimate"] if known else None
+            share = 0.0
+            if known:
+                share = {"below_tested": 0.0, "not_reached": 1.0}.get(
+                    estimate["where"], (estimate["size"] or 0.0) / largest)
+            text = _estimate(report, estimate, f, n) if known else "–"
+            cell(axes, i, n, between(SMALL, LARGE, share) if known else GAP, text)
+            row.append(text)
+        texts.append(f"{noise(report.levels[n])}: {', '.join(row)}")
+    axes.set_xlim(0, len(values))
+    axes.set_ylim(0, len(levels))
+    factor, shown = _axis_scale([{"high": v} for v in values], entry["unit"])
+    axes.set_xticks([i + 0.5 for i in range(len(values))], [number(v * factor) for v in values])
+    axes.set_yticks([n + 0.5 for n in range(len(levels))],
+                    [f"× {number(level)}" for level in report.levels])
+    axes.tick_params(length=0)
+    axes.set_xlabel(input_name(name, entry["unit"]).capitalize() + (f", {shown}" if shown else ""))
+    axes.set_ylabel("noise")
+    axes.set_title(f"a90, {report.sizes.unit or report.sizes.name}", fontsize=10, loc="left")
+    return to_svg(figure, f"a90 of {report.names[f]} over noise and "
+                  f"{input_name(name, entry['unit'])}", "; ".join(texts), page.names)
+
+
+def _map_table(report, f, name, entry):
+    rows = []
+    for n, level in enumerate(entry["features"][f]["levels"]):
+        for value, a90 in zip(level["values"], level["a90"]):
+            rows.append([f"× {number(report.levels[n])}", quantity(value, entry["unit"]),
+                         *(_estimate(report, a90[part], f, n)
+                           for part in ("estimate", "lower", "upper"))])
+        if level["refusal"]:
+            rows.append([f"× {number(report.levels[n])}", level["refusal"], "–", "–", "–"])
+    unit = f", {report.sizes.unit}" if report.sizes.unit else ""
+    return table(f"a90 of {report.names[f]} by {input_name(name, entry['unit'])}{unit}",
+                 ["noise", "input", "a90", "lower bound", "upper bound"], rows)
+
+
+def combined(report, page):
+    """All features as one detector against the best single one."""
+    given = [level.get("combined") for level in report.reliability["levels"]]
+    if not any(given):
+        return ""
+    graded = [(n, c) for n, c in enumerate(given) if c and not c["refusal"]]
+    refused = "".join(note(f"No combined detector at {noise(report.levels[n])}: {c['refusal']}.")
+                      for n, c in enumerate(given) if c and c["refusal"])
+    if not graded:
+        return refused
+    figure, axes = panel(3.0)
+    for offset, key, paint, mark, label in ((-0.12, "single", colour(0), "o", "best single feature"),
+                                            (0.12, "detector", colour(1), "s", "all features")):
+        for position, (_, c) in enumerate(graded):
+            auc = c[key]["auc"]
+            if auc["lower"] is not None:
+                axes.plot([position + offset] * 2, [auc["lower"], auc["upper"]], color=paint,
+                          linewidth=1.5)
+        axes.plot([position + offset for position in range(len(graded))],
+                  [c[key]["auc"]["auc"] for _, c in graded], linestyle="none", marker=mark,
+                  markersize=4.5, color=paint, label=label)
+    axes.axhline(0.5, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.set_xticks(range(len(graded)), [f"× {number(report.levels[n])}" for n, _ in graded])
+    axes.set_xlim(-0.5, len(graded) - 0.5)
+    axes.set_xlabel("noise")
+    axes.set_ylabel("Area under the ROC")
+    legend_below(axes, 2)
+    rows, texts = [], []
+    for n, c in graded:
+        rows.append([f"× {number(report.levels[n])}", c["single"]["name"],
+                     _area(c["single"]["auc"]), _area(c["detector"]["auc"]), p_value(c["p_value"]),
+                     _a90(report, c["single"]["hit_miss"]), _a90(report, c["detector"]["hit_miss"])])
+        texts.append(f"{noise(report.levels[n])}: {_area(c['single']['auc'])} single, "
+                     f"{_area(c['detector']['auc'])} combined")
+    svg = to_svg(figure, "Area under the ROC of all features together and of the best single one",
+                 "; ".join(texts), page.names)
+    bound = f"a90/{number(100 * report.confidence)}"
+    data = table("Graded on gearboxes that were held back",
+                 ["noise", "best single", "its area", "combined area", "p of equal areas",
+                  f"{bound} single", f"{bound} combined"], rows)
+    data += "".join(table(f"Weights at {noise(report.levels[n])}, in log odds per standard deviation",
+                          ["feature", "weight"],
+                          [[w["feature"], number(w["weight"])] for w in c["weights"]])
+                    for n, c in graded)
+    left = sorted({line for _, c in graded for line in c["left_out"] + c["warnings"]})
+    clear = [noise(report.levels[n]) for n, c in graded
+             if c["p_value"] is not None and c["p_value"] < 0.05 and (c["gain"] or 0) > 0]
+    how = ("All features as one detector (logistic regression), trained on half of the gearboxes and "
+           "graded on the other half, beside the best single feature on the same gearboxes. "
+           + (f"Together they find more at {joined(clear)}." if clear
+              else "Together they find no more than the best single one, as far as this sample tells."))
+    return page.figure("All features as one detector", [svg], how,
+                       data + "".join(note(line) for line in left)) + refused
+
+
+def _area(auc):
+    if auc["auc"] is None:
+        return "–"
+    if auc["lower"] is None:
+        return f"{auc['auc']:.3f}"
+    return f"{auc['auc']:.3f} [{auc['lower']:.3f}, {auc['upper']:.3f}]"
+
+
+def _a90(report, pod):
+    if pod["refusal"]:
+        return "no curve"
+    upper = pod["a90"]["upper"]
+    if upper["where"] == "reached":
+        return report.sizes.text(upper["size"])
+    if upper["where"] == "below_tested":
+        return "< " + report.sizes.text(pod["smallest"])
+    return "> " + report.sizes.text(pod["largest"])

@@ -1,0 +1,332 @@
+// measure_accuracy().
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "mc/accuracy_ladder.hpp"
+#include "mc/accuracy_report.hpp"
+#include "mc/explicit_step_time.hpp"
+#include "mc/numerics_choice.hpp"
+#include "mc/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kBeyondOwnRule = 4.0;
+// Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
+constexpr double kContender = 1.5;
+constexpr int kContenderRepeats = 10;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+class Measurement {
+  public:
+    Measurement(const Study& study, const AccuracyRequest& request)
+        : study_(plain(study)),
+          request_(request),
+          scene_(std::make_unique<Scene>(study_)),
+          pilot_(*scene_) {
+        report_.features = study_.features.use;
+        report_.noise_levels = study_.sensor.noise_levels;
+        report_.gearboxes = static_cast<int>(pilot_.size());
+        report_.signal_meshes = std::clamp(scene_->pattern().length, 1, kMostSignalMeshes);
+        report_.span_meshes = scene_->span_meshes();
+        report_.mesh_frequency_Hz = scene_->nominal_mesh_frequency_Hz();
+        report_.explicit_limit.steps = scene_->explicit_steps();
+    }
+
+    AccuracyReport run() {
+        request_.progress("reference: two methods until they agree");
+        report_.reference = converged_reference(study_, pilot_, {});
+        list_rungs();
+        for (int repeat = 0; repeat < std::max(1, request_.repeats); ++repeat) {
+            request_.progress(fmt::format("{} rungs, time {} of {}", report_.rungs.size(),
+                                          repeat + 1, std::max(1, request_.repeats)));
+            for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+                march(i, repeat == 0);
+            }
+        }
+        for (const double tolerance : request_.tolerances) {
+            choose(tolerance);
+        }
+        time_contenders();
+        finish_times();
+        for (ChoiceCheck& check : report_.choices) {
+            compare(check);
+        }
+        mark_frontier();
+        measure_explicit_limit();
+        check_step_costs();
+        if (request_.gearboxes > 0) {
+            detect();
+        }
+        return std::move(report_);
+    }
+
+  private:
+    static Study plain(Study study) {
+        study.numerics.tolerance = 0.0;
+        return study;
+    }
+    Rung own_rung() const {
+        return {std::string(choice_text(study_, "numerics", "integrator")),
+                study_.numerics.steps_per_mesh,
+                study_.numerics.settle_tolerance,
+                {}};
+    }
+    Study free_study() const {
+        Study free = study_;
+        free.numerics.integrator = Integrator::automatic;
+        free.numerics.steps_per_mesh = 0;
+        return free;
+    }
+
+    void add(const Rung& rung, const std::string& refusal = "") {
+        report_.rungs.emplace_back();
+        report_.rungs.back().rung = rung;
+        report_.rungs.back().refusal = refusal;
+    }
+
+    // Rungs with the same steps stand together, so that a scene serves them all.
+    void list_rungs() {
+        report_.own = 0;
+        add(own_rung());
+        for (const Flight& flight : flights(free_study(), kBeyondOwnRule)) {
+            if (flight.steps.empty()) {
+                add({flight.integrator, 0, study_.numerics.settle_tolerance, flight.other},
+                    flight.refusal);
+            }
+            for (const int steps : flight.steps) {
+                for (const double settle : settle_tolerances()) {
+                    add({flight.integrator, steps, settle, flight.other});
+                }
+            }
+        }
+        Rung all = own_rung();
+        all.other.push_back("numerics.horizon=march");
+        add(all);
+        times_.resize(report_.rungs.size());
+    }
+
+    void march(std::size_t place, bool first) {
+        RungResult& result = report_.rungs[place];
+        const bool everything =
+            !result.rung.other.empty() && result.rung.other.back() == "numerics.horizon=march";
+        if (!result.refusal.empty() || (everything && !first)) {
+            return;
+        }
+        try {
+            scene_->use(with_rung(study_, result.rung).numerics);
+            const PilotRecord record = pilot_.run(*scene_);
+            times_[place].march.push_back(record.march_s);
+            times_[place].total.push_back(record.total_s);
+            if (first) {
+                fill(record, result);
+            }
+        } catch (const SceneError& error) {
+            result.refusal = error.what();
+        }
+    }
+
+    void fill(const PilotRecord& record, RungResult& result) const {
+        result.steps = record.steps;
+        result.meshes = record.meshes_per_tile();
+        result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
+        result.error = pilot_error(record, report_.reference.record);
+        // The study's own rung may leave the integrator to the program.
+        const std::string integrator =
+            result.rung.integrator == "auto"
+                ? std::string(kIntegrators[static_cast<int>(scene_->plan().integrator)])
+                : result.rung.integrator;
+        result.cost =
+            step_cost(study_, integrator, result.rung.other) * result.steps * result.meshes;
+    }
+
+    bool holds(const RungResult& result, double tolerance) const {
+        return result.refusal.empty() && result.steps > 0 &&
+               result.error.largest_feature() <= tolerance;
+    }
+
+    // The rung that the tolerance chooses joins the ladder if it is not on it.
+    void choose(double tolerance) {
+        request_.progress(fmt::format("choice for {:g}", tolerance));
+        ChoiceCheck check;
+        check.tolerance = tolerance;
+        Study study = free_study();
+        study.numerics.tolerance = tolerance;
+        try {
+            const Rung rung = choose_numerics(study)->rung;
+            const auto same =
+                std::find_if(report_.rungs.begin(), report_.rungs.end(),
+                             [&](const RungResult& r) { return r.rung.text() == rung.text(); });
+            check.chosen = static_cast<int>(same - report_.rungs.begin());
+            if (same == report_.rungs.end()) {
+                add(rung);
+                times_.emplace_back();
+                march(report_.rungs.size() - 1, true);
+            }
+        } catch (const SceneError& error) {
+            check.refusal = error.what();
+        }
+        report_.choices.push_back(check);
+    }
+
+    // Interleaved: what the machine does meanwhile slows all of them alike.
+    void time_contenders() {
+        finish_times();
+        std::vector<std::size_t> contenders;
+        for (const ChoiceCheck& check : report_.choices) {
+            const double best = fastest(check.tolerance);
+            for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+                if ((holds(report_.rungs[i], check.tolerance) &&
+                     report_.rungs[i].march_s < kContender * best) ||
+                    static_cast<int>(i) == check.chosen) {
+                    contenders.push_back(i);
+                }
+            }
+        }
+        std::sort(contenders.begin(), contenders.end());
+        contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
+        request_.progress(fmt::format("{} contenders again", contenders.size()));
+        for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
+            for (const std::size_t place : contenders) {
+                march(place, false);
+            }
+        }
+    }
+
+    double fastest(double tolerance) const {
+        double best = INFINITY;
+        for (const RungResult& result : report_.rungs) {
+            best = holds(result, tolerance) ? std::min(best, result.march_s) : best;
+        }
+        return best;
+    }
+
+    void finish_times() {
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            RungResult& result = report_.rungs[i];
+            if (times_[i].march.empty()) {
+                continue;
+            }
+            result.march_s = *std::min_element(times_[i].march.begin(), times_[i].march.end());
+            result.march_median_s = median(times_[i].march);
+            result.total_s = *std::min_element(times_[i].total.begin(), times_[i].total.end());
+            result.mesh_s = result.march_s / result.meshes;
+        }
+    }
+
+    void compare(ChoiceCheck& check) const {
+        const double best = fastest(check.tolerance);
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            if (holds(report_.rungs[i], check.tolerance) && report_.rungs[i].march_s == best) {
+                check.best = static_cast<int>(i);
+            }
+        }
+        if (check.chosen >= 0 && check.best >= 0) {
+            check.over_best =
+                report_.rungs[static_cast<std::size_t>(check.chosen)].march_s / best - 1.0;
+        }
+    }
+
+    void mark_frontier() {
+        std::vector<RungResult*> marched;
+        for (RungResult& result : report_.rungs) {
+            if (result.refusal.empty() && std::isfinite(result.error.largest_feature())) {
+                marched.push_back(&result);
+            }
+        }
+        std::sort(marched.begin(), marched.end(),
+                  [](const auto* a, const auto* b) { return a->march_s < b->march_s; });
+        double least = INFINITY;
+        for (RungResult* result : marched) {
+            result->frontier = result->error.largest_feature() < least;
+            least = std::min(least, result->error.largest_feature());
+        }
+    }
+
+    void measure_explicit_limit() {
+        ExplicitLimit& limit = report_.explicit_limit;
+        scene_->use(study_.numerics);
+        limit.step_s = explicit_step_s(*scene_);
+        limit.meshes = report_.rungs[0].meshes;
+        limit.refused = std::none_of(report_.rungs.begin(), report_.rungs.end(), [](const auto& r) {
+            return r.rung.integrator == "rk4" && r.refusal.empty();
+        });
+    }
+
+    // Measured time of a step over rk4's, against the table.
+    void check_step_costs() {
+        std::map<std::string, std::vector<double>> measured;
+        for (const RungResult& result : report_.rungs) {
+            if (result.steps > 0 && result.rung.integrator != "auto" && result.rung.other.empty()) {
+                measured[result.rung.integrator].push_back(result.mesh_s / result.steps);
+            }
+        }
+        for (auto& [integrator, steps] : measured) {
+            report_.step_costs.push_back(fmt::format(
+                "{}: {:.1f} measured, {:.1f} in the table", integrator,
+                median(steps) / report_.explicit_limit.step_s, step_cost(study_, integrator, {})));
+        }
+    }
+
+    // The frontier's rungs, the study's own and the chosen ones, against the closest rung of all.
+    void detect() {
+        std::vector<std::size_t> places{0};
+        std::size_t closest = 0;
+        const auto error_of = [&](std::size_t i) {
+            const RungResult& r = report_.rungs[i];
+            return r.refusal.empty() && r.steps > 0 ? r.error.largest_feature() : INFINITY;
+        };
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            closest = error_of(i) < error_of(closest) ? i : closest;
+            if (report_.rungs[i].frontier) {
+                places.push_back(i);
+            }
+        }
+        for (const ChoiceCheck& check : report_.choices) {
+            if (check.chosen >= 0) {
+                places.push_back(static_cast<std::size_t>(check.chosen));
+            }
+        }
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        const Study pilot = pilot_ensemble_study(study_, request_.gearboxes);
+        const PilotEnsemble reference =
+            run_pilot_ensemble(with_rung(pilot, report_.rungs[closest].rung));
+        for (const std::size_t place : places) {
+            RungResult& result = report_.rungs[place];
+            request_.progress(fmt::format("detection rates by {}", result.rung.text()));
+            result.detection =
+                detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
+        }
+    }
+
+    static constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+
+    struct Times {
+        std::vector<double> march, total;
+    };
+    const Study study_;
+    const AccuracyRequest& request_;
+    const std::unique_ptr<Scene> scene_;
+    const Pilot pilot_;
+    AccuracyReport report_;
+    std::vector<Times> times_;
+};
+
+}  // namespace
+
+AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request) {
+    return Measurement(study, request).run();
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,47 @@
+// Recorded signals in a file: named columns of one length, CSV, HDF5 or MAT.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gearpod::mc {
+
+// What is wrong with a signal file; names file and place.
+class SignalError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+class SignalFile {
+  public:
+    virtual ~SignalFile() = default;
+
+    // Names of the columns.
+    virtual std::vector<std::string> names() const = 0;
+    // A column of that name, which must be there. Throws SignalError.
+    virtual std::vector<double> read(const std::string& name) = 0;
+    // The sampling rate, if the file says so.
+    virtual std::optional<double> sampling_Hz() { return std::nullopt; }
+
+    bool has(const std::string& name) const;
+};
+
+// Opens a file by the end of its name. Throws SignalError.
+//   .csv         a header line of names, units in brackets behind them left aside ("sensor
+//                [m/s^2]"), then a line of numbers a sample; commas, semicolons or tabs between
+//                them; lines that begin with # are comments
+//   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root; the rate may be
+//                an attribute sampling_Hz of the group or the root
+//   .mat         variables that are real vectors (MATLAB 4 to 7.3); the rate may be a variable
+//                sampling_Hz
+std::unique_ptr<SignalFile> open_signal_file(const std::string& path);
+
+// One for each kind of file.
+std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_mat(const std::string& path);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,14 @@
+// NA4: fourth moment of the residual signal over the squared mean variance of the residual signals
+// of M earlier records; Zakrajsek, Townsend and Decker, NASA TM-105950 (1993). The records are
+// those of M healthy gearboxes (mc/healthy_reference.hpp), so that it is the NA4 of a gearbox that
+// was one of them when its record began; a healthy one has about 3.
+#include "features/feature.hpp"
+#include "features/trending.hpp"
+
+namespace gearpod::features {
+
+double na4(const FeatureInput& input) {
+    return trended_kurtosis(input.sensor.residual, input.healthy.residual_variance);
+}
+
+}  // namespace gearpod::features

@@ -1,0 +1,20 @@
+// Largest tooth kurtosis over the median one. Liang (2016), section 5.4, names kurtosis among the
+// statistics that may take the place of the RMS.
+#include "features/feature.hpp"
+#include "features/worst_tooth.hpp"
+
+namespace gearpod::features {
+
+double window_kurtosis(const FeatureInput& input) {
+    return worst_to_median(input.planet.kurtosis);
+}
+
+double sun_window_kurtosis(const FeatureInput& input) {
+    return worst_to_median(input.sun.kurtosis);
+}
+
+double ring_window_kurtosis(const FeatureInput& input) {
+    return worst_to_median(input.ring.kurtosis);
+}
+
+}  // namespace gearpod::features

@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+"""Every feature of the gearbox of small.toml from its definition, with numpy alone.
+
+    features.py SIGNAL.csv HEALTHY.csv ... > expected.json
+
+Columns mesh_phase, sensor (m/s^2) and te (rad); P samples a mesh period.
+"""
+import csv
+import json
+import sys
+
+import numpy as np
+
+ZS, ZP, ZR, PLANETS = 13, 11, 35, 3
+P, P_TE = 8, 4
+TAPER, TE_HARMONICS = 0.1, 8
+
+
+def tukey(points, taper):
+    """As printed in Liang (2016), section 5.3.1."""
+    n = np.arange(points)
+    last = points - 1
+    w = np.ones(points)
+    rise = n < taper * last / 2
+    fall = n > last * (1 - taper / 2)
+    w[rise] = 0.5 * (1 + np.cos(np.pi * (2 * n[rise] / (taper * last) - 1)))
+    w[fall] = 0.5 * (1 + np.cos(np.pi * (2 * n[fall] / (taper * last) - 2 / taper + 1)))
+    return w
+
+
+def moment(x, power):
+    d = x - np.mean(x)
+    return np.mean(d**power) / np.mean(d**2) ** (power / 2)
+
+
+def separate(turn, teeth):
+    """Parts of an averaged turn, by complex spectra with bins left out."""
+    n = len(turn)
+    order = np.abs(np.round(np.fft.fftfreq(n) * n)).astype(int)
+    spectrum = np.fft.fft(turn)
+    harmonic = (order > 0) & (order % teeth == 0)
+    sideband = np.zeros(n, bool)
+    for k in range(teeth, n, teeth):
+        sideband |= (order == k - 1) | (order == k + 1)
+    sideband &= ~harmonic
+
+    def part(keep):
+        return np.fft.ifft(np.where(keep, spectrum, 0)).real
+
+    signed = np.round(np.fft.fftfreq(n) * n).astype(int)
+    half = (teeth - 1) // 2
+    band = (signed >= teeth - half) & (signed <= teeth + half)
+    amplitude = np.abs(np.fft.rfft(turn)) / n
+    amplitude[1 : (n + 1) // 2] *= 2
+    return {
+        "turn": turn,
+        "regular": part(harmonic | sideband),
+        "residual": part(~harmonic & (order > 0)),
+        "difference": part(~harmonic & ~sideband & (order > 0)),
+        "envelope": np.abs(np.fft.ifft(np.where(band, 2 * spectrum, 0))),
+        "amplitude": amplitude,
+    }
+
+
+def tooth_signals(y, teeth, turns, offset):
+    """Cut, window and assemble, tooth by tooth."""
+    y = y[: teeth * turns * P]
+    w = tukey(P, TAPER)
+    at = np.arange(P) + offset
+    return [
+        np.concatenate([w * y[((i * teeth + j) * P + at) % len(y)] for i in range(turns)])
+        for j in range(teeth)
+    ]
+
+
+def rms(x):
+    return np.sqrt(np.mean(x**2))
+
+
+def best_teeth(y, teeth, turns):
+    """The tooth signals at the offset whose largest RMS is largest; the first of equals."""
+    largest = [max(rms(s) for s in tooth_signals(y, teeth, turns, o)) for o in range(P)]
+    offset = next(o for o in range(P) if largest[o] >= max(largest) * (1 - 1e-13))
+    return tooth_signals(y, teeth, turns, offset)
+
+
+def detrended(values):
+    j = np.arange(len(values)) * 2 * np.pi / len(values)
+    basis = [np.ones(len(values))]
+    for k in range(1, PLANETS + 1):
+        basis += [np.cos(k * j), np.sin(k * j)]
+    basis = np.array(basis).T
+    return values / (basis @ np.linalg.lstsq(basis, values, rcond=None)[0])
+
+
+def windows(prefix, signals, held):
+    stats = {
+        "rms": np.array([np.mean(s**2) for s in signals]),
+        "kurtosis": np.array([moment(s, 4) for s in signals]),
+        "crest": np.array([np.max(np.abs(s)) / rms(s) for s in signals]),
+        "m8a": np.array([moment(s, 8) for s in signals]),
+    }
+    if held:
+        stats = {name: detrended(values) for name, values in stats.items()}
+    root = np.sqrt(stats["rms"])
+    others = np.delete(root, np.argmax(root))
+    spread = max(np.median(np.abs(others - np.median(others))), 1e-6 * np.median(others))
+    out = {
+        "window_ratio": root.max() / np.median(root),
+        "window_z": (root.max() - np.median(others)) / (1.4826 * spread),
+    }
+    for name in ("kurtosis", "crest", "m8a"):
+        out["window_" + name] = stats[name].max() / np.median(stats[name])
+    return {prefix + name: value for name, value in out.items()}
+
+
+def averaged(y):
+    return np.mean(y[: ZP * ZR * P].reshape(ZR, ZP * P), axis=0)
+
+
+def te_features(te):
+    te = te[:: P // P_TE]
+    turns = min(len(te) // (ZP * P_TE), ZR)
+    turn = np.mean(te[: turns * ZP * P_TE].reshape(turns, -1), axis=0)
+    turn = turn - np.mean(turn)
+    parts = separate(turn, ZP)
+    s = parts["amplitude"]
+    mesh = [s[j * ZP] for j in range(1, TE_HARMONICS + 1) if 2 * j * ZP < len(turn)]
+    k = np.arange(len(s))
+    return {
+        "te_rms": rms(turn),
+        "te_kurtosis": moment(turn, 4),
+        "te_fc": np.sum(k[1:] * s[1:]) / np.sum(s[1:]),
+        "te_fm0": np.ptp(turn) / np.sum(mesh),
+        "te_fm4": moment(parts["difference"], 4),
+        "te_m6a": moment(parts["difference"], 6),
+        "te_m8a": moment(parts["difference"], 8),
+    }
+
+
+def sensor_features(y, healthy):
+    turn = averaged(y)
+    parts = separate(turn, ZP)
+    d = parts["difference"]
+    records = [separate(averaged(h), ZP) for h in healthy]
+    about_mean = turn - np.mean(turn)
+    s = parts["amplitude"]
+    s_healthy = np.mean([r["amplitude"] for r in records], axis=0)
+    sidebands = s[ZP - 1] + s[ZP + 1]
+    span = y[: ZP * ZR * P]
+    carrier = span.reshape(-1, ZR * P)
+    out = {
+        "sensor_rms": rms(span),
+        "crest_factor": np.max(np.abs(about_mean)) / rms(about_mean),
+        "fm4": moment(d, 4),
+        "m6a": moment(d, 6),
+        "m8a": moment(d, 8),
+        "energy_ratio": rms(d) / rms(parts["regular"]),
+        "sideband_index": sidebands / 2,
+        "sideband_level": sidebands / rms(about_mean),
+        "frms": rms((carrier - np.mean(carrier, axis=0)).ravel()),
+        "nsds": np.sum(np.maximum(0, s - s_healthy)[1:]) / np.sum(s_healthy[1:]),
+    }
+    for name, part in (("na4", "residual"), ("nb4", "envelope")):
+        x = parts[part]
+        variance = np.mean([np.var(r[part]) for r in records])
+        out[name] = np.mean((x - np.mean(x)) ** 4) / variance**2
+    out |= windows("", best_teeth(y, ZP, ZR), False)
+    out |= windows("sun_", best_teeth(y, ZS, ZR), False)
+    out |= windows("ring_", best_teeth(y, ZR, ZP), True)
+    return out
+
+
+def columns(path):
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    names = [name.split("[")[0].strip() for name in rows[0]]
+    values = np.array(rows[1:], float)
+    return {name: values[:, i] for i, name in enumerate(names)}
+
+
+def main(arguments):
+    signal, healthy = columns(arguments[0]), [columns(path)["sensor"] for path in arguments[1:]]
+    out = te_features(signal["te"]) | sensor_features(signal["sensor"], healthy)
+    print(json.dumps(out, indent=1))
+
+
+main(sys.argv[1:])
