@@ -359,7 +359,7 @@ class Measurement {
         }
     }
 
-    static constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+    static constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3", "bs3"};
 
     struct Times {
         std::vector<double> march, total;

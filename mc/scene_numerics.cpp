@@ -145,10 +145,13 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
                         given, least),
             "leave the key out to have the steps chosen");
     }
-    return {integrator, given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
+    return {integrator,
+            given > 0 ? given : static_cast<int>(chosen),
+            static_cast<int>(least),
             needs.decay_meshes(),
             1.0 / std::max({1.0, kMargin * needs.stable(),
-                            kFewestStepsPerBandPeriod * needs.band_periods()})};
+                            kFewestStepsPerBandPeriod * needs.band_periods()}),
+            0.0};
 }
 
 Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
@@ -159,7 +162,7 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
                                      chosen, kMostSteps),
                          "lower sensor.low_pass_Hz or raise the speed");
     }
-    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 1.0};
+    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 1.0, 0.0};
 }
 
 lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
