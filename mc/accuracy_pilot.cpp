@@ -128,7 +128,7 @@ PilotRecord Pilot::run(const Scene& scene) const {
         for (std::size_t g = 0; g < some.size(); ++g) {
             const int lane = static_cast<int>(g);
             const InstanceInputs& inputs = tile.inputs[g];
-            const bool ok = tile.march.status[g] == lockstep::LaneStatus::ok;
+            const bool ok = tile.status[g] == Status::ok;
             record.ok.push_back(ok);
             record.sensor.emplace_back();
             record.te.emplace_back();

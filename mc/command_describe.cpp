@@ -8,6 +8,7 @@
 #include "mc/describe_effects.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/march_cache.hpp"
 #include "mc/numerics_choice.hpp"
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
@@ -172,6 +173,16 @@ void print_cost(const Scene& scene) {
                 fmt::format("{} graded and {} for the thresholds, {} noise levels",
                             study.ensemble.instances, study.ensemble.threshold_instances,
                             study.sensor.noise_levels.size()));
+    const std::optional<std::size_t> distinct = distinct_marches(scene);
+    const auto marched_rows = distinct
+                                  ? std::min(static_cast<double>(rows),
+                                             static_cast<double>(*distinct) * study.numerics.lanes)
+                                  : static_cast<double>(rows);
+    print_entry("distinct motions",
+                distinct ? fmt::format("{}; gearboxes that differ in path exponent and noise alone "
+                                       "share one march",
+                                       *distinct)
+                         : "every gearbox moves differently");
     // Per step and gearbox in a full tile, measured with an AVX-512 core near 3 GHz for N = 4;
     // proportional to the degrees of freedom. One lane costs as much as eight.
     const double step_s =
@@ -179,7 +190,8 @@ void print_cost(const Scene& scene) {
     const double march_s =
         marched_meshes(scene) * static_cast<double>(plan.grid.steps.size()) * step_s * 1.3;
     const double seconds =
-        static_cast<double>(rows) * (march_s + time_signal_s(scene)) / thread_count(study);
+        (marched_rows * march_s + static_cast<double>(rows) * time_signal_s(scene)) /
+        thread_count(study);
     print_entry(
         "estimated time",
         fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),

@@ -161,7 +161,7 @@ class Examples {
     Json run(const ExampleRow& row) {
         const GearboxId id = id_of_row(scene_.study(), static_cast<long>(row.row));
         const GearboxTile tile = run_gearboxes(scene_, sampler_, path_, std::span(&id, 1), 1);
-        if (tile.march.status[0] != lockstep::LaneStatus::ok) {
+        if (tile.status[0] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
                                      " failed when computed again");
         }

@@ -4,6 +4,7 @@
 
 #include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
+#include "mc/march_cache.hpp"
 #include "mc/schema.hpp"
 #include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
@@ -66,6 +67,19 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 
+void march(const Scene& scene, std::span<const GearboxId> ids, int lanes, bool with_motion,
+           GearboxTile& tile) {
+    if (lanes == 1) {
+        march<1>(scene, ids, with_motion, tile);
+    } else if (lanes == 4) {
+        march<4>(scene, ids, with_motion, tile);
+    } else if (lanes == 8) {
+        march<8>(scene, ids, with_motion, tile);
+    } else {
+        march<16>(scene, ids, with_motion, tile);
+    }
+}
+
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
     const bool ok = status == lockstep::LaneStatus::ok;
     const bool diverged = status == lockstep::LaneStatus::diverged;
@@ -107,7 +121,8 @@ signals::PathGrid path_grid(const Scene& scene) {
 }
 
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int lanes, bool with_motion) {
+                          std::span<const GearboxId> ids, int lanes, bool with_motion,
+                          const MarchCache* marches) {
     auto start = Clock::now();
     GearboxTile tile;
     for (const GearboxId& id : ids) {
@@ -115,14 +130,15 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     }
     tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
     tile.sampling_s = lap(start);
-    if (lanes == 1) {
-        march<1>(scene, ids, with_motion, tile);
-    } else if (lanes == 4) {
-        march<4>(scene, ids, with_motion, tile);
-    } else if (lanes == 8) {
-        march<8>(scene, ids, with_motion, tile);
+    const MarchCache* const kept = with_motion ? nullptr : marches;
+    if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
+        tile.march = *before;
+        tile.march_s = lap(start);
     } else {
-        march<16>(scene, ids, with_motion, tile);
+        march(scene, ids, lanes, with_motion, tile);
+        if (kept != nullptr) {
+            kept->keep(tile.inputs, tile.march);
+        }
     }
 
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {

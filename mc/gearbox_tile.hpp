@@ -14,6 +14,8 @@
 
 namespace gearpod::mc {
 
+class MarchCache;  // march_cache.hpp
+
 // A tile's results; `march.records` owns what `views` shows.
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
@@ -31,10 +33,11 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// Runs the gearboxes in `ids`, at most as many as there are lanes (16, 8, 4 or 1); missing lanes repeat
-// the last one.
+// Runs the gearboxes in `ids`, at most as many as there are lanes (16, 8, 4 or 1); missing lanes
+// repeat the last one. With `marches`, what was marched before is not marched again.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int lanes, bool with_motion = false);
+                          std::span<const GearboxId> ids, int lanes, bool with_motion = false,
+                          const MarchCache* marches = nullptr);
 
 // One lane of a tile.
 struct LaneSignals {

@@ -42,8 +42,9 @@ TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
 
 // As many gearboxes as there are lanes.
 void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds) {
-    const GearboxTile computed = run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
-                                               task_.scene.study().numerics.lanes);
+    const GearboxTile computed =
+        run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
+                      task_.scene.study().numerics.lanes, false, &task_.marches);
     const auto start = std::chrono::steady_clock::now();
     const double noise_before = features_.noise_s();
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {

@@ -8,6 +8,7 @@
 #include "mc/gearbox_tile.hpp"
 #include "mc/healthy_reference.hpp"
 #include "mc/instance_features.hpp"
+#include "mc/march_cache.hpp"
 #include "mc/tile_rows.hpp"
 
 namespace gearpod::mc {
@@ -29,11 +30,13 @@ struct TileTask {
         : scene(shared_scene),
           sampler(scene.study()),
           path(path_grid(scene)),
+          marches(scene),
           healthy(healthy_reference(scene, sampler, path)) {}
 
     const Scene& scene;
     const Sampler sampler;
     const signals::PathGrid path;
+    const MarchCache marches;
     const HealthyReference healthy;
 };
 
