@@ -97,7 +97,7 @@ void print_cost(const Scene& scene) {
     print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
                                                               scene.nominal_mesh_frequency_Hz()));
     if (!study.effects.quasi_static()) {
-        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3"};
+        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3", "generalized-alpha"};
         const std::string least =
             scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
         print_entry("steps a mesh period",

@@ -8,7 +8,8 @@ namespace {
 constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
 constexpr ChoiceName kIntegrators[] = {
     name("auto", Integrator::automatic), name("rk4", Integrator::rk4),
-    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3)};
+    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3),
+    name("generalized-alpha", Integrator::generalized_alpha)};
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
 constexpr ChoiceName kInstructionSets[] = {
     name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),

@@ -26,7 +26,7 @@ using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
-enum class Integrator { automatic, rk4, newmark, sdirk3 };
+enum class Integrator { automatic, rk4, newmark, sdirk3, generalized_alpha };
 enum class Horizon { reuse, march };
 enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
 

@@ -8,10 +8,26 @@ std::vector<double> stage_nodes(Integrator integrator) {
             return {0.0, 1.0};
         case Integrator::sdirk3:
             return {Alexander::kDiagonal, Alexander::kSecond, 1.0};
+        case Integrator::generalized_alpha:
+            return {0.0, 1.0 - ChungHulbert::kForce, 1.0};
         case Integrator::rk4:
             break;
     }
     return {0.0, 0.5, 1.0};
+}
+
+ImplicitSpan implicit_span(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::newmark:
+            return {0.5, 0.25};
+        case Integrator::sdirk3:
+            return {Alexander::kDiagonal, Alexander::kDiagonal * Alexander::kDiagonal};
+        case Integrator::generalized_alpha:
+            return ChungHulbert::span();
+        case Integrator::rk4:
+            break;
+    }
+    return {};
 }
 
 }  // namespace gearpod::lockstep
