@@ -186,10 +186,9 @@ class Measurement {
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
         // The study's own rung may leave the integrator to the program.
-        const std::string integrator =
-            result.rung.integrator == "auto"
-                ? std::string(kIntegrators[static_cast<int>(scene_->plan().integrator)])
-                : result.rung.integrator;
+        const std::string integrator = result.rung.integrator == "auto"
+                                           ? std::string(lockstep::name(scene_->plan().integrator))
+                                           : result.rung.integrator;
         result.cost = step_cost(study_, integrator, result.rung.other).value_or(0.0) *
                       result.steps * result.meshes;
     }
@@ -358,8 +357,6 @@ class Measurement {
                 detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
         }
     }
-
-    static constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3", "bs3"};
 
     struct Times {
         std::vector<double> march, total;

@@ -147,12 +147,10 @@ void print_cost(const Scene& scene) {
     print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
                                                               scene.nominal_mesh_frequency_Hz()));
     if (!study.effects.quasi_static()) {
-        constexpr const char* kIntegrators[] = {"rk4", "newmark", "sdirk3", "bs3"};
         const std::string least =
             scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
-        print_entry("steps a mesh period",
-                    fmt::format("{}{}, {}", plan.grid.steps.size(), least,
-                                kIntegrators[static_cast<int>(plan.integrator)]));
+        print_entry("steps a mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
+                                                       lockstep::name(plan.integrator)));
     }
     if (const NumericsChoice* choice = scene.numerics_choice()) {
         print_entry("chosen for the tolerance", choice->text());

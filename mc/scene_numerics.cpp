@@ -173,6 +173,8 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
             return lockstep::Integrator::newmark;
         case Integrator::sdirk3:
             return lockstep::Integrator::sdirk3;
+        case Integrator::generalized_alpha:
+            return lockstep::Integrator::generalized_alpha;
         case Integrator::bs3:
             return lockstep::Integrator::bs3;
         case Integrator::automatic:

@@ -6,10 +6,12 @@ namespace gearpod::mc {
 namespace {
 
 constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
-constexpr ChoiceName kIntegrators[] = {
-    name("auto", Integrator::automatic), name("rk4", Integrator::rk4),
-    name("newmark", Integrator::newmark), name("sdirk3", Integrator::sdirk3),
-    name("bs3", Integrator::bs3)};
+constexpr ChoiceName kIntegrators[] = {name("auto", Integrator::automatic),
+                                       name("rk4", Integrator::rk4),
+                                       name("newmark", Integrator::newmark),
+                                       name("sdirk3", Integrator::sdirk3),
+                                       name("generalized-alpha", Integrator::generalized_alpha),
+                                       name("bs3", Integrator::bs3)};
 constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
                                      name("graded", StepGrid::graded)};
 constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),

@@ -26,7 +26,7 @@ using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
-enum class Integrator { automatic, rk4, newmark, sdirk3, bs3 };
+enum class Integrator { automatic, rk4, newmark, sdirk3, generalized_alpha, bs3 };
 enum class Precision { double_precision, single_precision };
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
@@ -216,8 +216,9 @@ struct Numerics {
     StepGrid grid = StepGrid::uniform;
     double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
     double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
-    int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
-    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
+    int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
+    // not.
     double tolerance = 0.0;
     bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;

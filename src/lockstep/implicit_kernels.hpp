@@ -1,7 +1,8 @@
-// GEARPOD_MARCHES(linear, dynamics::LinearMesh) defines the implicit kernels of one mesh law: both
+// GEARPOD_MARCHES(linear, dynamics::LinearMesh) defines the implicit kernels of one mesh law: all
 // integrators, all widths. One file a law, so that none compiles for long.
 #pragma once
 
+#include "lockstep/generalized_alpha.hpp"
 #include "lockstep/implicit_march.hpp"
 #include "lockstep/newmark.hpp"
 #include "lockstep/sdirk3.hpp"
@@ -15,10 +16,12 @@
         (plan, lanes, filter, overrides, state, record),                                   \
         march<INTEGRATOR, MatrixMotion<MESH, W>>(plan, lanes, filter, overrides, state, record))
 
-#define GEARPOD_MARCHES(LAW, MESH)                                          \
-    GEARPOD_MARCH(GEARPOD_KERNEL, LAW##_newmark_8, Newmark, MESH, 8)        \
-    GEARPOD_MARCH(GEARPOD_KERNEL, LAW##_sdirk3_8, Sdirk3, MESH, 8)          \
-    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_newmark_4, Newmark, MESH, 4) \
-    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_sdirk3_4, Sdirk3, MESH, 4)   \
-    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_newmark_1, Newmark, MESH, 1) \
-    GEARPOD_MARCH(GEARPOD_NARROW_KERNEL, LAW##_sdirk3_1, Sdirk3, MESH, 1)
+#define GEARPOD_MARCHES_OF_WIDTH(DEFINE, LAW, MESH, W)         \
+    GEARPOD_MARCH(DEFINE, LAW##_newmark_##W, Newmark, MESH, W) \
+    GEARPOD_MARCH(DEFINE, LAW##_sdirk3_##W, Sdirk3, MESH, W)   \
+    GEARPOD_MARCH(DEFINE, LAW##_generalized_alpha_##W, GeneralizedAlpha, MESH, W)
+
+#define GEARPOD_MARCHES(LAW, MESH)                                \
+    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_KERNEL, LAW, MESH, 8)        \
+    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_NARROW_KERNEL, LAW, MESH, 4) \
+    GEARPOD_MARCHES_OF_WIDTH(GEARPOD_NARROW_KERNEL, LAW, MESH, 1)

@@ -1,5 +1,6 @@
 #include "lockstep/implicit_lanes.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace gearpod::lockstep {
@@ -17,7 +18,7 @@ Eigen::MatrixXd mesh_rows(const dynamics::GearboxLayout& layout) {
 template <int W>
 void set_rows(ImplicitLanes<W>& lanes, const Eigen::MatrixXd& rows) {
     for (int pair = 0; pair < lanes.pairs; ++pair) {
-        int& entries = lanes.row_entries[pair];
+        int entries = 0;
         for (int d = 0; d < lanes.degrees; ++d) {
             if (rows(pair, d) != 0.0) {
                 assert(entries < ImplicitLanes<W>::kMaxRowEntries);
@@ -26,6 +27,7 @@ void set_rows(ImplicitLanes<W>& lanes, const Eigen::MatrixXd& rows) {
                 ++entries;
             }
         }
+        lanes.row_entries = std::max(lanes.row_entries, entries);
     }
 }
 
@@ -40,29 +42,61 @@ void set_sources(ImplicitLanes<W>& lanes, const dynamics::GearboxLayout& layout)
     }
 }
 
-// One lane's column of a block: the matrices for the implicit span `a`, s.
+dynamics::GearboxMatrices without_meshes(const dynamics::GearboxLayout& layout,
+                                         const dynamics::GearboxInputs& in) {
+    // A constant damping would stay with meshes of no stiffness; the steps bring it.
+    dynamics::GearboxInputs bare = in;
+    std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
+    const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
+    return dynamics::assemble(layout, bare, none);
+}
+
+// Which entries of C_0 and K_0 (`forces`), and of M too (`all`), some gearbox of the layout can
+// have: those of one in which everything is 1. The same for every tile, so that all of them compute
+// in the same order.
+struct Coupling {
+    Eigen::MatrixXd forces, all;
+};
+Coupling coupled(const dynamics::GearboxLayout& layout) {
+    dynamics::PlanetaryInputs train;
+    for (int body = 0; body < dynamics::body_count; ++body) {
+        train.mass_kg[body] = train.inertia_over_r2_kg[body] = 1.0;
+        train.bearing_stiffness_N_m[body] = train.bearing_damping_N_s_m[body] = 1.0;
+    }
+    train.support_stiffness_N_m = train.support_damping_N_s_m = train.carrier_speed_rad_s = 1.0;
+    dynamics::FixedShaftInputs stage;
+    for (int g = 0; g < dynamics::fixed_shaft_gear_count; ++g) {
+        stage.mass_kg[g] = stage.inertia_kg_m2[g] = 1.0;
+        stage.bearing_stiffness_N_m[g] = stage.bearing_damping_N_s_m[g] = 1.0;
+        stage.coupling_stiffness_N_m_rad[g] = stage.coupling_damping_N_m_s_rad[g] = 1.0;
+    }
+    stage.motor_inertia_kg_m2 = stage.load_inertia_kg_m2 = 1.0;
+    const bool planetary = std::holds_alternative<dynamics::PlanetaryLayout>(layout);
+    const dynamics::GearboxMatrices m = without_meshes(
+        layout, planetary ? dynamics::GearboxInputs(train) : dynamics::GearboxInputs(stage));
+    const Eigen::MatrixXd forces = m.damping.cwiseAbs() + m.gyroscopic.cwiseAbs() +
+                                   m.stiffness.cwiseAbs() + m.centrifugal.cwiseAbs();
+    return {forces, forces + m.mass.cwiseAbs()};
+}
+
+// One lane's column of a block: the matrices for the implicit spans a, s, and b, s^2.
 template <int W>
 void set_block(const ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m,
-               const Eigen::MatrixXd& rows, double a, double* block) {
-    const Eigen::MatrixXd c = m.damping + m.gyroscopic;
-    const Eigen::MatrixXd k = m.stiffness + m.centrifugal;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(m.mass + a * c + a * a * k);
-    const Eigen::VectorXd constants = solver.solve(m.force);
-    const Eigen::MatrixXd from_c = -solver.solve(c), from_k = -solver.solve(k);
-    const Eigen::MatrixXd z = solver.solve(rows.transpose());
-    const Eigen::MatrixXd g = rows * z;
-    const int n = lanes.degrees;
-    for (int i = 0; i < n; ++i) {
-        block[i * W] = constants(i);
-        for (int j = 0; j < n; ++j) {
-            double* product = block + lanes.products + (((i / 4) * n + j) * 8 + i % 4) * W;
-            product[0] = from_c(i, j);
-            product[4 * W] = from_k(i, j);
-        }
-        for (int pair = 0; pair < lanes.pairs; ++pair) {
-            block[lanes.reactions + (i * lanes.pairs + pair) * W] = z(i, pair);
-        }
+               const Eigen::MatrixXd& rows, double a, double b, double* block) {
+    const Eigen::MatrixXd h =
+        m.mass + a * (m.damping + m.gyroscopic) + b * (m.stiffness + m.centrifugal);
+    const Eigen::MatrixXd f = factors(lanes.lu, h);
+    for (int i = 0; i < lanes.degrees; ++i) {
+        block[i * W] = 1.0 / f(i, i);
     }
+    const auto store = [&](const SparseEntries& entries, double* column) {
+        for (std::size_t e = 0; e < entries.to.size(); ++e) {
+            column[e * W] = f(entries.to[e], entries.from[e]);
+        }
+    };
+    store(lanes.lu.lower, block + lanes.lower);
+    store(lanes.lu.upper, block + lanes.upper);
+    const Eigen::MatrixXd g = rows * h.partialPivLu().solve(rows.transpose());
     for (int row = 0; row < lanes.pairs; ++row) {
         for (int column = 0; column < lanes.pairs; ++column) {
             block[lanes.capacitance + (row * lanes.pairs + column) * W] = g(row, column);
@@ -70,10 +104,37 @@ void set_block(const ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m
     }
 }
 
+template <int W>
+void set_sizes(ImplicitLanes<W>& lanes, std::size_t kinds) {
+    lanes.force.assign(static_cast<std::size_t>(lanes.degrees * W), 0.0);
+    lanes.c_k.assign(static_cast<std::size_t>(lanes.coupling.size() * 2 * W), 0.0);
+    lanes.lower = lanes.degrees * W;
+    lanes.upper = lanes.lower + lanes.lu.lower.size() * W;
+    lanes.capacitance = lanes.upper + lanes.lu.upper.size() * W;
+    const int size = lanes.capacitance + lanes.pairs * lanes.pairs * W;
+    lanes.block_size = static_cast<std::size_t>((size + 7) / 8 * 8);
+    lanes.blocks.assign((kinds + 1) * lanes.block_size, 0.0);
+}
+
+// Lane l of f, C_0 and K_0.
+template <int W>
+void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, int l) {
+    for (int i = 0; i < lanes.degrees; ++i) {
+        lanes.force[static_cast<std::size_t>(i * W + l)] = m.force(i);
+    }
+    double* at = lanes.c_k.data() + l;
+    for (std::size_t e = 0; e < lanes.coupling.to.size(); ++e) {
+        const int i = lanes.coupling.to[e], j = lanes.coupling.from[e];
+        at[0] = m.damping(i, j) + m.gyroscopic(i, j);
+        at[W] = m.stiffness(i, j) + m.centrifugal(i, j);
+        at += 2 * W;
+    }
+}
+
 }  // namespace
 
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
+ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
                                      std::span<const dynamics::GearboxInputs> inputs) {
     assert(inputs.size() == W);
     ImplicitLanes<W> lanes;
@@ -83,16 +144,12 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
     const Eigen::MatrixXd rows = mesh_rows(plan.layout);
     set_rows(lanes, rows);
     set_sources(lanes, plan.layout);
+    const Coupling pattern = coupled(plan.layout);
+    lanes.coupling = nonzero_entries(pattern.forces);
+    lanes.lu = eliminate(pattern.all);
+    set_sizes(lanes, plan.grid.lengths.size());
 
-    const int n = lanes.degrees, padded = lanes.padded_degrees();
-    lanes.products = padded * W;
-    lanes.reactions = lanes.products + 2 * padded * n * W;
-    lanes.capacitance = lanes.reactions + n * lanes.pairs * W;
-    const int size = lanes.capacitance + lanes.pairs * lanes.pairs * W;
-    lanes.block_size = static_cast<std::size_t>((size + 7) / 8 * 8);
-    lanes.blocks.assign((plan.grid.lengths.size() + 1) * lanes.block_size, 0.0);
-
-    const std::vector<double> no_mesh(static_cast<std::size_t>(lanes.pairs), 0.0);
+    const ImplicitSpan span = implicit_span(plan.integrator);
     for (int l = 0; l < W; ++l) {
         const auto& in = inputs[static_cast<std::size_t>(l)];
         lanes.mesh_period[l] = dynamics::mesh_period_s(in);
@@ -102,25 +159,24 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, double share,
             lanes.mesh_damping_factor[pair][l] =
                 dynamics::mesh_damping_factor(plan.layout, in, pair);
         }
-        // A constant damping would stay with meshes of no stiffness; the steps bring it.
-        dynamics::GearboxInputs bare = in;
-        std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
-        const dynamics::GearboxMatrices m = dynamics::assemble(plan.layout, bare, no_mesh);
-        for (std::size_t kind = 0; kind <= plan.grid.lengths.size(); ++kind) {
-            const double a = kind < plan.grid.lengths.size()
-                                 ? share * plan.grid.lengths[kind] * lanes.mesh_period[l]
-                                 : 0.0;
-            set_block(lanes, m, rows, a, lanes.blocks.data() + kind * lanes.block_size + l);
+        const dynamics::GearboxMatrices m = without_meshes(plan.layout, in);
+        set_constants(lanes, m, l);
+        double* block = lanes.blocks.data() + l;
+        for (const double length : plan.grid.lengths) {
+            const double h = length * lanes.mesh_period[l];
+            set_block(lanes, m, rows, span.velocity * h, span.position * h * h, block);
+            block += lanes.block_size;
         }
+        set_block(lanes, m, rows, 0.0, 0.0, block);
     }
     return lanes;
 }
 
-template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&, double,
+template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&,
                                                  std::span<const dynamics::GearboxInputs>);
-template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&, double,
+template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&,
                                                  std::span<const dynamics::GearboxInputs>);
-template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&, double,
+template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&,
                                                  std::span<const dynamics::GearboxInputs>);
 
 }  // namespace gearpod::lockstep

@@ -8,7 +8,8 @@ namespace gearpod::lockstep {
 
 #define GEARPOD_IMPLICIT_MARCHES(LAW, W)             \
     MarchKernel<ImplicitLanes<W>> LAW##_newmark_##W; \
-    MarchKernel<ImplicitLanes<W>> LAW##_sdirk3_##W;
+    MarchKernel<ImplicitLanes<W>> LAW##_sdirk3_##W;  \
+    MarchKernel<ImplicitLanes<W>> LAW##_generalized_alpha_##W;
 GEARPOD_IMPLICIT_MARCHES(linear, 1)
 GEARPOD_IMPLICIT_MARCHES(linear, 4)
 GEARPOD_IMPLICIT_MARCHES(linear, 8)

@@ -1,11 +1,14 @@
 // One stage of an implicit integrator for W gearboxes in lockstep (implicit_lanes.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/effects/inertial_terms.hpp"
 #include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/implicit_lanes.hpp"
+#include "lockstep/march_steps.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
@@ -45,83 +48,139 @@ struct MatrixMotion {
     }
 };
 
-// Scratch of a stage; [pair][lane] but for the matrix. `pairs` goes in, `force` comes out.
+// How far a stage's own acceleration A carries: V = v + a A, Q = x + b A (s and s^2).
+template <int W>
+struct alignas(64) StageSpan {
+    double a[W] = {}, b[W] = {};
+};
+
+// Scratch of a stage; [pair][lane] but for g and the matrix. `pairs` goes in, `force` comes out.
 template <class Model, int W = Model::kWidth>
 struct alignas(64) StageScratch {
     static constexpr int kRows = Model::kMaxPairs * W;
     typename Model::Pairs pairs;
+    double g[Model::kMaxDegrees * W];         // forces but for the meshes', N
     double force[kRows];                      // mesh forces, N
     double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
     double touching[kRows], back[kRows];      // of a separating mesh: see touch()
+    double changed[W];                        // likewise
     double s[kRows];                          // S
-    double matrix[Model::kMaxPairs * kRows];  // 1 + S G
+    double matrix[Model::kMaxPairs * kRows];  // what elimination leaves of G
 };
 
-// y = B f - B C_0 v - B K_0 x; four rows at a time.
+// A row of a list that the compiler cannot look behind: it shall vectorise over the lanes of one
+// entry and not gather over several entries.
+GEARPOD_INLINE const double* one_row(const double* row) {
+    asm("" : "+r"(row));
+    return row;
+}
+
 template <int W>
-GEARPOD_INLINE void free_acceleration(const ImplicitLanes<W>& p, const double* __restrict block,
-                                      const double* __restrict x, const double* __restrict v,
-                                      double* __restrict y) {
-    const int n = p.degrees;
-    for (int i = 0; i < n; i += 4) {
-        const double* __restrict constants = block + i * W;
-        const double* __restrict m = block + p.products + 2 * i * n * W;
-        alignas(64) double sum[4][W];
-        for (int r = 0; r < 4; ++r) {
+GEARPOD_INLINE void copy_rows(const double* __restrict from, int rows, double* __restrict to) {
+    for (int i = 0; i < rows * W; i += W) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            to[i + l] = from[i + l];
+        }
+    }
+}
+
+// to -= factor from, W numbers.
+template <int W>
+GEARPOD_INLINE void subtract_product(const double* factor, const double* from, double* to) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        to[l] = std::fma(-factor[l], from[l], to[l]);
+    }
+}
+
+// g = f - C_0 v - K_0 x.
+template <int W>
+GEARPOD_INLINE void free_forces(const ImplicitLanes<W>& p, const double* __restrict x,
+                                const double* __restrict v, double* __restrict g) {
+    copy_rows<W>(p.force.data(), p.degrees, g);
+    const int* __restrict to = p.coupling.to.data();
+    const int* __restrict from = p.coupling.from.data();
+    const double* __restrict c_k = p.c_k.data();
+    for (int e = 0; e < p.coupling.size(); ++e) {
+        const double* __restrict entry = one_row(c_k + 2 * e * W);
+        const double* __restrict xj = one_row(x + from[e] * W);
+        const double* __restrict vj = one_row(v + from[e] * W);
+        double* __restrict sum = g + to[e] * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            sum[l] = std::fma(-entry[l], vj[l], std::fma(-entry[W + l], xj[l], sum[l]));
+        }
+    }
+}
+
+// y -= (triangular factor without its diagonal) y, entry by entry.
+template <int W>
+GEARPOD_INLINE void substitute(const SparseEntries& entries, const double* factor, double* y) {
+    const int* __restrict to = entries.to.data();
+    const int* __restrict from = entries.from.data();
+    for (int e = 0; e < entries.size(); ++e) {
+        subtract_product<W>(one_row(factor + e * W), one_row(y + from[e] * W), y + to[e] * W);
+    }
+}
+
+// y = H^-1 g: forwards through L, over D, backwards through U.
+template <int W>
+GEARPOD_INLINE void solve_constant_part(const ImplicitLanes<W>& p, const double* __restrict block,
+                                        const double* __restrict g, double* y) {
+    copy_rows<W>(g, p.degrees, y);
+    substitute<W>(p.lu.lower, block + p.lower, y);
+    for (int i = 0; i < p.degrees * W; i += W) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            y[i + l] *= block[i + l];
+        }
+    }
+    substitute<W>(p.lu.upper, block + p.upper, y);
+}
+
+// out = R values: [pair][lane] from [degree of freedom][lane].
+template <int W>
+GEARPOD_INLINE void deflections(const ImplicitLanes<W>& p, const double* __restrict values,
+                                double* __restrict out) {
+    for (int i = 0; i < p.pairs * W; i += W) {
+        spread<W>(0.0, out + i);
+    }
+    for (int e = 0; e < p.row_entries; ++e) {
+        for (int pair = 0; pair < p.pairs; ++pair) {
+            const double* __restrict value = one_row(values + p.row_degree[pair][e] * W);
+            const double weight = p.row_weight[pair][e];
+            double* __restrict sum = out + pair * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                sum[r][l] = constants[r * W + l];
-            }
-        }
-        for (int j = 0; j < n; ++j) {
-            const double* __restrict e = m + 8 * j * W;
-            for (int r = 0; r < 4; ++r) {
-#pragma omp simd
-                for (int l = 0; l < W; ++l) {
-                    sum[r][l] = std::fma(e[r * W + l], v[j * W + l],
-                                         std::fma(e[(4 + r) * W + l], x[j * W + l], sum[r][l]));
-                }
-            }
-        }
-        for (int r = 0; r < 4; ++r) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                y[(i + r) * W + l] = sum[r][l];
+                sum[l] = std::fma(weight, value[l], sum[l]);
             }
         }
     }
 }
 
-// Deflections and rates of the meshes: t.d, t.r and t.y.
-template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void deflections(const ImplicitLanes<W>& p, const double* __restrict x,
-                                const double* __restrict v, const double* __restrict y,
-                                StageScratch<Model>& t) {
+// g -= R^T force.
+template <int W>
+GEARPOD_INLINE void subtract_mesh_forces(const ImplicitLanes<W>& p, const double* __restrict force,
+                                         double* __restrict g) {
     for (int pair = 0; pair < p.pairs; ++pair) {
-        const int row = pair * W;
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            t.d[row + l] = t.r[row + l] = t.y[row + l] = 0.0;
-        }
-        for (int e = 0; e < p.row_entries[pair]; ++e) {
-            const int d = p.row_degree[pair][e] * W;
+        for (int e = 0; e < p.row_entries; ++e) {
+            double* __restrict sum = g + p.row_degree[pair][e] * W;
+            const double* __restrict load = one_row(force + pair * W);
             const double weight = p.row_weight[pair][e];
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                t.d[row + l] = std::fma(weight, x[d + l], t.d[row + l]);
-                t.r[row + l] = std::fma(weight, v[d + l], t.r[row + l]);
-                t.y[row + l] = std::fma(weight, y[d + l], t.y[row + l]);
+                sum[l] = std::fma(-weight, load[l], sum[l]);
             }
         }
     }
 }
 
-// force = k R x + c R v + S R y and matrix = 1 + S G, S = a c + a^2 k.
+// force = k R x + c R v + S R y, S = a c + b k.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void mesh_system(const ImplicitLanes<W>& p, const double* __restrict block,
-                                const double* __restrict a, StageScratch<Model>& t) {
-    for (int pair = 0; pair < p.pairs; ++pair) {
-        const int i = pair * W;
+GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& span,
+                               StageScratch<Model>& t) {
+    for (int i = 0; i < p.pairs * W; i += W) {
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             double k = t.pairs.k[i + l], c = t.pairs.c[i + l], d = t.d[i + l], r = t.r[i + l];
@@ -134,74 +193,73 @@ GEARPOD_INLINE void mesh_system(const ImplicitLanes<W>& p, const double* __restr
                 d -= t.pairs.e[i + l];
                 r -= t.pairs.de[i + l];
             }
-            t.s[i + l] = a[l] * std::fma(a[l], k, c);
+            t.s[i + l] = std::fma(span.a[l], c, span.b[l] * k);
             t.force[i + l] = std::fma(k, d, std::fma(c, r, t.s[i + l] * t.y[i + l]));
-        }
-        const double* __restrict g = block + p.capacitance + i * p.pairs;
-        double* __restrict row = t.matrix + i * p.pairs;
-        for (int other = 0; other < p.pairs; ++other) {
-            const double diagonal = other == pair ? 1.0 : 0.0;
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                row[other * W + l] = std::fma(t.s[i + l], g[other * W + l], diagonal);
-            }
         }
     }
 }
 
-// Solves matrix * force = force in place by elimination; diagonals are kept inverted. No pivoting:
-// every pivot is at least 1, since a diagonal scaling makes 1 + S G the sum of 1 and a positive
-// matrix.
+// Solves (1 + S G) F = force in place by elimination of S^-1 + G, whose inverted pivots
+// e_i = s_i / (1 + s_i g_ii) exist for s_i = 0 too. No pivoting: 1 + s_i g_ii is at least 1, since
+// G is positive and all but symmetric. `matrix` is scratch.
 template <int W>
-GEARPOD_INLINE void solve_meshes(int pairs, double* __restrict matrix, double* __restrict force) {
+GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const double* __restrict s,
+                                 double* __restrict matrix, double* __restrict force) {
+    alignas(64) double e[dynamics::kMaxPairs * W];
+    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the pairs eliminated
     alignas(64) double factor[W];
+    copy_rows<W>(g, pairs * pairs, matrix);
+    for (int i = 0; i < pairs * W; i += W) {
+        spread<W>(0.0, sum + i);
+    }
     for (int i = 0; i < pairs; ++i) {
-        double* __restrict pivot = matrix + i * pairs * W;
+        const double* __restrict row = matrix + i * pairs * W;
+        const int at = i * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            pivot[i * W + l] = 1.0 / pivot[i * W + l];
+            const double inverse = 1.0 / std::fma(s[at + l], row[at + l], 1.0);
+            e[at + l] = s[at + l] * inverse;
+            force[at + l] = inverse * std::fma(-s[at + l], sum[at + l], force[at + l]);
         }
         for (int r = i + 1; r < pairs; ++r) {
-            double* __restrict row = matrix + r * pairs * W;
+            double* __restrict other = matrix + r * pairs * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                factor[l] = -row[i * W + l] * pivot[i * W + l];
-                force[r * W + l] = std::fma(factor[l], force[i * W + l], force[r * W + l]);
+                sum[r * W + l] = std::fma(other[at + l], force[at + l], sum[r * W + l]);
+                factor[l] = other[at + l] * e[at + l];
             }
             for (int c = i + 1; c < pairs; ++c) {
-#pragma omp simd
-                for (int l = 0; l < W; ++l) {
-                    row[c * W + l] = std::fma(factor[l], pivot[c * W + l], row[c * W + l]);
-                }
+                subtract_product<W>(factor, one_row(row + c * W), other + c * W);
             }
         }
     }
     for (int i = pairs - 1; i >= 0; --i) {
         const double* __restrict row = matrix + i * pairs * W;
+        spread<W>(0.0, factor);
         for (int c = i + 1; c < pairs; ++c) {
+            const double* __restrict load = one_row(force + c * W);
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                force[i * W + l] = std::fma(-row[c * W + l], force[c * W + l], force[i * W + l]);
+                factor[l] = std::fma(row[c * W + l], load[l], factor[l]);
             }
         }
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            force[i * W + l] *= row[i * W + l];
-        }
+        subtract_product<W>(e + i * W, factor, force + i * W);
     }
 }
 
 // Which flanks of the separating meshes touch at the stage's end, where a mesh deflects by
-// R Q = d + a^2 (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
-// backlash if the back flanks touch. Returns whether any lane changed.
+// R Q = d + b (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
+// backlash if the back flanks touch. Returns whether any lane changed; in t.changed those that did
+// are NaN, the others 0.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict block,
-                          const double* __restrict a, bool first, StageScratch<Model>& t) {
+GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
+                          const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
     int changes = 0;
     alignas(64) double rest[W];
+    std::fill_n(t.changed, W, 0.0);
     for (int pair = 0; pair < p.pairs; ++pair) {
         const int i = pair * W;
-        const double* __restrict g = block + p.capacitance + i * p.pairs;
+        const double* __restrict g = matrix + i * p.pairs;
         for (int l = 0; l < W; ++l) {
             rest[l] = t.y[i + l];
         }
@@ -213,11 +271,13 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict bl
         }
 #pragma omp simd reduction(| : changes)
         for (int l = 0; l < W; ++l) {
-            const double front = std::fma(a[l] * a[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
+            const double front = std::fma(span.b[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
             const bool behind = front + t.pairs.backlash[l] < 0.0;
             const double touching = front > 0.0 || behind ? 1.0 : 0.0;
             const double back = behind ? t.pairs.backlash[l] : 0.0;
-            changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
+            const bool differs = touching != t.touching[i + l] || back != t.back[i + l];
+            changes |= differs ? 1 : 0;
+            t.changed[l] = differs ? std::numeric_limits<double>::quiet_NaN() : t.changed[l];
             t.touching[i + l] = touching;
             t.back[i + l] = back;
         }
@@ -225,42 +285,49 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict bl
     return changes != 0;
 }
 
-// Rounds in which separating meshes find who touches; one more than most stages need. A lane that
-// has found it is the same in every further round.
-inline constexpr int kMostRounds = 6;
+// Rounds in which separating meshes find who touches; two or three do in nearly all stages. A lane
+// that has found it is the same in every further round.
+inline constexpr int kMostRounds = 24;
 
-// The acceleration A of a stage from x = q + a v and v; t.pairs holds the meshes. All [degree of
-// freedom][lane], rounded up to four degrees.
+// Mesh forces of separating meshes. A lane that finds no set of touching flanks gets forces that
+// are no numbers: its gearbox counts as diverged, and its neighbours never see it.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* __restrict g,
+                                      const StageSpan<W>& span, StageScratch<Model>& t) {
+    touch<Model>(p, g, span, true, t);
+    for (int round = 0; round < kMostRounds; ++round) {
+        mesh_loads<Model>(p, span, t);
+        solve_meshes<W>(p.pairs, g, t.s, t.matrix, t.force);
+        if (!touch<Model>(p, g, span, false, t)) {
+            return;
+        }
+    }
+    for (int i = 0; i < p.pairs * W; ++i) {
+        t.force[i] += t.changed[i % W];
+    }
+}
+
+// The acceleration A of a stage from x and v; t.pairs holds the meshes. All [degree of
+// freedom][lane].
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void implicit_stage(const ImplicitLanes<W>& p, const double* __restrict block,
-                                   const double* __restrict a, const double* __restrict x,
+                                   const StageSpan<W>& span, const double* __restrict x,
                                    const double* __restrict v, double* __restrict acceleration,
                                    StageScratch<Model>& t) {
-    free_acceleration<W>(p, block, x, v, acceleration);
-    deflections<Model>(p, x, v, acceleration, t);
+    free_forces<W>(p, x, v, t.g);
+    solve_constant_part<W>(p, block, t.g, acceleration);
+    deflections<W>(p, x, t.d);
+    deflections<W>(p, v, t.r);
+    deflections<W>(p, acceleration, t.y);
+    const double* g = block + p.capacitance;
     if constexpr (Model::Mesh::kSeparates) {
-        touch<Model>(p, block, a, true, t);
-        for (int round = 0; round < kMostRounds; ++round) {
-            mesh_system<Model>(p, block, a, t);
-            solve_meshes<W>(p.pairs, t.matrix, t.force);
-            if (!touch<Model>(p, block, a, false, t)) {
-                break;
-            }
-        }
+        separating_meshes<Model>(p, g, span, t);
     } else {
-        mesh_system<Model>(p, block, a, t);
-        solve_meshes<W>(p.pairs, t.matrix, t.force);
+        mesh_loads<Model>(p, span, t);
+        solve_meshes<W>(p.pairs, g, t.s, t.matrix, t.force);
     }
-    for (int i = 0; i < p.degrees; ++i) {
-        const double* __restrict z = block + p.reactions + i * p.pairs * W;
-        double* __restrict sum = acceleration + i * W;
-        for (int pair = 0; pair < p.pairs; ++pair) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                sum[l] = std::fma(-z[pair * W + l], t.force[pair * W + l], sum[l]);
-            }
-        }
-    }
+    subtract_mesh_forces<W>(p, t.force, t.g);
+    solve_constant_part<W>(p, block, t.g, acceleration);
 }
 
 }  // namespace gearpod::lockstep

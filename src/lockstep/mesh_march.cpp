@@ -71,8 +71,14 @@ Kernel<dynamics::FixedShaftLanes<W, Real>> kernel_of(const MarchPlan& plan,
 
 template <int W>
 Kernel<ImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
-    return plan.integrator == Integrator::newmark ? GEARPOD_DOUBLE_KERNEL_OF(plan, newmark)
-                                                  : GEARPOD_DOUBLE_KERNEL_OF(plan, sdirk3);
+    switch (plan.integrator) {
+        case Integrator::newmark:
+            return GEARPOD_DOUBLE_KERNEL_OF(plan, newmark);
+        case Integrator::generalized_alpha:
+            return GEARPOD_DOUBLE_KERNEL_OF(plan, generalized_alpha);
+        default:
+            return GEARPOD_DOUBLE_KERNEL_OF(plan, sdirk3);
+    }
 }
 
 #undef GEARPOD_EXPLICIT_KERNEL_OF
@@ -135,10 +141,8 @@ template <int W>
 std::unique_ptr<const MeshMarch<W>> make_implicit(const MarchPlan& plan,
                                                   std::span<const dynamics::GearboxInputs> inputs,
                                                   machine::AlignedVector filter) {
-    const double share = plan.integrator == Integrator::newmark ? 0.5 : Alexander::kDiagonal;
     return std::make_unique<KernelMarch<W, ImplicitLanes<W>>>(
-        plan, make_implicit_lanes<W>(plan, share, inputs), std::move(filter),
-        implicit_kernel_of<W>(plan));
+        plan, make_implicit_lanes<W>(plan, inputs), std::move(filter), implicit_kernel_of<W>(plan));
 }
 
 }  // namespace

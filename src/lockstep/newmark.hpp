@@ -11,8 +11,7 @@ namespace gearpod::lockstep {
 struct Newmark {
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
-        // Rounded up to four degrees of freedom.
-        static constexpr int kSize = (Model::kMaxDegrees + 3) / 4 * 4 * W;
+        static constexpr int kSize = Model::kMaxDegrees * W;
         double x[kSize], v[kSize], a_start[kSize], a_end[kSize];
         double input[2][2 * Model::kMaxSources * W];  // of the sensor, at the step's ends
         StageScratch<Model> meshes{};
@@ -27,14 +26,15 @@ struct Newmark {
         const int size = lanes.degrees * W;
         double* __restrict q = state.q.data();
         double* __restrict v = state.v.data();
-        alignas(64) double half[W], none[W];
+        const StageSpan<W> none;
+        StageSpan<W> span;
+        const double* const half = span.a;
         for (int l = 0; l < W; ++l) {
-            half[l] = 0.5 * step.length * lanes.mesh_period[l];
-            none[l] = 0.0;
+            span.a[l] = 0.5 * step.length * lanes.mesh_period[l];
+            span.b[l] = half[l] * half[l];
         }
         load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(lanes.blocks_at_rest()), none, q, v, s.a_start,
-                              s.meshes);
+        implicit_stage<Model>(lanes, lanes.block_at_rest(), none, q, v, s.a_start, s.meshes);
         Model::source_accelerations(lanes, q, v, s.a_start, s.input[0]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
@@ -45,7 +45,7 @@ struct Newmark {
             }
         }
         load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(step.kind), half, s.x, s.v, s.a_end, s.meshes);
+        implicit_stage<Model>(lanes, lanes.block(step.kind), span, s.x, s.v, s.a_end, s.meshes);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {

@@ -11,8 +11,7 @@ namespace gearpod::lockstep {
 struct Sdirk3 {
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
-        // Rounded up to four degrees of freedom.
-        static constexpr int kSize = (Model::kMaxDegrees + 3) / 4 * 4 * W;
+        static constexpr int kSize = Model::kMaxDegrees * W;
         double x[kSize], v[kSize];  // of the stage, without its own acceleration
         double q_end[kSize];        // and with it
         double v1[kSize], v2[kSize], v3[kSize], a1[kSize], a2[kSize], a3[kSize];
@@ -29,10 +28,13 @@ struct Sdirk3 {
         const int size = lanes.degrees * W;
         double* __restrict q = state.q.data();
         double* __restrict v = state.v.data();
-        alignas(64) double a[W], h21[W], h31[W], h32[W];
+        StageSpan<W> span;
+        const double* const a = span.a;
+        alignas(64) double h21[W], h31[W], h32[W];
         for (int l = 0; l < W; ++l) {
             const double h = step.length * lanes.mesh_period[l];
-            a[l] = Alexander::kDiagonal * h;
+            span.a[l] = Alexander::kDiagonal * h;
+            span.b[l] = a[l] * a[l];
             h21[l] = Alexander::k21 * h;
             h31[l] = Alexander::k31 * h;
             h32[l] = Alexander::k32 * h;
@@ -44,7 +46,7 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], v[j + l], q[j + l]);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 0, a, s, s.v1, s.a1);
+        stage<Model>(plan, lanes, overrides, i, 0, span, s, s.v1, s.a1);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -54,7 +56,7 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], vj, qj);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 1, a, s, s.v2, s.a2);
+        stage<Model>(plan, lanes, overrides, i, 1, span, s, s.v2, s.a2);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -66,7 +68,7 @@ struct Sdirk3 {
                 s.x[j + l] = std::fma(a[l], vj, qj);
             }
         }
-        stage<Model>(plan, lanes, overrides, i, 2, a, s, s.v3, s.a3);
+        stage<Model>(plan, lanes, overrides, i, 2, span, s, s.v3, s.a3);
         std::copy_n(s.q_end, size, q);
         std::copy_n(s.v3, size, v);
 
@@ -84,17 +86,17 @@ struct Sdirk3 {
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void stage(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
                                      const std::vector<PairOverride>& overrides, int i, int node,
-                                     const double* __restrict a, Stages<Model>& s,
+                                     const StageSpan<W>& span, Stages<Model>& s,
                                      double* __restrict velocity, double* __restrict acceleration) {
         const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;
         load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.pairs);
-        implicit_stage<Model>(lanes, lanes.block(kind), a, s.x, s.v, acceleration, s.meshes);
+        implicit_stage<Model>(lanes, lanes.block(kind), span, s.x, s.v, acceleration, s.meshes);
         for (int j = 0; j < lanes.degrees * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const double rise = a[l] * acceleration[j + l];
+                const double rise = span.a[l] * acceleration[j + l];
                 velocity[j + l] = s.v[j + l] + rise;
-                s.q_end[j + l] = std::fma(a[l], rise, s.x[j + l]);
+                s.q_end[j + l] = std::fma(span.a[l], rise, s.x[j + l]);
             }
         }
         Model::source_accelerations(lanes, s.q_end, velocity, acceleration, s.input[node]);

@@ -54,6 +54,16 @@ FilterMap trapezoidal(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
     return map;
 }
 
+// The trapezoidal rule on a straight line through the input at two times `lag` steps before the
+// step's ends.
+FilterMap lagging(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb, double lag) {
+    const FilterMap ends = trapezoidal(ha, hb);
+    FilterMap map = ends;
+    map.inputs.col(0) = (1.0 - lag) * ends.inputs.col(0) - lag * ends.inputs.col(2);
+    map.inputs.col(2) = lag * ends.inputs.col(0) + (1.0 + lag) * ends.inputs.col(2);
+    return map;
+}
+
 FilterMap alexander(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
     const Eigen::Matrix4d one = Eigen::Matrix4d::Identity();
     const Eigen::Matrix4d solve = (one - Alexander::kDiagonal * ha).inverse();
@@ -80,6 +90,8 @@ FilterMap filter_map(Integrator integrator, const Eigen::Matrix4d& ha, double h,
             return trapezoidal(ha, h * b);
         case Integrator::sdirk3:
             return alexander(ha, h * b);
+        case Integrator::generalized_alpha:
+            return lagging(ha, h * b, ChungHulbert::kLag);
         case Integrator::bs3:
             return bogacki_shampine(ha, h * b);
         case Integrator::rk4:

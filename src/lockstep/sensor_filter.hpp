@@ -17,7 +17,8 @@ inline constexpr int kFilterStates = 4;  // x, x', y, y'; y is the output
 inline constexpr int kFilterOutput = 2;
 
 // Positions in one step's coefficients: the transition matrix without its zero block, then the
-// columns of the input at the stage nodes (newmark: start, none, end).
+// columns of the input at the stage nodes (newmark: start, none, end; generalized_alpha: the
+// same, by its lag earlier).
 inline constexpr int kFilterXX = 0;      // 2 x 2: x, x' from x, x'
 inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
 inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'

@@ -102,7 +102,7 @@ Integrator choose_integrator(double stable_steps_per_mesh) {
 
 double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,
                       double mesh_period_s, double low_pass_rad_s) {
-    const double steps_per_period = integrator == Integrator::newmark ? 100.0 : 25.0;
+    const double steps_per_period = integrator == Integrator::sdirk3 ? 25.0 : 100.0;
     double fastest = low_pass_rad_s;
     for (const std::complex<double> lambda : modes(m)) {
         const double size = std::abs(lambda);

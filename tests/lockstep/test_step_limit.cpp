@@ -87,7 +87,8 @@ TEST_CASE(
             return run_tile<1>(plan, stage, gearbox.no_fault(1), {}).records[0];
         };
         const auto exact = orbit(Integrator::sdirk3, 10000);
-        for (const auto integrator : {Integrator::newmark, Integrator::sdirk3}) {
+        for (const auto integrator :
+             {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
             const double steps =
                 implicit_steps(integrator, stage_matrices, gearbox.inputs().mesh_period_s,
                                2 * std::numbers::pi * low_pass_Hz);
@@ -106,7 +107,8 @@ TEST_CASE(
     const auto exact = run_tile<1>(fine, planetary, train.no_fault(1), {}).records[0];
     const auto matrices =
         dynamics::assemble(fine.layout, planetary[0], std::vector<double>(8, 1e9));
-    for (const auto integrator : {Integrator::newmark, Integrator::sdirk3}) {
+    for (const auto integrator :
+         {Integrator::newmark, Integrator::sdirk3, Integrator::generalized_alpha}) {
         const double steps = implicit_steps(integrator, matrices, train.inputs(10.0).mesh_period_s,
                                             fine.low_pass_rad_s);
         MarchPlan plan = train.plan(24, static_cast<int>(std::ceil(steps)), full);
