@@ -211,7 +211,8 @@ struct Detection {
 struct Numerics {
     Integrator integrator = Integrator::automatic;
     int steps_per_mesh = 0;  // 0: chosen from a pilot of the ensemble
-    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are not.
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
+    // not.
     double tolerance = 0.0;
     bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;
