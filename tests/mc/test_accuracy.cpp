@@ -117,9 +117,9 @@ TEST_CASE("a study with its choice spelled out reads back to the same choice", "
 
 TEST_CASE("a tolerance that the steps given cannot keep is refused", "[accuracy]") {
     const Study study = tian(
-        {"numerics.tolerance=1e-6", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
+        {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
     CHECK_THROWS_AS(Scene(study), SceneError);
-    CHECK_THROWS_WITH(Scene(study), Catch::Contains("no rung keeps the features within 1e-06"));
+    CHECK_THROWS_WITH(Scene(study), Catch::Contains("no rung keeps the features within 0.001"));
 }
 
 TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]") {
@@ -218,21 +218,22 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("refused: the explicit Runge-Kutta method would need"));
     const auto json = nlohmann::json::parse(test::bytes_of(folder.file("accuracy.json")));
-    CHECK(json["reference"]["agreement"]["sensor"] < 1e-7);
-    CHECK(json["explicit_limit"]["refused"] == true);
-    CHECK(json["explicit_limit"]["steps"] > 8e5);
-    CHECK(json["peers"][0]["command"] == "a, b");
-    CHECK(json["peers"][0]["worst_feature"] == 0.3);
+    CHECK(json["reference"]["agreement"]["sensor"].get<double>() < 1e-7);
+    CHECK(json["explicit_limit"]["refused"].get<bool>());
+    CHECK(json["explicit_limit"]["steps"].get<double>() > 8e5);
+    CHECK(json["peers"][0]["command"].get<std::string>() == "a, b");
+    CHECK(json["peers"][0]["worst_feature"].get<double>() == 0.3);
     std::vector<std::pair<double, double>> frontier;
     double fastest = 1e9, closest = 1e9;
     for (const auto& rung : json["rungs"]) {
-        if (rung.contains("refused")) {
+        // A rung may be unstable: then it has no error.
+        if (rung.contains("refused") || rung["error"]["worst_feature"].is_null()) {
             continue;
         }
         const double error = rung["error"]["worst_feature"], time = rung["gearbox_s"];
         fastest = std::min(fastest, time);
         closest = std::min(closest, error);
-        if (rung["frontier"]) {
+        if (rung["frontier"].get<bool>()) {
             frontier.emplace_back(time, error);
         }
     }
@@ -244,7 +245,7 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
         CHECK(frontier[i].second < frontier[i - 1].second);
     }
     // 1e-3 is kept with fewer steps and less settling than the study's own.
-    CHECK(json["choices"][1]["tolerance"] == 1e-3);
+    CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
     CHECK(json["choices"][1].contains("chosen"));
 }
 
