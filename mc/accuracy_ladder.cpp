@@ -57,8 +57,9 @@ struct StepCost {
     double planetary, rotations, fixed_shaft;
 };
 constexpr StepCost kStepCosts[] = {{"rk4", 1.0, 1.0, 1.0},
-                                   {"newmark", 5.2, 3.1, 1.6},
-                                   {"sdirk3", 7.9, 4.7, 2.8},
+                                   {"newmark", 2.1, 2.0, 1.6},
+                                   {"sdirk3", 5.6, 4.0, 2.8},
+                                   {"generalized-alpha", 2.1, 2.0, 1.6},
                                    {"bs3", 0.8, 0.8, 0.8}};
 // Of singles, eight abreast, over doubles.
 constexpr double kSingleCost = 0.65;

@@ -6,11 +6,11 @@
 #include <numeric>
 #include <span>
 
+#include "lockstep/step_pilot.hpp"
 #include "mc/gearbox_tile.hpp"
 #include "mc/healthy_reference.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/thread_clock.hpp"
-#include "mc/tile_rows.hpp"
 #include "signals/sensor.hpp"
 
 namespace gearpod::mc {
@@ -26,7 +26,7 @@ std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile,
         const int id = content[static_cast<std::size_t>(k) % content.size()];
         const auto& all = tile.march.records[static_cast<std::size_t>(id)].te;
         for (int p = 0; p < scene.samples_per_mesh(); ++p) {
-            te.push_back(all[static_cast<std::size_t>(p * kTileRows + lane)]);
+            te.push_back(all[static_cast<std::size_t>(p * lockstep::kPilotLanes + lane)]);
         }
     }
     const double mean = std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
@@ -77,7 +77,7 @@ void add_feature(const PilotRecord& record, const PilotRecord& reference, std::s
 }  // namespace
 
 double PilotRecord::meshes_per_tile() const {
-    return static_cast<double>(tile_meshes) * kTileRows /
+    return static_cast<double>(tile_meshes) * lockstep::kPilotLanes /
            static_cast<double>(std::max<std::size_t>(1, ok.size()));
 }
 
@@ -100,7 +100,7 @@ double PilotError::signals() const {
 
 std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride) {
     std::vector<GearboxId> ids;
-    for (int i = 0; i < kTileRows; ++i) {
+    for (int i = 0; i < lockstep::kPilotLanes; ++i) {
         ids.push_back({Group::graded, first + static_cast<std::uint64_t>(i) * stride});
     }
     return ids;
@@ -119,10 +119,10 @@ PilotRecord Pilot::run(const Scene& scene) const {
     const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
     double signal_s = 0.0;
     const double start = thread_processor_s();
-    for (std::size_t first = 0; first < ids_.size(); first += kTileRows) {
-        const auto some =
-            std::span(ids_).subspan(first, std::min<std::size_t>(kTileRows, ids_.size() - first));
-        const GearboxTile tile = run_gearboxes(scene, sampler_, path_, some, kTileRows);
+    for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
+        const auto some = std::span(ids_).subspan(
+            first, std::min<std::size_t>(lockstep::kPilotLanes, ids_.size() - first));
+        const GearboxTile tile = run_gearboxes(scene, sampler_, path_, some, lockstep::kPilotLanes);
         record.tile_meshes += tile.march.marched;
         record.march_s += tile.march_cpu_s;
         for (std::size_t g = 0; g < some.size(); ++g) {

@@ -5,8 +5,8 @@
 
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/sensor_filter.hpp"
+#include "lockstep/step_pilot.hpp"
 #include "mc/thread_clock.hpp"
-#include "mc/tile_rows.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -35,22 +35,23 @@ lockstep::MarchPlan explicit_plan(const Scene& scene) {
 double explicit_step_s(const Scene& scene) {
     const lockstep::MarchPlan plan = explicit_plan(scene);
     const std::vector<dynamics::GearboxInputs> inputs(
-        kTileRows, scene.inputs(Sampler(scene.study()).nominal()));
-    const auto march = lockstep::make_mesh_march<kTileRows>(plan, inputs);
+        lockstep::kPilotLanes, scene.inputs(Sampler(scene.study()).nominal()));
+    const auto march = lockstep::make_mesh_march<lockstep::kPilotLanes>(plan, inputs);
     const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMarches; ++i) {
         lockstep::TileState state;
-        state.q.assign(degrees * kTileRows, 0.0);
-        state.v.assign(degrees * kTileRows, 0.0);
-        state.filter.assign(
-            static_cast<std::size_t>(plan.channels()) * lockstep::kFilterStates * kTileRows, 0.0);
-        lockstep::MeshRecord record = lockstep::make_record(plan, kTileRows, false);
+        state.q.assign(degrees * lockstep::kPilotLanes, 0.0);
+        state.v.assign(degrees * lockstep::kPilotLanes, 0.0);
+        state.filter.assign(static_cast<std::size_t>(plan.channels()) * lockstep::kFilterStates *
+                                lockstep::kPilotLanes,
+                            0.0);
+        lockstep::MeshRecord record = lockstep::make_record(plan, lockstep::kPilotLanes, false);
         const double start = thread_processor_s();
         (*march)({}, state, record);
         least = std::min(least, thread_processor_s() - start);
     }
-    return least / static_cast<double>(plan.grid.steps.size()) / kTileRows;
+    return least / static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
 }
 
 }  // namespace gearpod::mc

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dynamics/effects/inertial_terms.hpp"
 #include "dynamics/effects/mesh_law.hpp"
@@ -63,7 +62,6 @@ struct alignas(64) StageScratch {
     double force[kRows];                      // mesh forces, N
     double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
     double touching[kRows], back[kRows];      // of a separating mesh: see touch()
-    double changed[W];                        // likewise
     double s[kRows];                          // S
     double matrix[Model::kMaxPairs * kRows];  // what elimination leaves of G
 };
@@ -206,14 +204,14 @@ template <int W>
 GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const double* __restrict s,
                                  double* __restrict matrix, double* __restrict force) {
     alignas(64) double e[dynamics::kMaxPairs * W];
-    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the pairs eliminated
+    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the pairs done
     alignas(64) double factor[W];
-    copy_rows<W>(g, pairs * pairs, matrix);
     for (int i = 0; i < pairs * W; i += W) {
         spread<W>(0.0, sum + i);
     }
     for (int i = 0; i < pairs; ++i) {
-        const double* __restrict row = matrix + i * pairs * W;
+        const double* left = i == 0 ? g : matrix;  // of G; the first pivot finds all of it
+        const double* row = left + i * pairs * W;
         const int at = i * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
@@ -222,41 +220,46 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
             force[at + l] = inverse * std::fma(-s[at + l], sum[at + l], force[at + l]);
         }
         for (int r = i + 1; r < pairs; ++r) {
-            double* __restrict other = matrix + r * pairs * W;
+            const double* other = left + r * pairs * W;
+            double* rest = matrix + r * pairs * W;
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 sum[r * W + l] = std::fma(other[at + l], force[at + l], sum[r * W + l]);
                 factor[l] = other[at + l] * e[at + l];
             }
-            for (int c = i + 1; c < pairs; ++c) {
-                subtract_product<W>(factor, one_row(row + c * W), other + c * W);
+            for (int c = at + W; c < pairs * W; c += W) {
+                const double* pivot_row = one_row(row + c);
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    rest[c + l] = std::fma(-factor[l], pivot_row[l], other[c + l]);
+                }
             }
         }
     }
+    for (int i = 0; i < pairs * W; i += W) {
+        spread<W>(0.0, sum + i);
+    }
     for (int i = pairs - 1; i >= 0; --i) {
-        const double* __restrict row = matrix + i * pairs * W;
-        spread<W>(0.0, factor);
-        for (int c = i + 1; c < pairs; ++c) {
-            const double* __restrict load = one_row(force + c * W);
+        const int at = i * W;
+        subtract_product<W>(e + at, sum + at, force + at);
+        for (int r = i - 1; r >= 0; --r) {
+            const double* row = one_row((r == 0 ? g : matrix + r * pairs * W) + at);
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                factor[l] = std::fma(row[c * W + l], load[l], factor[l]);
+                sum[r * W + l] = std::fma(row[l], force[at + l], sum[r * W + l]);
             }
         }
-        subtract_product<W>(e + i * W, factor, force + i * W);
     }
 }
 
 // Which flanks of the separating meshes touch at the stage's end, where a mesh deflects by
 // R Q = d + b (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
-// backlash if the back flanks touch. Returns whether any lane changed; in t.changed those that did
-// are NaN, the others 0.
+// backlash if the back flanks touch. Returns whether any lane changed.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
                           const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
     int changes = 0;
     alignas(64) double rest[W];
-    std::fill_n(t.changed, W, 0.0);
     for (int pair = 0; pair < p.pairs; ++pair) {
         const int i = pair * W;
         const double* __restrict g = matrix + i * p.pairs;
@@ -275,9 +278,7 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
             const bool behind = front + t.pairs.backlash[l] < 0.0;
             const double touching = front > 0.0 || behind ? 1.0 : 0.0;
             const double back = behind ? t.pairs.backlash[l] : 0.0;
-            const bool differs = touching != t.touching[i + l] || back != t.back[i + l];
-            changes |= differs ? 1 : 0;
-            t.changed[l] = differs ? std::numeric_limits<double>::quiet_NaN() : t.changed[l];
+            changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
             t.touching[i + l] = touching;
             t.back[i + l] = back;
         }
@@ -286,11 +287,12 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
 }
 
 // Rounds in which separating meshes find who touches; two or three do in nearly all stages. A lane
-// that has found it is the same in every further round.
-inline constexpr int kMostRounds = 24;
+// that has found it is the same in every further round. Now and then there is nothing to find: the
+// damper of flanks that just meet would part them again, and without it they meet. The last round's
+// answer then stands, for this one step of an impact.
+inline constexpr int kMostRounds = 6;
 
-// Mesh forces of separating meshes. A lane that finds no set of touching flanks gets forces that
-// are no numbers: its gearbox counts as diverged, and its neighbours never see it.
+// Mesh forces of separating meshes.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* __restrict g,
                                       const StageSpan<W>& span, StageScratch<Model>& t) {
@@ -301,9 +303,6 @@ GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* _
         if (!touch<Model>(p, g, span, false, t)) {
             return;
         }
-    }
-    for (int i = 0; i < p.pairs * W; ++i) {
-        t.force[i] += t.changed[i % W];
     }
 }
 

@@ -75,10 +75,10 @@ TEST_CASE("A plan's tiles hold every row once, the threshold group's apart from 
         CHECK(kPlan.rows_before(tile) == row);
         const Tile place = kPlan.tile(tile);
         CHECK(place.first_row == row);
-        CHECK(place.first_index == (row < 10 ? row : row - 10));
+        CHECK(place.first_index == (row < 20 ? row : row - 20));
         for (std::size_t i = 0; i < place.count; ++i, ++row) {
             CHECK(kPlan.tile_of_row(row) == tile);
-            CHECK((place.group == Group::threshold) == (row < 10));
+            CHECK((place.group == Group::threshold) == (row < 20));
         }
     }
     CHECK(row == 62);
