@@ -104,10 +104,10 @@ std::optional<double> step_cost(const Study& study, const std::string& integrato
     if (row == std::end(kStepCosts) || !(other.empty() || single)) {
         return std::nullopt;
     }
-    return (single ? kSingleCost : 1.0) *
-           (study.gearbox.kind == GearboxKind::fixed_shaft ? row->fixed_shaft
-            : study.effects.torsional()                    ? row->rotations
-                                                           : row->planetary);
+    return (single ? kSingleCost : 1.0) * (study.gearbox.kind == GearboxKind::fixed_shaft
+                                               ? row->fixed_shaft
+                                           : study.effects.torsional() ? row->rotations
+                                                                       : row->planetary);
 }
 
 }  // namespace gearpod::mc

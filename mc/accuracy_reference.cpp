@@ -91,12 +91,18 @@ class Refinement {
     double change_ = 0.0, order_ = 0.0;
 };
 
+// Whether both computed the same gearboxes, and any at all.
+bool comparable(const PilotRecord& a, const PilotRecord& b) {
+    return a.ok == b.ok && std::find(a.ok.begin(), a.ok.end(), true) != a.ok.end();
+}
+
 // The pair that agrees best, the one that moved less first.
 void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest& request,
                  double& least, Reference& reference) {
     for (std::size_t i = 0; i < methods.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            if (!methods[i].has_result() || !methods[j].has_result()) {
+            if (!methods[i].has_result() || !methods[j].has_result() ||
+                !comparable(methods[i].best(), methods[j].best())) {
                 continue;
             }
             const bool swap = methods[i].last_change() < methods[j].last_change();

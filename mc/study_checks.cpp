@@ -131,10 +131,10 @@ void check_feature(StudyDraft& draft, const std::string& name) {
     } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
                draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
                draft.usable("gearbox.kind")) {
-        draft.reject("features.use",
-                     fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
-                     "use window features without sun_ or ring_: they look at the teeth of the gear "
-                     "with the fault, else of the pinion");
+        draft.reject(
+            "features.use", fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
+            "use window features without sun_ or ring_: they look at the teeth of the gear "
+            "with the fault, else of the pinion");
     }
 }
 
@@ -163,8 +163,9 @@ void check_lanes(StudyDraft& draft) {
 
 void check_precision(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
-    const bool implicit = n.integrator == Integrator::newmark || n.integrator == Integrator::sdirk3;
-    if (n.precision == Precision::single_precision && implicit &&
+    const bool doubles_only =
+        n.integrator != Integrator::automatic && n.integrator != Integrator::rk4;
+    if (n.precision == Precision::single_precision && doubles_only &&
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
         draft.reject("numerics.precision",
                      fmt::format("\"single\" is for the integrator rk4, but numerics.integrator is "
