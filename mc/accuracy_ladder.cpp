@@ -57,10 +57,10 @@ struct StepCost {
     double planetary, rotations, fixed_shaft;
 };
 constexpr StepCost kStepCosts[] = {{"rk4", 1.0, 1.0, 1.0},
-                                   {"newmark", 2.1, 2.0, 1.6},
-                                   {"sdirk3", 5.6, 4.0, 2.8},
-                                   {"generalized-alpha", 2.1, 2.0, 1.6},
-                                   {"bs3", 0.8, 0.8, 0.8}};
+                                   {"newmark", 4.3, 2.0, 2.6},
+                                   {"sdirk3", 6.8, 4.0, 4.2},
+                                   {"generalized-alpha", 2.4, 2.0, 1.4},
+                                   {"bs3", 0.9, 0.9, 0.9}};
 // Of singles, eight abreast, over doubles.
 constexpr double kSingleCost = 0.65;
 
