@@ -13,7 +13,7 @@ namespace {
 // Frequencies that agree to this belong to one mode, which shows as its multiplicity.
 constexpr double kSameMode = 1e-6;
 
-std::vector<double> mean_stiffness(const Study& study) {
+std::vector<double> mean_pairs(const Study& study) {
     return study.gearbox.tooth_profile == ToothProfile::constant ? constant_pairs(study)
                                                                  : Scene(study).mean_pairs();
 }
@@ -53,7 +53,7 @@ int modes_command(const ModesOptions& options) {
     std::vector<double> frequencies;
     try {
         frequencies = dynamics::natural_frequencies_Hz(
-            dynamics::assemble(layout_at_rest(*study), inputs, mean_stiffness(*study)));
+            dynamics::assemble(layout_at_rest(*study), inputs, mean_pairs(*study)));
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
         return kBadInput;

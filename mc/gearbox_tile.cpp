@@ -88,7 +88,8 @@ Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::L
     }
     if (ok) {
         // A motion that nothing excites does not grow although it would.
-        return lockstep::above_critical_speed(scene.plan(), scene.inputs(instance))
+        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
+                                              scene.mean_pairs())
                    ? Status::supercritical
                    : Status::ok;
     }

@@ -33,6 +33,10 @@ Scene::Scene(const Study& study)
     const InstanceInputs nominal = Sampler(study_).nominal();
     nominal_mesh_frequency_Hz_ = drive_->mesh_frequency_rad_s(nominal.speed_rad_s) / (2.0 * pi);
     meshes_ = make_meshes(study_, drive_->mesh_force_N(nominal));
+    for (const SceneMesh& mesh : meshes_) {
+        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive_->pairs_per_mesh()),
+                           mean_total(*mesh.stiffness));
+    }
     pairs_ = make_pairs(meshes_, *drive_);
     fault_.emplace(study_, meshes_, pairs_);
     build_plan();
@@ -62,15 +66,6 @@ void Scene::settle() {
     if (!study_.effects.quasi_static()) {
         max_meshes_ = choose_max_meshes(study_, stepping_.decay_meshes);
     }
-}
-
-std::vector<double> Scene::mean_pairs() const {
-    std::vector<double> k;
-    for (const SceneMesh& mesh : meshes_) {
-        k.insert(k.end(), static_cast<std::size_t>(drive_->pairs_per_mesh()),
-                 mean_total(*mesh.stiffness));
-    }
-    return k;
 }
 
 std::vector<double> Scene::stiffest_pairs() const {

@@ -76,7 +76,8 @@ class Scene {
     std::vector<double> transitions() const;
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
-    std::vector<double> mean_pairs() const;
+    // Every pair's mean over the mesh period, N/m.
+    const std::vector<double>& mean_pairs() const { return mean_pairs_; }
 
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
         return gearbox_inputs(study_, *drive_, instance);
@@ -98,6 +99,7 @@ class Scene {
     std::unique_ptr<const Drive> drive_;
     signals::SpanLayout span_;
     std::vector<SceneMesh> meshes_;
+    std::vector<double> mean_pairs_;
     lockstep::PairSet pairs_;
     std::optional<const SceneFault> fault_;
     lockstep::MarchPlan plan_;

@@ -15,17 +15,6 @@ namespace {
 constexpr double kNoGrowth = 1.0 + 1e-5;
 constexpr int kLanes = 8;
 
-std::vector<double> mean_stiffness(const MarchPlan& plan) {
-    const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
-    const std::size_t nodes = plan.grid.stage_nodes.size();
-    std::vector<double> mean(pairs, 0.0);
-    for (std::size_t i = 0; i < plan.nodes.stiffness.size(); ++i) {
-        const double length = plan.grid.steps[i / (nodes * pairs)].length;
-        mean[i % pairs] += length / static_cast<double>(nodes) * plan.nodes.stiffness[i];
-    }
-    return mean;
-}
-
 std::vector<double> stiffest_nodes(const MarchPlan& plan) {
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
     std::vector<double> stiffest(pairs, 0.0);
@@ -112,8 +101,26 @@ Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs
 
 }  // namespace
 
-bool above_critical_speed(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
-    const auto m = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
+std::vector<double> mean_stiffness(const MarchPlan& plan) {
+    const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
+    const std::size_t nodes = plan.grid.stage_nodes.size();
+    std::vector<double> mean(pairs, 0.0);
+    const double* stiffness = plan.nodes.stiffness.data();
+    for (const Step& step : plan.grid.steps) {
+        const double share = step.length / static_cast<double>(nodes);
+        for (std::size_t node = 0; node < nodes; ++node, stiffness += pairs) {
+            for (std::size_t pair = 0; pair < pairs; ++pair) {
+                mean[pair] += share * stiffness[pair];
+            }
+        }
+    }
+    return mean;
+}
+
+bool above_critical_speed(const dynamics::GearboxLayout& layout,
+                          const dynamics::GearboxInputs& inputs,
+                          const std::vector<double>& mean_stiffness) {
+    const auto m = dynamics::assemble(layout, inputs, mean_stiffness);
     if (m.centrifugal.isZero(0.0)) {
         return false;
     }
@@ -121,8 +128,7 @@ bool above_critical_speed(const MarchPlan& plan, const dynamics::GearboxInputs& 
     // by far more than that.
     const Eigen::VectorXd scale = m.mass.diagonal().cwiseSqrt().cwiseInverse();
     Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
-    const Eigen::VectorXd turn =
-        dynamics::rigid_rotation(plan.layout).cwiseQuotient(scale).normalized();
+    const Eigen::VectorXd turn = dynamics::rigid_rotation(layout).cwiseQuotient(scale).normalized();
     held += (1e3 * held.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
     return Eigen::LLT<Eigen::MatrixXd>(held).info() != Eigen::Success;
 }
@@ -134,7 +140,7 @@ double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inp
 }
 
 Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
-    if (above_critical_speed(plan, inputs)) {
+    if (above_critical_speed(plan.layout, inputs, mean_stiffness(plan))) {
         return Instability::turning_frame;
     }
     if (step_too_long(plan, inputs)) {

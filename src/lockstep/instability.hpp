@@ -1,6 +1,8 @@
 // Why a gearbox does not come to rest on an orbit: its own physics, or the step.
 #pragma once
 
+#include <vector>
+
 #include "lockstep/march.hpp"
 
 namespace gearpod::lockstep {
@@ -11,11 +13,16 @@ namespace gearpod::lockstep {
 // all that.
 enum class Instability { none, turning_frame, parametric, step };
 
+// Of every pair over the mesh period, N/m.
+std::vector<double> mean_stiffness(const MarchPlan& plan);
+
 // With every pair at its mean stiffness, the springs no longer hold the bodies in the turning
 // frame: K - W^2 M_xy is not positive definite, the rigid rotation left aside. Coriolis forces can
 // hold such a gearbox, but not once anything damps it (Kelvin, Tait and Chetaev), so it counts as
 // unstable. Below that speed damping makes every motion decay. Always false without inertial terms.
-bool above_critical_speed(const MarchPlan& plan, const dynamics::GearboxInputs& inputs);
+bool above_critical_speed(const dynamics::GearboxLayout& layout,
+                          const dynamics::GearboxInputs& inputs,
+                          const std::vector<double>& mean_stiffness);
 
 // Growth of the fastest growing motion from one mesh period to the next, the rigid rotation removed
 // as the march removes it (lockstep/tile): the largest |eigenvalue| (Floquet multiplier) of the

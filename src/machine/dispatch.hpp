@@ -34,7 +34,7 @@ std::string_view name(InstructionSet set);
 // set.
 // GEARPOD_NARROW_KERNEL: the same for kernels of one lane, or of four, which fill a 256-bit
 // register: wider registers cannot help either.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GEARPOD_ONE_INSTRUCTION_SET)
 #    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                  \
         namespace {                                                                  \
         __attribute__((target("arch=x86-64-v3"))) void NAME##_x86_64_v3 PARAMETERS { \
