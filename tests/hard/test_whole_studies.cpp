@@ -220,3 +220,39 @@ TEST_CASE("Gearboxes too light for the step fail, named so; the others keep thei
     }
     CHECK(failed == 7);
 }
+
+TEST_CASE("Singles give the doubles' features where stiffness vanishes, towers or turns fast") {
+    struct Hard {
+        double allowed;
+        Overrides overrides;
+    };
+    const std::vector<Hard> scenes = {
+        {2e-4, {"fault.depth_mm=8.571"}},  // through the whole tooth
+        {2e-4,
+         {"gearbox.planet_bearing_stiffness_N_m=1e10", "gearbox.sun_bearing_stiffness_N_m=1e10",
+          "gearbox.ring_bearing_stiffness_N_m=1e10", "gearbox.carrier_bearing_stiffness_N_m=1e10"}},
+        {2e-4, {"gearbox.mesh_damping_ratio=0"}},
+        // The planets' centrifugal forces are 650 times those of the teeth.
+        {1e-2, {"operation.torque_N_m=1e-3"}},
+        {5e-3,
+         {"operation.carrier_speed_rpm=5000", "sensor.sampling_Hz=2e6",
+          "sensor.encoder_sampling_Hz=2e6", "sensor.low_pass_Hz=2e5"}}};
+    for (const Hard& scene : scenes) {
+        INFO(scene.overrides.front());
+        Overrides overrides = fast_train(scene.overrides);
+        const mc::Results doubles = results(overrides);
+        overrides.emplace_back("numerics.precision=single");
+        const mc::Results singles = results(overrides);
+        check_all_worked(doubles);
+        check_all_worked(singles);
+        for (const char* feature : {"te_rms", "sensor_rms", "window_ratio"}) {
+            for (std::size_t row = 0; row < doubles.status.size(); ++row) {
+                const double exact = value_of(doubles, feature, row, 0);
+                const double rounded = value_of(singles, feature, row, 0);
+                CHECK(rounded == Approx(exact).epsilon(scene.allowed));
+                // Healthy gearboxes have a ratio of 1.
+                CHECK((rounded != exact || exact == 1.0));
+            }
+        }
+    }
+}
