@@ -121,6 +121,28 @@ signals::PathGrid path_grid(const Scene& scene) {
             sense};
 }
 
+void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 GearboxTile& tile) {
+    const int lanes = static_cast<int>(tile.inputs.size());
+    tile.views = {lanes, dynamics::sources(scene.plan().layout), scene.samples_per_mesh(), {}, {}};
+    for (const lockstep::MeshRecord& record : tile.march.records) {
+        tile.views.accel.push_back(record.acceleration.data());
+        tile.views.te.push_back(record.te.data());
+    }
+    // A gearbox without inertia shakes no sensor.
+    if (!scene.study().effects.quasi_static()) {
+        std::vector<double> exponents;
+        for (const InstanceInputs& instance : tile.inputs) {
+            exponents.push_back(instance.path_exponent);
+        }
+        tile.tones = draw_tones(scene, ids, tile.inputs);
+        const signals::FoldPlan plan(tile.march.content, scene.span());
+        signals::fold_squares(tile.views, plan, path, exponents, tile.tones, tile.folded);
+    }
+    signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
+                        tile.te_turn);
+}
+
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int lanes, bool with_motion,
                           const MarchCache* marches) {
@@ -147,23 +169,7 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     }
 
     start = Clock::now();
-    tile.views = {lanes, dynamics::sources(scene.plan().layout), scene.samples_per_mesh(), {}, {}};
-    for (const lockstep::MeshRecord& record : tile.march.records) {
-        tile.views.accel.push_back(record.acceleration.data());
-        tile.views.te.push_back(record.te.data());
-    }
-    // A gearbox without inertia shakes no sensor.
-    if (!scene.study().effects.quasi_static()) {
-        std::vector<double> exponents;
-        for (const InstanceInputs& instance : tile.inputs) {
-            exponents.push_back(instance.path_exponent);
-        }
-        tile.tones = draw_tones(scene, ids, tile.inputs);
-        const signals::FoldPlan plan(tile.march.content, scene.span());
-        signals::fold_squares(tile.views, plan, path, exponents, tile.tones, tile.folded);
-    }
-    signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
-                        tile.te_turn);
+    add_signals(scene, path, ids, tile);
     tile.signals_s = lap(start);
     return tile;
 }

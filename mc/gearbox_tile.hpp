@@ -39,6 +39,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false,
                           const MarchCache* marches = nullptr);
 
+// Views, tones and folded signals of a tile that has its inputs, one a lane, and its march.
+void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 GearboxTile& tile);
+
 // One lane of a tile.
 struct LaneSignals {
     std::vector<double> folded;   // as GearboxTile::folded

@@ -1,0 +1,20 @@
+// The scenes that are measured: Liang's gearbox as in studies/reference-10k.toml, or one like it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mc/scene.hpp"
+
+namespace gearpod::bench {
+
+// Throws std::runtime_error with the problems of a study or scene that is refused.
+std::unique_ptr<mc::Scene> study_scene(const std::string& study,
+                                       const std::vector<std::string>& overrides);
+
+// Of studies/reference-10k.toml with so many planets (3, 4 or 6): other teeth where Liang's do not
+// mesh with that many.
+std::unique_ptr<mc::Scene> reference_scene(int planets, std::vector<std::string> overrides = {});
+
+}  // namespace gearpod::bench

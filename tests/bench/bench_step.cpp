@@ -1,0 +1,177 @@
+// Steps of gearboxes marching in lockstep: how many a second, and what share of the fused
+// multiply-adds that the core is capable of they take.
+//
+//     bench_step [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
+//
+// A round marches a mesh period and then measures the peak; times are this thread's processor time,
+// and what is shown is their median over the rounds.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "bench_scene.hpp"
+#include "fma_peak.hpp"
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/rigid_rotation.hpp"
+#include "machine/dispatch.hpp"
+#include "mc/thread_clock.hpp"
+#include "operations.hpp"
+
+namespace gearpod::bench {
+namespace {
+
+using machine::InstructionSet;
+
+struct Setting {
+    int planets = 4;
+    bool torsional = false;
+    std::string integrator = "rk4", precision = "double";
+    int lanes = 8;
+    InstructionSet set = InstructionSet::baseline;
+
+    bool single() const { return precision == "single"; }
+    std::string text() const {
+        return fmt::format("{}/N={}/{}/{}/{}/lanes={}", integrator, planets,
+                           torsional ? "torsional" : "full", precision, machine::name(set), lanes);
+    }
+    std::vector<std::string> overrides() const {
+        return {
+            "numerics.integrator=" + integrator, "numerics.precision=" + precision,
+            fmt::format("numerics.lanes={}", lanes),
+            fmt::format("effects.motion={}", torsional ? "torsional" : "translational-torsional")};
+    }
+};
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// A tile that marches one mesh period after the other.
+template <int W>
+class Tile {
+  public:
+    explicit Tile(const mc::Scene& scene)
+        : inputs_(W, scene.inputs(mc::Sampler(scene.study()).nominal())),
+          march_(lockstep::make_mesh_march<W>(scene.plan(), inputs_)),
+          rotation_(scene.plan().layout, inputs_),
+          state_(lockstep::rest_state(scene.plan(), inputs_)),
+          record_(lockstep::make_record(scene.plan(), W, false)) {}
+
+    // Seconds of processor time.
+    double mesh_s() {
+        const double start = mc::thread_processor_s();
+        (*march_)({}, state_, record_);
+        const double seconds = mc::thread_processor_s() - start;
+        rotation_.remove(state_);  // or it would grow, from mesh period to mesh period
+        return seconds;
+    }
+
+  private:
+    std::vector<dynamics::GearboxInputs> inputs_;
+    std::unique_ptr<const lockstep::MeshMarch<W>> march_;
+    lockstep::RigidRotation rotation_;
+    lockstep::TileState state_;
+    lockstep::MeshRecord record_;
+};
+
+std::function<double()> mesh_of(const mc::Scene& scene, int lanes) {
+    const auto mesh = [&]<int W>() {
+        auto tile = std::make_shared<Tile<W>>(scene);
+        return [tile] { return tile->mesh_s(); };
+    };
+    return lanes == 16  ? std::function<double()>(mesh.operator()<16>())
+           : lanes == 8 ? std::function<double()>(mesh.operator()<8>())
+           : lanes == 4 ? std::function<double()>(mesh.operator()<4>())
+                        : std::function<double()>(mesh.operator()<1>());
+}
+
+Operations operations(const mc::Scene& scene, const Setting& setting) {
+    return setting.integrator == "rk4"
+               ? rk4_operations(scene.plan())
+               : generalized_alpha_operations(scene.plan(),
+                                              scene.inputs(mc::Sampler(scene.study()).nominal()));
+}
+
+void march(benchmark::State& state, const Setting& setting) {
+    machine::use_instruction_set(setting.set);
+    const auto scene = reference_scene(setting.planets, setting.overrides());
+    const lockstep::MarchPlan& plan = scene->plan();
+    const auto mesh_s = mesh_of(*scene, setting.lanes);
+    for (int i = 0; i < 3; ++i) {
+        mesh_s();
+    }
+    std::vector<double> times, peaks;
+    for (auto _ : state) {
+        times.push_back(mesh_s());
+        peaks.push_back(setting.single() ? fma_rate_float() : fma_rate_double());
+        state.SetIterationTime(times.back());
+    }
+    const double step_s =
+        median(times) / static_cast<double>(plan.grid.steps.size()) / setting.lanes;
+    const Operations done = operations(*scene, setting);
+    auto& counters = state.counters;
+    counters["steps/s"] = 1.0 / step_s;
+    counters["ns/step"] = 1e9 * step_s;
+    counters["fma"] = static_cast<double>(done.fma);
+    counters["mul"] = static_cast<double>(done.multiply);
+    counters["add"] = static_cast<double>(done.add + done.divide);
+    counters["flop/s"] = static_cast<double>(done.flop()) / step_s;
+    if (const double peak = median(peaks); peak > 0.0) {
+        counters["peak%"] = 100.0 * static_cast<double>(done.flop()) / step_s / (2.0 * peak);
+    }
+    counters["stream_B"] = bytes_streamed(plan, setting.lanes) / setting.lanes;
+    counters["tile_B"] = bytes_of_tile(plan, setting.lanes, setting.single() ? 4 : 8);
+}
+
+void add(const Setting& setting) {
+    benchmark::RegisterBenchmark(setting.text().c_str(),
+                                 [setting](benchmark::State& state) { march(state, setting); })
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+}
+
+std::vector<InstructionSet> instruction_sets() {
+    std::vector<InstructionSet> sets;
+    for (const auto set :
+         {InstructionSet::x86_64_v4, InstructionSet::x86_64_v3, InstructionSet::baseline}) {
+        if (set <= machine::best_instruction_set()) {
+            sets.push_back(set);
+        }
+    }
+    return sets;
+}
+
+void add_all() {
+    for (const InstructionSet set : instruction_sets()) {
+        for (const int planets : {3, 4, 6}) {
+            for (const bool torsional : {false, true}) {
+                add({planets, torsional, "rk4", "double", 8, set});
+                add({planets, torsional, "rk4", "single", 16, set});
+                add({planets, torsional, "generalized-alpha", "double", 8, set});
+            }
+        }
+        for (const int lanes : {1, 4}) {
+            add({4, false, "rk4", "double", lanes, set});
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gearpod::bench
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    gearpod::bench::add_all();
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

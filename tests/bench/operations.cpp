@@ -1,0 +1,118 @@
+#include "operations.hpp"
+
+#include <variant>
+
+#include "dynamics/torsional_motion.hpp"
+#include "dynamics/translational_motion.hpp"
+#include "lockstep/generalized_alpha.hpp"
+#include "lockstep/runge_kutta.hpp"
+
+namespace gearpod::bench {
+
+// As lockstep/march_state.hpp has it for doubles.
+inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRest, int) {
+    return std::fma(h, rate, sum);
+}
+
+namespace {
+
+struct CountedState {
+    machine::AlignedArray<Counted> q, v, filter;
+};
+[[maybe_unused]] lockstep::NoRest position_rest(CountedState&) {
+    return {};
+}
+[[maybe_unused]] lockstep::NoRest velocity_rest(CountedState&) {
+    return {};
+}
+
+// The values do not matter: no kernel branches on them.
+template <class Model>
+Operations operations_of(const lockstep::MarchPlan& plan, int planets) {
+    typename Model::Lanes lanes{};
+    lanes.planets = planets;
+    const auto degrees = static_cast<std::size_t>(Model::degrees_of_freedom(lanes));
+    const auto channels = static_cast<std::size_t>(plan.channels());
+    CountedState state;
+    state.q.resize(degrees);
+    state.v.resize(degrees);
+    state.filter.resize(channels * lockstep::kFilterStates);
+    const machine::AlignedArray<Counted> filter(plan.grid.lengths.size() *
+                                                lockstep::kFilterCoefficients);
+    const auto stages = std::make_unique<lockstep::RungeKutta4::Stages<Model>>();
+    Operations::done() = {};
+    lockstep::RungeKutta4::step<Model>(plan, lanes, filter, {}, 0, state, *stages);
+    return Operations::done();
+}
+
+// A filter's channel takes up two rows of two numbers, two rows of four, and three inputs each.
+void add_filter(int channels, Operations& sum) {
+    sum.fma += channels * (2 * 2 + 2 * 4 + 4 * 2);
+    sum.multiply += channels * 4;
+}
+
+}  // namespace
+
+Operations rk4_operations(const lockstep::MarchPlan& plan) {
+    const auto& layout = std::get<dynamics::PlanetaryLayout>(plan.layout);
+    if (layout.motion == dynamics::Motion::torsional) {
+        return operations_of<dynamics::TorsionalMotion<dynamics::LinearMesh, 1, Counted>>(
+            plan, layout.planets);
+    }
+    return operations_of<dynamics::TranslationalMotion<dynamics::WithInertialTerms,
+                                                       dynamics::LinearMesh, 1, Counted>>(
+        plan, layout.planets);
+}
+
+// In the order of lockstep/generalized_alpha.hpp and implicit_stage.hpp.
+Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
+                                        const dynamics::GearboxInputs& inputs) {
+    const auto lanes = lockstep::make_implicit_lanes<1>(plan, {&inputs, 1});
+    const long pairs = lanes.pairs, degrees = lanes.degrees, sources = lanes.sources;
+    const long entries = lanes.lu.lower.size() + lanes.lu.upper.size();
+    Operations sum;
+    sum.multiply += 1 + 3;                     // h and the stage's span
+    sum.multiply += 2 * degrees;               // what is known of the stage
+    sum.fma += 3 * degrees;                    //
+    sum.multiply += pairs;                     // damping of the meshes
+    sum.fma += 2 * lanes.coupling.size();      // free forces
+    sum.fma += 2 * entries;                    // twice through the factors
+    sum.multiply += 2 * degrees;               //
+    sum.fma += 3 * pairs * lanes.row_entries;  // deflections
+    sum.multiply += 2 * pairs;                 // loads
+    sum.fma += 3 * pairs;                      //
+    for (long i = 0; i < pairs; ++i) {         // the meshes' elimination
+        const long below = pairs - i - 1;
+        sum.divide += 1;
+        sum.multiply += 2 + below;
+        sum.fma += 2 + below + below * below + 1 + i;
+    }
+    sum.fma += pairs * lanes.row_entries;  // forces back to the motions
+    sum.multiply += 5 * degrees;           // the step's end
+    sum.fma += 7 * degrees;                //
+    sum.multiply += 8 * sources;           // what the sensor hears
+    sum.fma += 4 * sources;                //
+    add_filter(plan.channels(), sum);
+    return sum;
+}
+
+double bytes_streamed(const lockstep::MarchPlan& plan, int lanes) {
+    const auto steps = static_cast<double>(plan.grid.steps.size());
+    const double nodes = static_cast<double>(plan.grid.stage_nodes.size());
+    const double read = 2.0 * nodes * plan.nodes.pairs * sizeof(double);
+    const double written = static_cast<double>(plan.samples()) * (plan.channels() + 1) * lanes *
+                           sizeof(double) / steps;
+    return read + written;
+}
+
+double bytes_of_tile(const lockstep::MarchPlan& plan, int lanes, int bytes_of_number) {
+    const double degrees = dynamics::degrees_of_freedom(plan.layout);
+    const double pairs = plan.nodes.pairs, channels = plan.channels();
+    constexpr double kParameters = 4 * 4 + 3 * 3 + 2 + 4;  // rows of PlanetaryLanes
+    const double rows = 7.0 * degrees                      // q, v, five rows of stages
+                        + 2.0 * pairs + 3.0 * channels + lockstep::kFilterStates * channels +
+                        lockstep::kFilterCoefficients + kParameters;
+    return rows * lanes * bytes_of_number;
+}
+
+}  // namespace gearpod::bench

@@ -1,0 +1,195 @@
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "mc/thread_clock.hpp"
+#include "peer_runs.hpp"
+
+namespace gearpod::peers {
+namespace {
+
+void check(int code, const char* what) {
+    if (code < 0) {
+        throw std::runtime_error(std::string(what) + " failed with " + std::to_string(code));
+    }
+}
+
+class Cvode {
+  public:
+    Cvode(const Task& task, Multistep method, double tolerance, int gearbox)
+        : task_(task), gearbox_(gearbox), box_(gearbox_of(task, gearbox)) {
+        check(SUNContext_Create(nullptr, &context_), "SUNContext_Create");
+        y_ = N_VNew_Serial(kSensing, context_);
+        absolute_ = N_VNew_Serial(kSensing, context_);
+        for (int i = 0; i < kSensing; ++i) {
+            NV_Ith_S(absolute_, i) = tolerance * task.scale[i];
+        }
+        copy_start(task, gearbox, NV_DATA_S(y_));
+        memory_ = CVodeCreate(method == Multistep::bdf ? CV_BDF : CV_ADAMS, context_);
+        check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
+        check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
+        check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
+        check(CVodeSetMaxNumSteps(memory_, -1), "CVodeSetMaxNumSteps");
+        if (method == Multistep::bdf) {
+            matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);
+            linear_ = SUNLinSol_Dense(y_, matrix_, context_);
+            check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
+            check(CVodeSetJacFn(memory_, jacobian_at), "CVodeSetJacFn");
+        } else {
+            fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
+            check(CVodeSetNonlinearSolver(memory_, fixed_point_), "CVodeSetNonlinearSolver");
+        }
+    }
+    Cvode(const Cvode&) = delete;
+    Cvode& operator=(const Cvode&) = delete;
+    ~Cvode() {
+        CVodeFree(&memory_);
+        if (linear_ != nullptr) {
+            SUNLinSolFree(linear_);
+            SUNMatDestroy(matrix_);
+        }
+        if (fixed_point_ != nullptr) {
+            SUNNonlinSolFree(fixed_point_);
+        }
+        N_VDestroy(y_);
+        N_VDestroy(absolute_);
+        SUNContext_Free(&context_);
+    }
+
+    double steps() const { return steps_; }
+
+    void march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+        const std::vector<int>& all = task_.fine.stretches();
+        const std::vector<int> whole{all.front(), all.back()};
+        stops_ = stops;
+        restart(-extent.run_in);
+        for (k_ = -extent.run_in; k_ < extent.recorded; ++k_) {
+            lockstep::MeshRecord* record =
+                k_ < 0 ? nullptr : &records[static_cast<std::size_t>(k_)];
+            const std::vector<int>& stretches = stops ? all : whole;
+            for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
+                first_ = stretches[i];
+                last_ = stretches[i + 1];
+                stretch(record);
+            }
+        }
+        count_steps();
+    }
+
+  private:
+    double phase_of(int step) const {
+        const auto& steps = task_.fine.grid().steps;
+        return step < static_cast<int>(steps.size()) ? steps[static_cast<std::size_t>(step)].phase
+                                                     : 1.0;
+    }
+    void count_steps() {
+        long done = 0;
+        CVodeGetNumSteps(memory_, &done);
+        steps_ += static_cast<double>(done);
+    }
+    void restart(double phase) {
+        count_steps();
+        check(CVodeReInit(memory_, phase * task_.mesh_period_s, y_), "CVodeReInit");
+    }
+    void solve_to(double t) {
+        double reached = 0.0;
+        check(CVode(memory_, t, y_, &reached, CV_NORMAL), "CVode");
+    }
+
+    void stretch(lockstep::MeshRecord* record) {
+        const double period = task_.mesh_period_s;
+        const double from = phase_of(first_), to = phase_of(last_);
+        if (stops_) {
+            check(CVodeSetStopTime(memory_, (k_ + to) * period), "CVodeSetStopTime");
+        }
+        const int samples = task_.scene.samples_per_mesh();
+        for (int sample = static_cast<int>(std::ceil(from * samples - 1e-9));
+             record != nullptr && sample < samples && double(sample) / samples < to - 1e-12;
+             ++sample) {
+            const double phase = double(sample) / samples;
+            if (phase > from + 1e-12) {
+                solve_to((k_ + phase) * period);
+            }
+            record_sample(task_, NV_DATA_S(y_), true, gearbox_, sample, *record);
+        }
+        solve_to((k_ + to) * period);
+        if (stops_) {
+            restart(k_ + to);
+        }
+    }
+
+    void meshes_at(double t, Meshes<double>& m) const {
+        const double phase = t / task_.mesh_period_s;
+        const double mesh = stops_ ? k_ : std::floor(phase);
+        task_.fine.at_phase(pattern_mesh(task_, static_cast<int>(mesh)), phase - mesh, first_,
+                            last_, gearbox_, m);
+    }
+
+    static int rates_at(double t, N_Vector y, N_Vector dy, void* self) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        rates<kSensing>(own.box_, m, NV_DATA_S(y), NV_DATA_S(dy));
+        return 0;
+    }
+
+    // The equations are linear: a column is y' of a unit state less y' of none.
+    static int jacobian_at(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                           N_Vector, N_Vector) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        Gearbox<double> box = own.box_;
+        box.pull = 0.0;
+        for (double& force : box.force) {
+            force = 0.0;
+        }
+        double unit[kSensing] = {};
+        for (int i = 0; i < kSensing; ++i) {
+            unit[i] = 1.0;
+            rates<kSensing>(box, m, unit, SM_COLUMN_D(matrix, i));
+            unit[i] = 0.0;
+        }
+        return 0;
+    }
+
+    const Task& task_;
+    const int gearbox_;
+    const Gearbox<double> box_;
+    bool stops_ = false;
+    int k_ = 0, first_ = 0, last_ = 0;
+    double steps_ = 0.0;
+    SUNContext context_ = nullptr;
+    N_Vector y_ = nullptr, absolute_ = nullptr;
+    void* memory_ = nullptr;
+    SUNMatrix matrix_ = nullptr;
+    SUNLinearSolver linear_ = nullptr;
+    SUNNonlinearSolver fixed_point_ = nullptr;
+};
+
+}  // namespace
+
+PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multistep method,
+              double tolerance, bool stops) {
+    PeerRun run{empty_records(task, extent.recorded)};
+    for (int g = first; g < last; ++g) {
+        Cvode solver(task, method, tolerance, g);
+        const double began = mc::thread_processor_s();
+        try {
+            solver.march(extent, stops, run.records);
+        } catch (const std::runtime_error&) {
+            run.failed = true;
+        }
+        run.march_s += mc::thread_processor_s() - began;
+        run.steps += solver.steps() / (extent.run_in + extent.recorded) / (last - first);
+    }
+    return run;
+}
+
+}  // namespace gearpod::peers

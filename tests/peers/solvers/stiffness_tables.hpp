@@ -1,0 +1,82 @@
+// The pairs' stiffness over the fault's pattern, from the study's own curves: by step and stage
+// node for solvers with fixed steps, by time for those that choose their own.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gearbox.hpp"
+#include "lockstep/fault_schedule.hpp"
+#include "mc/scene.hpp"
+
+namespace gearpod::peers {
+
+inline constexpr int kGearboxes = 8;
+
+// Which gearboxes: eight, of the scene's graded group.
+struct Boxes {
+    std::vector<mc::InstanceInputs> instances;
+    std::vector<dynamics::GearboxInputs> inputs;
+    lockstep::FaultCurves faults;
+};
+Boxes boxes_of(const mc::Scene& scene);
+
+class StiffnessTables {
+  public:
+    // Nodes on the steps of `plan`, which must outlive the tables.
+    StiffnessTables(const mc::Scene& scene, const lockstep::MarchPlan& plan, const Boxes& boxes);
+
+    const lockstep::PhaseGrid& grid() const { return plan_.grid; }
+    int meshes() const { return static_cast<int>(overrides_.size()); }
+
+    // Stage node 0, 1 or 2 (start, middle, end) of a step of mesh k of the pattern.
+    void at_node(int mesh, int step, int node, int gearbox, Meshes<double>& m) const;
+    // The same for all eight; T has x[8].
+    template <class T>
+    void at_node(int mesh, int step, int node, Meshes<T>& m) const {
+        const std::size_t row = row_of(step, node);
+        for (int pair = 0; pair < kPairs; ++pair) {
+            m.k[pair] = T(plan_.nodes.stiffness[row + static_cast<std::size_t>(pair)]);
+            const double shape = plan_.nodes.damping_shape[row + static_cast<std::size_t>(pair)];
+            for (int l = 0; l < kGearboxes; ++l) {
+                m.c[pair].x[l] = factor_[side(pair)][l] * shape;
+            }
+        }
+        for (const lockstep::PairOverride& o : overrides_[static_cast<std::size_t>(mesh)]) {
+            if (step >= o.first_step && step < o.last_step) {
+                const std::size_t at = lane_row(o, step, node);
+                for (int l = 0; l < kGearboxes; ++l) {
+                    const std::size_t lane = at + static_cast<std::size_t>(l);
+                    m.k[o.pair].x[l] = o.stiffness[lane];
+                    m.c[o.pair].x[l] = factor_[side(o.pair)][l] * o.damping_shape[lane];
+                }
+            }
+        }
+    }
+
+    // At `phase` in [0, 1] of mesh k, linear between nodes, from steps first to last - 1 alone: so
+    // that a stretch between two transitions never sees beyond them.
+    void at_phase(int mesh, double phase, int first, int last, int gearbox,
+                  Meshes<double>& m) const;
+
+    // Steps that begin at a transition, ascending, and one past the last.
+    const std::vector<int>& stretches() const { return stretches_; }
+
+  private:
+    static int side(int pair) { return pair < kPlanets ? 0 : 1; }
+    std::size_t row_of(int step, int node) const {
+        return static_cast<std::size_t>((step * 3 + node) * kPairs);
+    }
+    std::size_t lane_row(const lockstep::PairOverride& o, int step, int node) const {
+        return static_cast<std::size_t>(((step - o.first_step) * 3 + node) * kGearboxes);
+    }
+    int step_at(double phase, int first, int last) const;
+
+    const lockstep::MarchPlan& plan_;
+    std::vector<std::vector<lockstep::PairOverride>> overrides_;  // by mesh
+    double factor_[2][kGearboxes];
+    std::vector<int> stretches_;
+    std::vector<int> first_of_cell_;  // of equal parts of the mesh period: the step it begins in
+};
+
+}  // namespace gearpod::peers
