@@ -55,9 +55,6 @@ class StepNeeds {
           layout_(layout),
           stiffest_(stiffest_N_m),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
-        const auto method = study.numerics.integrator == Integrator::bs3
-                                ? lockstep::Integrator::bs3
-                                : lockstep::Integrator::rk4;
         const Sampler sampler(study);
         gearboxes_.push_back(gearbox_inputs(study, drive, sampler.nominal()));
         // A pilot of the ensemble, the same for every run of the study, stands for the rest.
@@ -66,18 +63,16 @@ class StepNeeds {
             gearboxes_.push_back(gearbox_inputs(
                 study, drive, sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
         }
-        const lockstep::StepLimit limit = lockstep::runge_kutta_limit(system(0), method);
-        decay_meshes_ = 1.0 / (limit.slowest_decay_1_s * period(0));
-        stable_ = period(0) / limit.step_s;
-        for (std::size_t i = 1; i < gearboxes_.size(); ++i) {
-            stable_ = std::max(stable_,
-                               period(i) / lockstep::runge_kutta_limit(system(i), method).step_s);
-        }
+        decay_meshes_ =
+            1.0 / (lockstep::runge_kutta_limit(system(0)).slowest_decay_1_s * period(0));
+        runge_kutta_ = stable_steps(lockstep::Integrator::rk4);
     }
 
     double decay_meshes() const { return decay_meshes_; }
-    // Steps with which the explicit method is stable for all of them.
-    double stable() const { return stable_; }
+    // Steps with which an explicit method is stable for all of them.
+    double stable(lockstep::Integrator integrator) const {
+        return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
+    }
     double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(0); }
     // Steps with which an implicit method is accurate for all of them.
     double implicit(lockstep::Integrator integrator) const {
@@ -96,6 +91,14 @@ class StepNeeds {
     dynamics::GearboxMatrices system(std::size_t i) const {
         return dynamics::assemble(layout_, gearboxes_[i], stiffest_);
     }
+    double stable_steps(lockstep::Integrator integrator) const {
+        double steps = 0.0;
+        for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
+            steps =
+                std::max(steps, period(i) / lockstep::longest_stable_step(system(i), integrator));
+        }
+        return steps;
+    }
     double period(std::size_t i) const { return dynamics::mesh_period_s(gearboxes_[i]); }
 
     const Study& study_;
@@ -103,7 +106,7 @@ class StepNeeds {
     const std::vector<double>& stiffest_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // the nominal one first
-    double decay_meshes_ = 0.0, stable_ = 0.0;
+    double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
 };
 
 [[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
@@ -115,18 +118,27 @@ class StepNeeds {
                      "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
 }
 
+// Steps that the sensor's low-pass takes of an explicit method: so many in a period of its band
+// edge, and at least so many.
+struct BandSteps {
+    double chosen, fewest;
+};
+BandSteps band_steps(lockstep::Integrator integrator) {
+    // Central differences: their low-pass is off by (2 pi / steps)^2 / 12 there, 7e-4 and 3e-3.
+    return integrator == lockstep::Integrator::central_difference ? BandSteps{70.0, 35.0}
+                                                                  : BandSteps{20.0, 10.0};
+}
+
 // One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. The
 // margin covers what the pilot misses, and a gearbox beyond it is reported as diverged.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
     constexpr double kMargin = 1.2;
-    constexpr double kStepsPerBandPeriod = 20.0;  // of the sensor's band edge
-    constexpr double kFewestStepsPerBandPeriod = 10.0;
-    const double least =
-        std::ceil(std::max(needs.stable(), kFewestStepsPerBandPeriod * needs.band_periods()));
-    const double chosen =
-        std::ceil(std::max(kMargin * needs.stable(), kStepsPerBandPeriod * needs.band_periods()));
+    const double stable = needs.stable(integrator);
+    const BandSteps band = band_steps(integrator);
+    const double least = std::ceil(std::max(stable, band.fewest * needs.band_periods()));
+    const double chosen = std::ceil(std::max(kMargin * stable, band.chosen * needs.band_periods()));
     const bool asked_for = given >= least && given <= kMostSteps;
-    if (!asked_for && needs.stable() > lockstep::kMostExplicitSteps) {
+    if (!asked_for && stable > lockstep::kMostExplicitSteps) {
         refuse_explicit(needs, chosen);
     }
     if (!(chosen <= kMostSteps)) {
@@ -139,18 +151,16 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     if (given > 0 && given < least) {
         throw SceneError(
             "numerics.steps_per_mesh",
-            fmt::format("{} steps are too few (below {} the explicit Runge-Kutta method "
-                        "is unstable for this study's stiffest gearbox, or its sensor's "
-                        "low-pass inaccurate)",
-                        given, least),
+            fmt::format("{} steps are too few (below {} {} is unstable for this study's stiffest "
+                        "gearbox, or its sensor's low-pass inaccurate)",
+                        given, least, name(integrator)),
             "leave the key out to have the steps chosen");
     }
     return {integrator,
             given > 0 ? given : static_cast<int>(chosen),
             static_cast<int>(least),
             needs.decay_meshes(),
-            1.0 / std::max({1.0, kMargin * needs.stable(),
-                            kFewestStepsPerBandPeriod * needs.band_periods()}),
+            1.0 / std::max({1.0, kMargin * stable, band.fewest * needs.band_periods()}),
             0.0};
 }
 
@@ -177,10 +187,13 @@ lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
             return lockstep::Integrator::generalized_alpha;
         case Integrator::bs3:
             return lockstep::Integrator::bs3;
+        case Integrator::central_difference:
+            return lockstep::Integrator::central_difference;
         case Integrator::automatic:
             break;
     }
-    const lockstep::Integrator chosen = lockstep::choose_integrator(needs.stable());
+    const lockstep::Integrator chosen =
+        lockstep::choose_integrator(needs.stable(lockstep::Integrator::rk4));
     if (study.numerics.precision == Precision::single_precision && !is_explicit(chosen)) {
         const lockstep::StiffPart stiff = needs.stiffest_part();
         throw SceneError("numerics.precision",
@@ -225,7 +238,7 @@ Stepping choose_stepping(const Study& study, const Drive& drive,
     const int given = study.numerics.steps_per_mesh;
     Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
                                                 : implicit_stepping(needs, integrator, given);
-    stepping.explicit_steps = needs.stable();
+    stepping.explicit_steps = needs.stable(lockstep::Integrator::rk4);
     return stepping;
 }
 

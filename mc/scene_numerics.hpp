@@ -29,8 +29,7 @@ struct Stepping {
     // The longest step, mesh periods, at which the integrator is stable with some margin and the
     // sensor's low-pass not yet inaccurate.
     double longest_step = 1.0;
-    // Steps a mesh period with which the explicit method is stable, marched or not: the classical
-    // Runge-Kutta method, unless the study names another.
+    // Steps a mesh period with which the classical Runge-Kutta method is stable, marched or not.
     double explicit_steps = 0.0;
 };
 // `stiffest_N_m`: all pairs at their stiffest, the bound for an explicit step. Throws SceneError.

@@ -11,7 +11,8 @@ constexpr ChoiceName kIntegrators[] = {name("auto", Integrator::automatic),
                                        name("newmark", Integrator::newmark),
                                        name("sdirk3", Integrator::sdirk3),
                                        name("generalized-alpha", Integrator::generalized_alpha),
-                                       name("bs3", Integrator::bs3)};
+                                       name("bs3", Integrator::bs3),
+                                       name("central-difference", Integrator::central_difference)};
 constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
                                      name("graded", StepGrid::graded)};
 constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
@@ -58,7 +59,7 @@ const Key kKeys[] = {
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},
     {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
-    {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: only with rk4, and orbits settle to 1e-5 at best"},
+    {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: with rk4 and central-difference, and orbits settle to 1e-5 at best"},
     {"numerics", "grid", choice<&Numerics::grid>(kStepGrids), kNone, kAny, integration, kShared, "uniform steps, or graded ones: fine after each contact transition, coarse where the response is quiet"},
     {"numerics", "step_tolerance", number<&Numerics::step_tolerance>, kNone, inside(0, 1), integration, kShared, "estimated error of a step over the largest motion, by which a pilot chooses the steps of bs3"},
     {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of a pilot's signals, by which the graded grids of all integrators but bs3 are chosen"},

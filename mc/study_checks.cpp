@@ -163,15 +163,17 @@ void check_lanes(StudyDraft& draft) {
 
 void check_precision(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
-    const bool doubles_only =
-        n.integrator != Integrator::automatic && n.integrator != Integrator::rk4;
+    const bool doubles_only = n.integrator != Integrator::automatic &&
+                              n.integrator != Integrator::rk4 &&
+                              n.integrator != Integrator::central_difference;
     if (n.precision == Precision::single_precision && doubles_only &&
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
-        draft.reject("numerics.precision",
-                     fmt::format("\"single\" is for the integrator rk4, but numerics.integrator is "
-                                 "\"{}\"",
-                                 choice_text(draft.study, "numerics", "integrator")),
-                     "use precision = \"double\", or integrator = \"rk4\"");
+        draft.reject(
+            "numerics.precision",
+            fmt::format("\"single\" is for the integrators rk4 and central-difference, but "
+                        "numerics.integrator is \"{}\"",
+                        choice_text(draft.study, "numerics", "integrator")),
+            "use precision = \"double\", or integrator = \"rk4\"");
     }
 }
 

@@ -1,3 +1,4 @@
+#include "lockstep/bogacki_shampine.hpp"
 #include "lockstep/explicit_kernels.hpp"
 
 namespace gearpod::lockstep {

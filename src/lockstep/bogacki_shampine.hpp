@@ -4,7 +4,7 @@
 // only a plan whose stage nodes include 1 asks for the estimate (a pilot, step_pilot.hpp).
 #pragma once
 
-#include "lockstep/march_steps.hpp"
+#include "lockstep/explicit_stage.hpp"
 
 namespace gearpod::lockstep {
 
@@ -12,13 +12,8 @@ struct BogackiShampine {
     static constexpr std::size_t kEstimateNode = 3;  // place of node 1 among the stage nodes
 
     template <class Model, int W = Model::kWidth>
-    struct alignas(64) Stages {
-        using Real = RealOf<Model>;
-        Real q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
-        Real a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
-        typename Model::Pairs pairs;
-        Real input[3][2 * Model::kMaxSources * W];  // of the sensor, at the three stages
-        Real estimate[kEstimateRows * W] = {};      // see MeshRecord::estimate
+    struct alignas(64) Stages : ExplicitStages<Model, 3> {
+        RealOf<Model> estimate[kEstimateRows * W] = {};  // see MeshRecord::estimate
     };
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
@@ -27,67 +22,39 @@ struct BogackiShampine {
                                     const std::vector<PairOverride>& overrides, int i, State& state,
                                     Stages<Model>& s) {
         using Real = RealOf<Model>;
-        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
-        const int channels = 2 * Model::sources(lanes);
-        const int size = Model::degrees_of_freedom(lanes) * W;
-        Real* __restrict q = state.q.data();
-        Real* __restrict v = state.v.data();
-        const auto q_rest = position_rest(state);
-        const auto v_rest = velocity_rest(state);
-        const Real length = static_cast<Real>(step.length);
-        alignas(64) Real h[W], half[W], most[W], ninth[W], sixth[W];
+        const ExplicitStep<Model, State> x(plan, lanes, i, state);
+        alignas(64) Real most[W], ninth[W], sixth[W];
         for (int l = 0; l < W; ++l) {
-            h[l] = length * lanes.mesh_period[l];
-            half[l] = Real(0.5) * h[l];
-            most[l] = Real(0.75) * h[l];
-            ninth[l] = h[l] / Real(9);
-            sixth[l] = h[l] / Real(6);
+            most[l] = Real(0.75) * x.h[l];
+            ninth[l] = x.h[l] / Real(9);
+            sixth[l] = x.h[l] / Real(6);
         }
 
         load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
-        Model::accelerations(lanes, q, v, s.pairs, s.a1);
-        Model::source_accelerations(lanes, q, v, s.a1, s.input[0]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(half[l], v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(half[l], s.a1[j + l], v[j + l]);
-            }
-        }
+        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
+        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
         load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
-        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a2);
-        Model::source_accelerations(lanes, s.q, s.v, s.a2, s.input[1]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(most[l], s.v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(most[l], s.a2[j + l], v[j + l]);
-            }
-        }
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
+        move<W>(x.size, most, x.q, s.v, x.v, s.a[1], s.q, s.v);
         load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
-        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a3);
-        Model::source_accelerations(lanes, s.q, s.v, s.a3, s.input[2]);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
         if (plan.grid.stage_nodes.size() > kEstimateNode) {
-            estimate<Model>(plan, lanes, overrides, i, h, q, v, s);
+            estimate<Model>(plan, lanes, overrides, i, x.h, x.q, x.v, s);
         }
-        for (int j = 0; j < size; j += W) {
+        for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                // 2/9, 3/9 and 4/9 of the stages' slopes; the velocities' follow from a1 and a2.
-                const Real slope =
-                    std::fma(sixth[l], std::fma(Real(2), s.a2[j + l], s.a1[j + l]), v[j + l]);
-                const Real rise = std::fma(Real(2), s.a1[j + l],
-                                           std::fma(Real(3), s.a2[j + l], Real(4) * s.a3[j + l]));
-                q[j + l] = advance(q[j + l], h[l], slope, q_rest, j + l);
-                v[j + l] = advance(v[j + l], ninth[l], rise, v_rest, j + l);
+                // 2/9, 3/9 and 4/9 of the stages' slopes; the velocities' follow from the first two
+                // accelerations.
+                const int at = j + l;
+                const Real a1 = s.a[0][at], a2 = s.a[1][at], a3 = s.a[2][at];
+                const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
+                const Real rise = std::fma(Real(2), a1, std::fma(Real(3), a2, Real(4) * a3));
+                x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rest, at);
+                x.v[at] = advance(x.v[at], ninth[l], rise, x.v_rest, at);
             }
         }
-        const Real* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
-        for (int channel = 0; channel < channels; ++channel) {
-            const int at = channel * W;
-            filter_channel<W>(coefficients, s.input[0] + at, s.input[1] + at, s.input[2] + at,
-                              state.filter.data() + at * kFilterStates);
-        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
     }
 
   private:
@@ -103,9 +70,9 @@ struct BogackiShampine {
             a4[Model::kMaxDegrees * W];
         for (int j = 0; j < size; ++j) {
             const Real t = h[j % W];
-            end_q[j] = q[j] + t * (v[j] + t / Real(6) * (s.a1[j] + Real(2) * s.a2[j]));
-            end_v[j] =
-                v[j] + t / Real(9) * (Real(2) * s.a1[j] + Real(3) * s.a2[j] + Real(4) * s.a3[j]);
+            end_q[j] = q[j] + t * (v[j] + t / Real(6) * (s.a[0][j] + Real(2) * s.a[1][j]));
+            end_v[j] = v[j] + t / Real(9) *
+                                  (Real(2) * s.a[0][j] + Real(3) * s.a[1][j] + Real(4) * s.a[2][j]);
         }
         load_pairs<Model>(plan, lanes, overrides, i, static_cast<int>(kEstimateNode), s.pairs);
         Model::accelerations(lanes, end_q, end_v, s.pairs, a4);
@@ -116,17 +83,17 @@ struct BogackiShampine {
         };
         for (int j = 0; j < size; ++j) {
             const int l = j % W;
-            const Real v2 = v[j] + Real(0.5) * h[l] * s.a1[j];
-            const Real v3 = v[j] + Real(0.75) * h[l] * s.a2[j];
+            const Real v2 = v[j] + Real(0.5) * h[l] * s.a[0][j];
+            const Real v3 = v[j] + Real(0.75) * h[l] * s.a[1][j];
             keep_largest(0, l, end_q[j]);
             keep_largest(1, l, end_v[j]);
             keep_largest(2, l,
                          h[l] / Real(72) *
                              (Real(6) * v2 + Real(8) * v3 - Real(5) * v[j] - Real(9) * end_v[j]));
-            keep_largest(
-                3, l,
-                h[l] / Real(72) *
-                    (Real(6) * s.a2[j] + Real(8) * s.a3[j] - Real(5) * s.a1[j] - Real(9) * a4[j]));
+            keep_largest(3, l,
+                         h[l] / Real(72) *
+                             (Real(6) * s.a[1][j] + Real(8) * s.a[2][j] - Real(5) * s.a[0][j] -
+                              Real(9) * a4[j]));
         }
     }
 };

@@ -6,9 +6,7 @@
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
-#include "lockstep/bogacki_shampine.hpp"
 #include "lockstep/explicit_march.hpp"
-#include "lockstep/runge_kutta.hpp"
 
 #define GEARPOD_MARCH(DEFINE, NAME, METHOD, LANES, ...)                                        \
     DEFINE(NAME,                                                                               \

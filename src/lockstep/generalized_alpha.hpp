@@ -97,12 +97,8 @@ struct GeneralizedAlpha {
             }
         }
         Model::source_accelerations(lanes, s.x, s.v, s.a, s.input[1]);
-        const double* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
-        for (int channel = 0; channel < 2 * lanes.sources; ++channel) {
-            const int at = channel * W;  // the method has no middle; its coefficients are 0
-            filter_channel<W>(coefficients, s.input[0] + at, s.input[0] + at, s.input[1] + at,
-                              state.filter.data() + at * kFilterStates);
-        }
+        // The method has no middle; its coefficients are 0.
+        step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
     }
 };
 

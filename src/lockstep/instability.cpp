@@ -42,7 +42,7 @@ bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs)
     const double longest = *std::max_element(plan.grid.lengths.begin(), plan.grid.lengths.end());
     const auto matrices = dynamics::assemble(plan.layout, inputs, stiffest_nodes(plan));
     return longest * dynamics::mesh_period_s(inputs) >
-           runge_kutta_limit(matrices, plan.integrator).step_s;
+           longest_stable_step(matrices, plan.integrator);
 }
 
 // The largest |eigenvalue| of a mesh period's map of (q, v), the rigid rotation taken out of q and

@@ -12,6 +12,8 @@ std::vector<double> stage_nodes(Integrator integrator) {
             return {0.0, 1.0 - ChungHulbert::kForce, 1.0};
         case Integrator::bs3:
             return {0.0, 0.5, 0.75};
+        case Integrator::central_difference:
+            return {0.5};
         case Integrator::rk4:
             break;
     }
@@ -27,6 +29,7 @@ ImplicitSpan implicit_span(Integrator integrator) {
         case Integrator::generalized_alpha:
             return ChungHulbert::span();
         case Integrator::bs3:
+        case Integrator::central_difference:
         case Integrator::rk4:
             break;
     }
@@ -43,6 +46,8 @@ const char* name(Integrator integrator) {
             return "generalized-alpha";
         case Integrator::bs3:
             return "bs3";
+        case Integrator::central_difference:
+            return "central-difference";
         case Integrator::rk4:
             break;
     }

@@ -10,15 +10,21 @@ namespace gearpod::lockstep {
 // stages, order 3, L-stable and stiffly accurate: it damps what is too fast for the step.
 // generalized_alpha: Chung and Hulbert (1993), implicit, order 2, damps what is too fast for the
 // step by a chosen factor. bs3: the explicit pair of Bogacki and Shampine (1989), order 3, which
-// estimates its own error.
-enum class Integrator { rk4, newmark, sdirk3, generalized_alpha, bs3 };
+// estimates its own error. central_difference: on the steps' middles, explicit, order 2, one
+// evaluation a step.
+enum class Integrator { rk4, newmark, sdirk3, generalized_alpha, bs3, central_difference };
 
 constexpr bool is_explicit(Integrator integrator) {
-    return integrator == Integrator::rk4 || integrator == Integrator::bs3;
+    return integrator == Integrator::rk4 || integrator == Integrator::bs3 ||
+           integrator == Integrator::central_difference;
 }
 
-// What the motion is computed in within a mesh period; from one to the next it is double. Only rk4
-// marches singles.
+// Whether the method has kernels that march singles.
+constexpr bool marches_singles(Integrator integrator) {
+    return integrator == Integrator::rk4 || integrator == Integrator::central_difference;
+}
+
+// What the motion is computed in within a mesh period; from one to the next it is double.
 enum class Precision { double_precision, single_precision };
 
 // Alexander's method: every stage has the same diagonal coefficient, a root of
@@ -57,7 +63,7 @@ struct ChungHulbert {
 // As study files name it.
 const char* name(Integrator integrator);
 
-// Positions within a step, ascending; the last is 1 (left limit), and 0 means the right limit.
+// Positions within a step, ascending; 0 means the right limit there, 1 the left limit.
 std::vector<double> stage_nodes(Integrator integrator);
 
 // 0 for an explicit method.

@@ -1,4 +1,5 @@
 #include "lockstep/explicit_kernels.hpp"
+#include "lockstep/runge_kutta.hpp"
 
 namespace gearpod::lockstep {
 

@@ -114,13 +114,15 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
     }
 }
 
-// What the input at the step's three nodes adds to filter state `i`; m is one lane's
-// column of coefficients, W apart.
+// What the input at the step's nodes, three or one, adds to a filter state; m is one lane's column
+// of coefficients, W apart, from the state's first on.
 template <int W, class Real>
-GEARPOD_INLINE Real filter_input(const Real* m, int i, Real u0, Real u1, Real u2) {
-    return std::fma(
-        m[(kFilterInput + i) * W], u0,
-        std::fma(m[(kFilterInput + 4 + i) * W], u1, m[(kFilterInput + 8 + i) * W] * u2));
+GEARPOD_INLINE Real filter_input(const Real* m, Real u) {
+    return m[0] * u;
+}
+template <int W, class Real, class... Later>
+GEARPOD_INLINE Real filter_input(const Real* m, Real u, Later... later) {
+    return std::fma(m[0], u, filter_input<W>(m + 4 * W, later...));
 }
 
 // sum + m[at] p + m[at + 1] dp.
@@ -129,23 +131,36 @@ GEARPOD_INLINE Real filter_row(const Real* m, int at, Real p, Real dp, Real sum)
     return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
 }
 
-template <int W, class Real>
-GEARPOD_INLINE void filter_channel(const Real* __restrict m, const Real* __restrict u0,
-                                   const Real* __restrict u1, const Real* __restrict u2,
-                                   Real* __restrict f) {
+// A step of one channel's filter `f` from its inputs at the step's nodes.
+template <int W, class Real, class... Inputs>
+GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
+                                   const Inputs* __restrict... inputs) {
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
         const Real x = f[l], dx = f[W + l], y = f[2 * W + l], dy = f[3 * W + l];
-        const Real a = u0[l], b = u1[l], c = u2[l];
         const Real* lane = m + l;
-        f[l] = filter_row<W>(lane, kFilterXX, x, dx, filter_input<W>(lane, 0, a, b, c));
-        f[W + l] = filter_row<W>(lane, kFilterXX + 2, x, dx, filter_input<W>(lane, 1, a, b, c));
-        f[2 * W + l] =
-            filter_row<W>(lane, kFilterYX, x, dx,
-                          filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(lane, 2, a, b, c)));
-        f[3 * W + l] = filter_row<W>(
-            lane, kFilterYX + 2, x, dx,
-            filter_row<W>(lane, kFilterYY + 2, y, dy, filter_input<W>(lane, 3, a, b, c)));
+        const Real* by_input = lane + kFilterInput * W;
+        f[l] = filter_row<W>(lane, kFilterXX, x, dx, filter_input<W>(by_input, inputs[l]...));
+        f[W + l] =
+            filter_row<W>(lane, kFilterXX + 2, x, dx, filter_input<W>(by_input + W, inputs[l]...));
+        f[2 * W + l] = filter_row<W>(
+            lane, kFilterYX, x, dx,
+            filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(by_input + 2 * W, inputs[l]...)));
+        f[3 * W + l] =
+            filter_row<W>(lane, kFilterYX + 2, x, dx,
+                          filter_row<W>(lane, kFilterYY + 2, y, dy,
+                                        filter_input<W>(by_input + 3 * W, inputs[l]...)));
+    }
+}
+
+// The sensor's step from its inputs at the step's nodes.
+template <int W, class Filter, class State, class... Inputs>
+GEARPOD_INLINE void step_filter(const Filter& filter, const Step& step, int channels, State& state,
+                                const Inputs*... inputs) {
+    const auto* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
+    for (int channel = 0; channel < channels; ++channel) {
+        const int at = channel * W;
+        filter_channel<W>(coefficients, state.filter.data() + at * kFilterStates, (inputs + at)...);
     }
 }
 

@@ -43,14 +43,17 @@ using Kernel = MarchKernel<Lanes>*;
     }(PLAN.mesh_law)
 
 // The explicit kernel of model NAME.
-#define GEARPOD_EXPLICIT_KERNEL_OF(PLAN, NAME)                           \
-    [](const MarchPlan& p) {                                             \
-        if constexpr (std::is_same_v<Real, float>)                       \
-            return GEARPOD_SINGLE_KERNEL_OF(p, rk4_single_##NAME);       \
-        else                                                             \
-            return p.integrator == Integrator::bs3                       \
-                       ? GEARPOD_DOUBLE_KERNEL_OF(p, bs3_double_##NAME)  \
-                       : GEARPOD_DOUBLE_KERNEL_OF(p, rk4_double_##NAME); \
+#define GEARPOD_EXPLICIT_KERNEL_OF(PLAN, NAME)                                  \
+    [](const MarchPlan& p) {                                                    \
+        const bool central = p.integrator == Integrator::central_difference;    \
+        if constexpr (std::is_same_v<Real, float>)                              \
+            return central ? GEARPOD_SINGLE_KERNEL_OF(p, central_single_##NAME) \
+                           : GEARPOD_SINGLE_KERNEL_OF(p, rk4_single_##NAME);    \
+        else                                                                    \
+            return central ? GEARPOD_DOUBLE_KERNEL_OF(p, central_double_##NAME) \
+                   : p.integrator == Integrator::bs3                            \
+                       ? GEARPOD_DOUBLE_KERNEL_OF(p, bs3_double_##NAME)         \
+                       : GEARPOD_DOUBLE_KERNEL_OF(p, rk4_double_##NAME);        \
     }(PLAN)
 
 template <int W, class Real>
@@ -162,7 +165,7 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
     machine::AlignedVector filter =
         filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods);
     if (plan.precision == Precision::single_precision) {
-        if (plan.integrator == Integrator::rk4) {
+        if (marches_singles(plan.integrator)) {
             return make_explicit<W, float>(plan, inputs, std::move(filter));
         }
     } else if constexpr (W <= kMostDoubleLanes) {
@@ -171,7 +174,7 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
                    : make_implicit<W>(plan, inputs, std::move(filter));
     }
     throw std::invalid_argument(
-        "only rk4 marches singles, and doubles march at most eight abreast");
+        "only rk4 and central differences march singles, and doubles march at most eight abreast");
 }
 
 #define GEARPOD_MESH_MARCH(W)                                        \

@@ -26,7 +26,7 @@ class MeshMarch {
 
 // The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W
 // gearboxes of the plan's kind. The plan must outlive the result. Throws std::invalid_argument for
-// single precision with an integrator but rk4, and for W = 16 in double precision.
+// single precision with an integrator that has no such kernels, and for W = 16 in double precision.
 template <int W>
 std::unique_ptr<const MeshMarch<W>> make_mesh_march(
     const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);

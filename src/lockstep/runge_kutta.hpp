@@ -2,20 +2,13 @@
 // middle and end. The sensor's low-pass is integrated beside the motion by the same method.
 #pragma once
 
-#include "lockstep/march_steps.hpp"
+#include "lockstep/explicit_stage.hpp"
 
 namespace gearpod::lockstep {
 
 struct RungeKutta4 {
-    // Scratch of one tile; small enough to stay in the first-level cache.
-    template <class Model, int W = Model::kWidth>
-    struct alignas(64) Stages {
-        using Real = RealOf<Model>;
-        Real q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
-        Real a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
-        typename Model::Pairs pairs;
-        Real input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
-    };
+    template <class Model>
+    using Stages = ExplicitStages<Model, 3>;
 
     // The stage positions and velocities follow from the stage accelerations, so only those are
     // kept.
@@ -25,78 +18,49 @@ struct RungeKutta4 {
                                     const std::vector<PairOverride>& overrides, int i, State& state,
                                     Stages<Model>& s) {
         using Real = RealOf<Model>;
-        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
-        const int channels = 2 * Model::sources(lanes);
-        const int size = Model::degrees_of_freedom(lanes) * W;
-        Real* __restrict q = state.q.data();
-        Real* __restrict v = state.v.data();
-        const auto q_rest = position_rest(state);
-        const auto v_rest = velocity_rest(state);
-        const Real length = static_cast<Real>(step.length);
-        alignas(64) Real h[W], half[W], sixth[W];
+        const ExplicitStep<Model, State> x(plan, lanes, i, state);
+        alignas(64) Real sixth[W];
         for (int l = 0; l < W; ++l) {
-            h[l] = length * lanes.mesh_period[l];
-            half[l] = Real(0.5) * h[l];
-            sixth[l] = h[l] / Real(6);
+            sixth[l] = x.h[l] / Real(6);
         }
 
         load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
-        Model::accelerations(lanes, q, v, s.pairs, s.a1);
-        Model::source_accelerations(lanes, q, v, s.a1, s.input[0]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(half[l], v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(half[l], s.a1[j + l], v[j + l]);
-            }
-        }
+        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
+        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
         load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
-        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a2);
-        Model::source_accelerations(lanes, s.q, s.v, s.a2, s.input[1]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(half[l], s.v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(half[l], s.a2[j + l], v[j + l]);
-            }
-        }
-        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a3);
-        Model::source_accelerations(lanes, s.q, s.v, s.a3, s.input[2]);
-        for (int j = 0; j < channels * W; j += W) {
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
+        move<W>(x.size, x.half, x.q, s.v, x.v, s.a[1], s.q, s.v);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
+        for (int j = 0; j < x.channels * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 s.input[1][j + l] = Real(0.5) * (s.input[1][j + l] + s.input[2][j + l]);
             }
         }
-        for (int j = 0; j < size; j += W) {
+        for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                const Real sum = s.a2[j + l] + s.a3[j + l];
-                s.q[j + l] = std::fma(h[l], s.v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(h[l], s.a3[j + l], v[j + l]);
+                const int at = j + l;
+                const Real sum = s.a[1][at] + s.a[2][at];
+                s.q[at] = std::fma(x.h[l], s.v[at], x.q[at]);
+                s.v[at] = std::fma(x.h[l], s.a[2][at], x.v[at]);
                 // New position, and the part of the new velocity that is known before the last
                 // stage.
-                q[j + l] = advance(q[j + l], h[l], std::fma(sixth[l], s.a1[j + l] + sum, v[j + l]),
-                                   q_rest, j + l);
-                v[j + l] =
-                    advance(v[j + l], sixth[l], std::fma(Real(2), sum, s.a1[j + l]), v_rest, j + l);
+                x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
+                                  x.q_rest, at);
+                x.v[at] =
+                    advance(x.v[at], sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v_rest, at);
             }
         }
         load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
-        Model::accelerations(lanes, s.q, s.v, s.pairs, s.a1);
-        Model::source_accelerations(lanes, s.q, s.v, s.a1, s.input[2]);
-        for (int j = 0; j < size; j += W) {
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[0], s.input[2]);
+        for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                v[j + l] = advance(v[j + l], sixth[l], s.a1[j + l], v_rest, j + l);
+                x.v[j + l] = advance(x.v[j + l], sixth[l], s.a[0][j + l], x.v_rest, j + l);
             }
         }
-        const Real* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
-        for (int channel = 0; channel < channels; ++channel) {
-            const int at = channel * W;
-            filter_channel<W>(coefficients, s.input[0] + at, s.input[1] + at, s.input[2] + at,
-                              state.filter.data() + at * kFilterStates);
-        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
     }
 };
 

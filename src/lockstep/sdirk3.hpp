@@ -72,12 +72,7 @@ struct Sdirk3 {
         std::copy_n(s.q_end, size, q);
         std::copy_n(s.v3, size, v);
 
-        const double* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
-        for (int channel = 0; channel < 2 * lanes.sources; ++channel) {
-            const int at = channel * W;
-            filter_channel<W>(coefficients, s.input[0] + at, s.input[1] + at, s.input[2] + at,
-                              state.filter.data() + at * kFilterStates);
-        }
+        step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[1], s.input[2]);
     }
 
   private:

@@ -54,6 +54,14 @@ FilterMap trapezoidal(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
     return map;
 }
 
+// The same with the input at the step's middle alone.
+FilterMap midpoint(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb) {
+    FilterMap map = trapezoidal(ha, hb);
+    map.inputs.col(0) *= 2.0;
+    map.inputs.col(2).setZero();
+    return map;
+}
+
 // The trapezoidal rule on a straight line through the input at two times `lag` steps before the
 // step's ends.
 FilterMap lagging(const Eigen::Matrix4d& ha, const Eigen::Vector4d& hb, double lag) {
@@ -94,6 +102,8 @@ FilterMap filter_map(Integrator integrator, const Eigen::Matrix4d& ha, double h,
             return lagging(ha, h * b, ChungHulbert::kLag);
         case Integrator::bs3:
             return bogacki_shampine(ha, h * b);
+        case Integrator::central_difference:
+            return midpoint(ha, h * b);
         case Integrator::rk4:
             break;
     }

@@ -18,7 +18,7 @@ inline constexpr int kFilterOutput = 2;
 
 // Positions in one step's coefficients: the transition matrix without its zero block, then the
 // columns of the input at the stage nodes (newmark: start, none, end; generalized_alpha: the
-// same, by its lag earlier).
+// same, by its lag earlier; central_difference: the middle alone).
 inline constexpr int kFilterXX = 0;      // 2 x 2: x, x' from x, x'
 inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
 inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'

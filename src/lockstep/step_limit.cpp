@@ -1,5 +1,6 @@
 #include "lockstep/step_limit.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
@@ -62,6 +63,35 @@ StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integ
         limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
     }
     return limit;
+}
+
+double central_difference_limit(const dynamics::GearboxMatrices& m) {
+    const Eigen::MatrixXd stiffness = m.stiffness + m.centrifugal;
+    const auto stands = [&](double h) {
+        const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
+        return Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success;
+    };
+    // No body alone stands a longer step: m = h c + h^2/4 k.
+    double above = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < m.mass.rows(); ++i) {
+        const double c = m.damping(i, i), k = std::max(0.0, stiffness(i, i)), mass = m.mass(i, i);
+        above = std::min(above, 2.0 * mass / (c + std::sqrt(c * c + k * mass)));
+    }
+    if (!std::isfinite(above)) {
+        return above;
+    }
+    constexpr int kHalvings = 40;
+    double below = 0.0;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (below + above);
+        (stands(middle) ? below : above) = middle;
+    }
+    return below;
+}
+
+double longest_stable_step(const dynamics::GearboxMatrices& m, Integrator integrator) {
+    return integrator == Integrator::central_difference ? central_difference_limit(m)
+                                                        : runge_kutta_limit(m, integrator).step_s;
 }
 
 StiffPart stiffest_part(const dynamics::GearboxLayout& layout,

@@ -18,10 +18,20 @@ struct StepLimit {
 
 // From the eigenvalues of M q'' + (C + G) q' + (K + K_c) q = 0: |R(h lambda)| <= 1 with
 // R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24, for bs3 without the last term, for every eigenvalue that
-// does not grow by itself. `integrator`: an explicit one. The
+// does not grow by itself. `integrator`: rk4 or bs3. The
 // rigid rotation is left out, and with it what creeps at less than 1e-4 of the undamped rates.
 StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& matrices,
                             Integrator integrator = Integrator::rk4);
+
+// The longest step (s) of central differences on the steps' middles: M - h C - h^2/4 (K + K_c) must
+// be positive definite. Just there a motion first swaps its sign at every step without decaying,
+// q = 0 at the steps' ends, h/2 q' at their middles, where the velocity carried by the acceleration
+// of the step before comes out doubled. One mode: omega h = 2 (sqrt(1 + 4 zeta^2) - 2 zeta). The
+// gyroscopic forces do no work on it and do not enter.
+double central_difference_limit(const dynamics::GearboxMatrices& matrices);
+
+// The longest step (s) at which an explicit integrator lets no decaying mode grow.
+double longest_stable_step(const dynamics::GearboxMatrices& matrices, Integrator integrator);
 
 // What makes a gearbox stiff: its fastest mode, and the spring or damper that drives it.
 struct StiffPart {

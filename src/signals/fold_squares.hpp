@@ -1,4 +1,4 @@
-// The kernel behind fold_squares; see folded_signal.hpp.
+// The kernels behind fold_squares, without and with tones; see folded_signal.hpp.
 #pragma once
 
 #include "signals/folded_signal.hpp"
@@ -27,5 +27,10 @@ void fold_squares_1(const FoldArguments& a);
 void fold_squares_4(const FoldArguments& a);
 void fold_squares_8(const FoldArguments& a);
 void fold_squares_16(const FoldArguments& a);
+
+void fold_tones_1(const FoldArguments& a);
+void fold_tones_4(const FoldArguments& a);
+void fold_tones_8(const FoldArguments& a);
+void fold_tones_16(const FoldArguments& a);
 
 }  // namespace gearpod::signals

@@ -58,7 +58,10 @@ void check_same(const machine::AlignedVector& a, const machine::AlignedVector& b
 TEST_CASE(
     "From a tenth of a millimetre off, Liang's train comes to the orbit that the tile finds") {
     const auto& train = test::LiangTrain::instance();
-    const MarchPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
+    MarchPlan plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
+    plan.integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
+    plan.grid.stage_nodes = stage_nodes(plan.integrator);
+    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
     const std::vector<dynamics::GearboxInputs> inputs{train.inputs(10.0)};
     TileSettings settings;
     settings.with_motion = true;

@@ -26,7 +26,7 @@ objdump -dr --no-show-raw-insn "$1" | awk '
         for (name in packed) {
             printf "%4d packed, %d scalar fused multiply-adds in %s\n",
                 packed[name], scalar[name], name
-            if (packed[name] < 100 || scalar[name] > 0) bad = 1
+            if (packed[name] < 60 || scalar[name] > 0) bad = 1
             ++seen
         }
         if (seen != kernels[0] + kernels[1]) { print "a kernel without packed arithmetic"; bad = 1 }

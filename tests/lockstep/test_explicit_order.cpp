@@ -17,10 +17,11 @@ using test::TianGearbox;
 
 namespace {
 
-constexpr Integrator kExplicit[] = {Integrator::rk4, Integrator::bs3};
+constexpr Integrator kExplicit[] = {Integrator::rk4, Integrator::bs3,
+                                    Integrator::central_difference};
 
 double order_of(Integrator integrator) {
-    return integrator == Integrator::rk4 ? 4.0 : 3.0;
+    return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::bs3 ? 3.0 : 2.0;
 }
 
 struct Marched {

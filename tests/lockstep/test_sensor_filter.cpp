@@ -19,11 +19,13 @@ double gain(Integrator integrator, double frequency, double steps_per_cutoff_per
     double m[kFilterCoefficients];
     filter_step(integrator, w, h, m);
     // newmark has no middle: it takes the input at the start and the end; generalized-alpha does so
-    // a little before them.
+    // a little before them. central-difference takes it at the middle alone.
     const std::vector<double> given = stage_nodes(integrator);
     const double lag = integrator == Integrator::generalized_alpha ? ChungHulbert::kLag : 0.0;
-    const std::vector<double> nodes =
-        given.size() == 3 && lag == 0.0 ? given : std::vector<double>{-lag, 0.5, 1.0 - lag};
+    const std::vector<double> nodes = given.size() == 1 ? std::vector<double>(3, given[0])
+                                      : given.size() == 3 && lag == 0.0
+                                          ? given
+                                          : std::vector<double>{-lag, 0.5, 1.0 - lag};
     double z[kFilterStates] = {};
     double sine = 0.0, cosine = 0.0;
     const auto input = [&](double t) { return std::sin(w * frequency * t); };
@@ -68,6 +70,8 @@ TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
               Approx(butterworth(frequency)).epsilon(2e-3));
         CHECK(gain(Integrator::generalized_alpha, frequency, 800) ==
               Approx(butterworth(frequency)).epsilon(2e-3));
+        CHECK(gain(Integrator::central_difference, frequency, 800) ==
+              Approx(butterworth(frequency)).epsilon(2e-3));
     }
 }
 
@@ -83,4 +87,5 @@ TEST_CASE("The low-pass converges at its integrator's order in the step") {
     CHECK(order(Integrator::sdirk3, 80) > 2.7);
     CHECK(order(Integrator::newmark, 80) == Approx(2.0).margin(0.1));
     CHECK(order(Integrator::generalized_alpha, 80) == Approx(2.0).margin(0.1));
+    CHECK(order(Integrator::central_difference, 80) == Approx(2.0).margin(0.1));
 }

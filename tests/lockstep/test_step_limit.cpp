@@ -1,5 +1,6 @@
 // The step limit against the method's known bounds: 2.8284 / omega for an undamped mode and
-// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2).
+// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2); that of central
+// differences against the spectral radius of a step.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -27,6 +28,74 @@ TEST_CASE("The step limit of Runge-Kutta is 2.828 on the imaginary and 2.785 on 
     const double rate = 1e7;
     CHECK(lockstep::runge_kutta_limit(oscillator(1e6, rate)).step_s * rate ==
           Approx(2.7853).epsilon(1e-3));
+}
+
+namespace {
+
+// Spectral radius of one step of central differences on (q, v, a before), from the method's own
+// formulas.
+double central_growth(const dynamics::GearboxMatrices& m, double h) {
+    const Eigen::Index n = m.mass.rows();
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd inverse = m.mass.inverse();
+    const Eigen::MatrixXd k = inverse * (m.stiffness + m.centrifugal);
+    const Eigen::MatrixXd c = inverse * (m.damping + m.gyroscopic);
+    Eigen::MatrixXd a(n, 3 * n), q(n, 3 * n), v(n, 3 * n);
+    a << -k, -0.5 * h * k - c, -0.5 * h * c;
+    v << Eigen::MatrixXd::Zero(n, n), one, Eigen::MatrixXd::Zero(n, n);
+    q << one, h * one, Eigen::MatrixXd::Zero(n, n);
+    Eigen::MatrixXd step(3 * n, 3 * n);
+    step << q + 0.5 * h * h * a, v + h * a, a;
+    // Scaled so that q, h v and h^2 a are alike in size.
+    const Eigen::VectorXd scale =
+        (Eigen::VectorXd(3 * n) << Eigen::VectorXd::Ones(n), Eigen::VectorXd::Constant(n, h),
+         Eigen::VectorXd::Constant(n, h * h))
+            .finished();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * step * scale.cwiseInverse().asDiagonal();
+    return Eigen::EigenSolver<Eigen::MatrixXd>(scaled, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// What the gearbox itself grows in that time: linearised, the pull on riding planets turns it.
+double own_growth(const dynamics::GearboxMatrices& m, double h) {
+    const Eigen::MatrixXd system = state_matrix(m);
+    return std::exp(
+        h * Eigen::EigenSolver<Eigen::MatrixXd>(system, false).eigenvalues().real().maxCoeff());
+}
+
+}  // namespace
+
+TEST_CASE("The step limit of central differences is where one mode's step begins to grow") {
+    const double omega = 5e4;
+    for (const double zeta : {0.0, 0.01, 0.07, 0.2, 1.0, 5.0}) {
+        const auto mode = oscillator(omega * omega, 2 * zeta * omega);
+        const double limit = lockstep::central_difference_limit(mode);
+        CHECK(limit * omega ==
+              Approx(2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta)).epsilon(1e-9));
+        CHECK(central_growth(mode, 0.999 * limit) <= 1 + 1e-9);
+        CHECK(central_growth(mode, 1.001 * limit) > 1 + 1e-4);
+    }
+    CHECK(std::isinf(lockstep::central_difference_limit(oscillator(0.0, 0.0))));
+}
+
+TEST_CASE("The step limit of central differences is that of whole gearboxes, turning or not") {
+    const auto& train = test::LiangTrain::instance();
+    const auto plan = train.plan(24, 1200, dynamics::Motion::translational_torsional);
+    for (const double speedup : {1.0, 1000.0}) {  // at 8870 rpm gyroscopic forces are no small part
+        for (const double stiffness : {2e8, 1e9}) {
+            const auto m = dynamics::assemble(plan.layout, train.inputs(speedup),
+                                              std::vector<double>(8, stiffness));
+            const double limit = lockstep::central_difference_limit(m);
+            INFO("speed " << speedup << ", stiffness " << stiffness);
+            CHECK(central_growth(m, 0.99 * limit) <= own_growth(m, limit) + 1e-6);
+            CHECK(central_growth(m, 1.01 * limit) > own_growth(m, limit) + 1e-3);
+        }
+    }
+    const auto stage =
+        dynamics::assemble(dynamics::GearboxLayout(test::TianGearbox::instance().layout()),
+                           test::TianGearbox::instance().inputs(), {1.1e9});
+    const double limit = lockstep::central_difference_limit(stage);
+    CHECK(central_growth(stage, 0.99 * limit) <= 1 + 1e-7);
+    CHECK(central_growth(stage, 1.01 * limit) > 1 + 1e-3);
 }
 
 TEST_CASE("The slowest decay of an oscillator is half its damping rate") {

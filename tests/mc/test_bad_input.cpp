@@ -111,7 +111,8 @@ const BadFile kBadFiles[] = {
      "numerics.lanes", "must be 16, 8, 4 or 1, but is 3"},
     {"[operation]", "[numerics]\nprecision = \"single\"\nintegrator = \"sdirk3\"\n[operation]",
      "precision", "numerics.precision",
-     "\"single\" is for the integrator rk4, but numerics.integrator is \"sdirk3\""},
+     "\"single\" is for the integrators rk4 and central-difference, but numerics.integrator is "
+     "\"sdirk3\""},
     {"[operation]", "[numerics]\nstep_tolerance = 0\n[operation]", "step_tolerance",
      "numerics.step_tolerance", "must be > 0 and < 1"},
     {"low_pass_Hz = 800", "low_pass_Hz = 2500", "low_pass", "sensor.low_pass_Hz",
