@@ -1,5 +1,7 @@
 #include "mc/accuracy_ladder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +12,7 @@ namespace {
 
 // Steps of neighbouring rungs differ by this factor, or by one step a sample.
 constexpr double kStepRatio = 1.25;
-// The choices of [numerics] that change how a step is taken, besides the integrator. Graded grids
-// are no rungs: each would take a pilot of its own, with its own tolerance.
+// The choices of [numerics] that change how a step is taken, besides the integrator.
 constexpr std::string_view kWays[] = {"precision"};
 
 // All combinations of those choices that a program of this version has; the first is the default.
@@ -52,6 +53,10 @@ std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
     return steps;
 }
 
+// Of the signals, for graded grids; a feature's error is mostly smaller.
+const std::vector<double> kGridTolerances{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
+constexpr std::string_view kSingle = "numerics.precision=single", kGraded = "numerics.grid=graded";
+
 struct StepCost {
     std::string_view integrator;
     double planetary, rotations, fixed_shaft;
@@ -63,28 +68,50 @@ constexpr StepCost kStepCosts[] = {
 // Of singles, eight abreast, over doubles.
 constexpr double kSingleCost = 0.65;
 
+void add_flights(const Study& study, const std::string& integrator,
+                 const std::vector<std::string>& way, double beyond, std::vector<Flight>& all) {
+    const Numerics& n = study.numerics;
+    Flight flight{integrator, way, {}, {}, 0, ""};
+    bool may_be_graded = false;
+    try {
+        const auto scene =
+            rung_scene(study, {integrator, n.steps_per_mesh, n.settle_tolerance, way});
+        flight.own_steps = static_cast<int>(scene->plan().grid.steps.size());
+        flight.steps =
+            n.steps_per_mesh > 0 ? std::vector<int>{n.steps_per_mesh} : step_ladder(*scene, beyond);
+        // The steps of an explicit method are bounded by stability, which is the same everywhere.
+        may_be_graded = n.steps_per_mesh == 0 && n.grid == StepGrid::uniform &&
+                        !is_explicit(scene->plan().integrator);
+    } catch (const SceneError& error) {
+        flight.refusal = error.what();
+    }
+    all.push_back(flight);
+    if (may_be_graded) {
+        flight.other.emplace_back(kGraded);
+        flight.steps.clear();
+        flight.grid_tolerances = kGridTolerances;
+        all.push_back(flight);
+    }
+}
+
 }  // namespace
+
+Rung Flight::rung(std::size_t place, double settle_tolerance) const {
+    Rung rung{integrator, graded() ? 0 : steps[place], settle_tolerance, other};
+    if (graded()) {
+        rung.other.push_back(fmt::format("numerics.grid_tolerance={:g}", grid_tolerances[place]));
+    }
+    return rung;
+}
 
 std::vector<Flight> flights(const Study& study, double beyond) {
     std::vector<Flight> all;
     for (const std::string& integrator : integrator_names()) {
-        if (study.numerics.integrator != Integrator::automatic &&
-            choice_text(study, "numerics", "integrator") != integrator) {
-            continue;
-        }
-        for (const std::vector<std::string>& way : ways()) {
-            Flight flight{integrator, way, {}, 0, ""};
-            try {
-                const auto scene = rung_scene(study, {integrator, study.numerics.steps_per_mesh,
-                                                      study.numerics.settle_tolerance, way});
-                flight.own_steps = static_cast<int>(scene->plan().grid.steps.size());
-                flight.steps = study.numerics.steps_per_mesh > 0
-                                   ? std::vector<int>{study.numerics.steps_per_mesh}
-                                   : step_ladder(*scene, beyond);
-            } catch (const SceneError& error) {
-                flight.refusal = error.what();
+        if (study.numerics.integrator == Integrator::automatic ||
+            choice_text(study, "numerics", "integrator") == integrator) {
+            for (const std::vector<std::string>& way : ways()) {
+                add_flights(study, integrator, way, beyond, all);
             }
-            all.push_back(flight);
         }
     }
     return all;
@@ -99,10 +126,13 @@ std::optional<double> step_cost(const Study& study, const std::string& integrato
                                 const std::vector<std::string>& other) {
     const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
                                    [&](const StepCost& c) { return c.integrator == integrator; });
-    const bool single = other == std::vector<std::string>{"numerics.precision=single"};
-    if (row == std::end(kStepCosts) || !(other.empty() || single)) {
+    const auto known = [](const std::string& key) {
+        return key == kSingle || key.starts_with("numerics.grid");
+    };
+    if (row == std::end(kStepCosts) || !std::all_of(other.begin(), other.end(), known)) {
         return std::nullopt;
     }
+    const bool single = std::find(other.begin(), other.end(), kSingle) != other.end();
     return (single ? kSingleCost : 1.0) * (study.gearbox.kind == GearboxKind::fixed_shaft
                                                ? row->fixed_shaft
                                            : study.effects.torsional() ? row->rotations

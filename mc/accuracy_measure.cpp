@@ -23,6 +23,10 @@ constexpr double kNearFrontier = 3.0;
 // Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
+// Of the ladder's graded grids: each takes a pilot of its own.
+constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
+// Tried on the fastest rung for each tolerance.
+constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -50,6 +54,8 @@ class Measurement {
         request_.progress("reference: two methods until they agree");
         report_.reference = converged_reference(study_, pilot_, {});
         list_rungs();
+        add_graded();
+        times_.resize(report_.rungs.size());
         request_.progress(fmt::format("{} rungs", report_.rungs.size()));
         march_all(0, true);
         finish_times();
@@ -66,6 +72,7 @@ class Measurement {
         for (const double tolerance : request_.tolerances) {
             choose(tolerance);
         }
+        thin_stiffness();
         time_contenders();
         finish_times();
         for (ChoiceCheck& check : report_.choices) {
@@ -109,26 +116,105 @@ class Measurement {
         report_.own = 0;
         add(own_rung());
         for (const Flight& flight : flights(free_study(), kBeyondOwnRule)) {
-            if (flight.steps.empty()) {
+            if (flight.graded()) {
+                graded_.push_back(flight);
+                continue;
+            }
+            if (flight.size() == 0) {
                 add({flight.integrator, 0, study_.numerics.settle_tolerance, flight.other},
                     flight.refusal);
             }
-            for (const int steps : flight.steps) {
-                add({flight.integrator, steps, settle_tolerances().front(), flight.other});
+            for (std::size_t i = 0; i < flight.size(); ++i) {
+                add(flight.rung(i, settle_tolerances().front()));
             }
+            least_cost_ = std::min(least_cost_, own_cost(flight));
         }
         Rung all = own_rung();
         all.other.push_back("numerics.horizon=march");
         add(all);
+    }
+
+    // Of the integrator's own equal steps, in steps of rk4.
+    double own_cost(const Flight& flight) const {
+        const auto cost = step_cost(study_, flight.integrator, flight.other);
+        return cost && flight.own_steps > 0 ? *cost * flight.own_steps : INFINITY;
+    }
+
+    void add_graded() {
+        for (const Flight& flight : graded_) {
+            const double over = kFewestGraded * own_cost(flight) / least_cost_;
+            if (over > kNearFrontier) {
+                add({flight.integrator, 0, study_.numerics.settle_tolerance, flight.other},
+                    fmt::format(
+                        "not tried: an eighth of its {} equal steps would cost {:.0f} times "
+                        "the cheapest integrator's",
+                        flight.own_steps, over));
+                continue;
+            }
+            for (std::size_t i = 0; i < flight.size(); ++i) {
+                if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
+                              flight.grid_tolerances[i]) != std::end(kGridTolerances)) {
+                    add(flight.rung(i, settle_tolerances().front()));
+                }
+            }
+        }
+    }
+
+    // The fastest rung for each tolerance with fewer terms in the stiffness curves.
+    void thin_stiffness() {
+        finish_times();
+        std::vector<Rung> fastest_rungs;
+        for (const ChoiceCheck& check : report_.choices) {
+            const double best = fastest(check.tolerance);
+            const auto known = [&](const Rung& rung) {
+                return std::any_of(fastest_rungs.begin(), fastest_rungs.end(),
+                                   [&](const Rung& r) { return r.text() == rung.text(); });
+            };
+            for (const RungResult& result : report_.rungs) {
+                if (holds(result, check.tolerance) && result.march_s == best &&
+                    !known(result.rung)) {
+                    fastest_rungs.push_back(result.rung);
+                }
+            }
+        }
+        const std::size_t first = report_.rungs.size();
+        for (const Rung& rung : fastest_rungs) {
+            for (const double tolerance : kStiffnessTolerances) {
+                Rung thin = rung;
+                thin.other.push_back(fmt::format("numerics.stiffness_tolerance={:g}", tolerance));
+                add(thin);
+            }
+        }
         times_.resize(report_.rungs.size());
+        request_.progress(
+            fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
+        march_all(first, true);
+    }
+
+    // A graded grid takes a pilot: each has a scene of its own.
+    Scene& scene_for(const Rung& rung, const Numerics& numerics) {
+        Scene* scene = scene_.get();
+        if (numerics.grid == StepGrid::graded) {
+            std::string key = rung.integrator;
+            for (const std::string& other : rung.other) {
+                key += other;
+            }
+            auto& own = graded_scenes_[key];
+            if (own == nullptr) {
+                own = rung_scene(study_, rung);
+            }
+            scene = own.get();
+        }
+        scene->use(numerics);
+        return *scene;
     }
 
     // Rungs with the same steps stand together, so that a scene serves them all.
     void settle_loosely() {
         std::vector<Rung> tight;
         for (const RungResult& result : report_.rungs) {
-            if (near_frontier(result) && result.rung.integrator != "auto" &&
-                !marches_everything(result.rung)) {
+            if (result.refusal.empty() && near_frontier(result) &&
+                result.rung.integrator != "auto" && !marches_everything(result.rung)) {
                 tight.push_back(result.rung);
             }
         }
@@ -168,8 +254,8 @@ class Measurement {
             return;
         }
         try {
-            scene_->use(with_rung(study_, result.rung).numerics);
-            const PilotRecord record = pilot_.run(*scene_);
+            const Scene& scene = scene_for(result.rung, with_rung(study_, result.rung).numerics);
+            const PilotRecord record = pilot_.run(scene);
             times_[place].march.push_back(record.march_s);
             times_[place].total.push_back(record.total_s);
             if (first) {
@@ -367,6 +453,9 @@ class Measurement {
     const Pilot pilot_;
     AccuracyReport report_;
     std::vector<Times> times_;
+    std::vector<Flight> graded_;
+    double least_cost_ = INFINITY;  // of the flights of equal steps, see own_cost()
+    std::map<std::string, std::unique_ptr<Scene>> graded_scenes_;
 };
 
 }  // namespace

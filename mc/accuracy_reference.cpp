@@ -64,7 +64,7 @@ class Refinement {
             }
             change_ = change;
         }
-        const double next = 2.0 * record.steps * static_cast<double>(record.tile_meshes);
+        const double next = 2.0 * record.steps * record.tile_meshes;
         last_ = std::move(record);
         refine(next);
     }

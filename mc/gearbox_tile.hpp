@@ -39,9 +39,9 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false,
                           const MarchCache* marches = nullptr);
 
-// Views, tones and folded signals of a tile that has its inputs, one a lane, and its march.
-void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 GearboxTile& tile);
+// The same from a march made elsewhere, of as many lanes as it has a status.
+GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult march);
 
 // One lane of a tile.
 struct LaneSignals {

@@ -28,6 +28,21 @@ Rung rung_of(const Scene& scene) {
         {}};
 }
 
+// The same with finer steps, all of one length: on a graded grid finer than its finest.
+Rung finer_than(const Scene& scene, const Rung& rung, int factor) {
+    Rung finer = rung;
+    finer.settle_tolerance = std::min(kSettled, rung.settle_tolerance);
+    double steps = rung.steps;
+    if (scene.study().numerics.grid == StepGrid::graded) {
+        finer.other.push_back("numerics.grid=uniform");
+        if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
+            steps = std::ceil(1.0 / scene.calibration()->grading.first);
+        }
+    }
+    finer.steps = static_cast<int>(std::min(1e6, factor * steps));
+    return finer;
+}
+
 // Spread evenly over the graded gearboxes.
 std::vector<GearboxId> spread_gearboxes(const Study& study) {
     const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
@@ -135,11 +150,10 @@ std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     }
     const Pilot pilot(scene, spread_gearboxes(study));
     const Rung rung = rung_of(scene);
-    Rung finer = rung;
-    finer.settle_tolerance = std::min(kSettled, rung.settle_tolerance);
+    Rung finer;
     std::unique_ptr<Scene> fine;
     for (int factor = kFiner; fine == nullptr && factor > 1; factor /= 2) {
-        finer.steps = factor * rung.steps;
+        finer = finer_than(scene, rung, factor);
         try {
             fine = rung_scene(study, finer);
         } catch (const SceneError&) {  // more steps than the program takes

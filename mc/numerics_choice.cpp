@@ -27,6 +27,7 @@ struct Trial {
     double error = kInfinity;  // of the worst feature
     int worst = 0;             // which that is
     double cost = kInfinity;   // rk4 steps a gearbox
+    bool marched = false;      // or could not win, or has no place in the study
 };
 
 // What the study marches by without a tolerance.
@@ -62,14 +63,14 @@ class Search {
     NumericsChoice run() {
         std::vector<Flight> all = flights(study_, kBeyondOwnRule);
         std::erase_if(all, [&](const Flight& f) {
-            return f.steps.empty() || !step_cost(study_, f.integrator, f.other);
+            return f.size() == 0 || !step_cost(study_, f.integrator, f.other);
         });
         // The likeliest first: what costs more than the best so far is not tried.
-        std::sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
+        std::stable_sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
             return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
         });
         for (const Flight& flight : all) {
-            search(flight);
+            flight.graded() ? search_graded(flight) : search(flight);
         }
         if (!std::isfinite(best_.cost)) {
             throw SceneError("numerics.tolerance",
@@ -86,7 +87,7 @@ class Search {
     }
 
     Trial trial(const Flight& flight, std::size_t step, double settle) {
-        const Rung rung{flight.integrator, flight.steps[step], settle, flight.other};
+        const Rung rung = flight.rung(step, settle);
         const auto known = trials_.find(rung.text());
         if (known != trials_.end()) {
             return known->second;
@@ -95,11 +96,15 @@ class Search {
         Trial result;
         try {
             scene_->use(numerics);
+            if (flight.graded() && !may_cost(flight, scene_->plan().grid.steps.size())) {
+                return trials_.emplace(rung.text(), result).first->second;
+            }
             const PilotRecord record = pilot_.run(*scene_);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
             result.worst = worst_feature(error);
             result.cost = cost_of(flight) * record.steps * record.meshes_per_tile();
+            result.marched = true;
             ++marches_;
         } catch (const SceneError&) {  // not this study's: infinitely far off
         }
@@ -143,27 +148,60 @@ class Search {
             }
         }
         for (std::size_t step = low; step < std::min(low + 2, flight.steps.size()); ++step) {
-            if (!may_win(flight, step) || !keeps(step, settle.front())) {
+            if (may_win(flight, step) && keeps(step, settle.front())) {
+                settle_loosely(flight, step);
+            }
+        }
+    }
+
+    // The loosest settling that keeps the tolerance, with steps that do.
+    void settle_loosely(const Flight& flight, std::size_t step) {
+        const std::vector<double>& settle = settle_tolerances();
+        std::size_t tight = 0, loose = settle.size();
+        while (loose - tight > 1) {
+            const std::size_t middle = (tight + loose) / 2;
+            (trial(flight, step, settle[middle]).error <= tolerance_ ? tight : loose) = middle;
+        }
+    }
+
+    // The coarsest graded grid that keeps the tolerance. Grids cost a pilot each: only those near
+    // the tolerance, and none where the fewest steps they may have could not win.
+    void search_graded(const Flight& flight) {
+        constexpr double kNear = 30.0;
+        if (!may_cost(flight, static_cast<std::size_t>(kFewestGraded * flight.own_steps))) {
+            return;
+        }
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            const double ratio = flight.grid_tolerances[i] / tolerance_;
+            if (ratio > kNear || ratio < 1.0 / kNear) {
                 continue;
             }
-            std::size_t tight = 0, loose = settle.size();
-            while (loose - tight > 1) {
-                const std::size_t middle = (tight + loose) / 2;
-                (keeps(step, settle[middle]) ? tight : loose) = middle;
+            const Trial found = trial(flight, i, settle_tolerances().front());
+            if (found.error <= tolerance_) {
+                settle_loosely(flight, i);
+            }
+            if (found.error <= tolerance_ || !found.marched) {
+                return;
             }
         }
     }
 
     // Settled as loosely as any rung, a gearbox marches at least this many mesh periods.
     bool may_win(const Flight& flight, std::size_t step) {
+        return may_cost(flight, static_cast<std::size_t>(flight.steps[step]));
+    }
+
+    bool may_cost(const Flight& flight, std::size_t steps) {
         if (least_meshes_ == 0.0) {
             Rung rung = own_rule(study_);
             rung.settle_tolerance = settle_tolerances().back();
+            const Numerics now = scene_->study().numerics;
             scene_->use(with_rung(study_, rung).numerics);
             least_meshes_ = pilot_.run(*scene_).meshes_per_tile();
+            scene_->use(now);
             ++marches_;
         }
-        return cost_of(flight) * flight.steps[step] * least_meshes_ < best_.cost;
+        return cost_of(flight) * static_cast<double>(steps) * least_meshes_ < best_.cost;
     }
 
     NumericsChoice choice() const {

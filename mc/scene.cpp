@@ -15,6 +15,9 @@ namespace {
 
 using std::numbers::pi;
 
+// Of a mesh period, between which a march may stop.
+constexpr int kParts = 8;
+
 const Study& with_gears(const Study& study) {
     if (!has_gears(study)) {
         throw std::invalid_argument("a scene needs tooth numbers and a module");
@@ -32,13 +35,7 @@ Scene::Scene(const Study& study)
     }
     const InstanceInputs nominal = Sampler(study_).nominal();
     nominal_mesh_frequency_Hz_ = drive_->mesh_frequency_rad_s(nominal.speed_rad_s) / (2.0 * pi);
-    meshes_ = make_meshes(study_, drive_->mesh_force_N(nominal));
-    for (const SceneMesh& mesh : meshes_) {
-        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive_->pairs_per_mesh()),
-                           mean_total(*mesh.stiffness));
-    }
-    pairs_ = make_pairs(meshes_, *drive_);
-    fault_.emplace(study_, meshes_, pairs_);
+    build_stiffness();
     build_plan();
     signal_meshes_ = meshes_needed(*this, needs_of(used_features(study_)));
 }
@@ -54,12 +51,30 @@ void Scene::use(const Numerics& numerics) {
         settle();
         return;
     }
+    const bool same_stiffness = before.stiffness_tolerance == numerics.stiffness_tolerance;
     try {
+        if (!same_stiffness) {
+            build_stiffness();
+        }
         build_plan();
     } catch (...) {
         study_.numerics = before;
+        if (!same_stiffness) {
+            build_stiffness();
+        }
         throw;
     }
+}
+
+void Scene::build_stiffness() {
+    meshes_ = make_meshes(study_, drive_->mesh_force_N(Sampler(study_).nominal()));
+    mean_pairs_.clear();
+    for (const SceneMesh& mesh : meshes_) {
+        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive_->pairs_per_mesh()),
+                           mean_total(*mesh.stiffness));
+    }
+    pairs_ = make_pairs(meshes_, *drive_);
+    fault_.emplace(study_, meshes_, pairs_);
 }
 
 void Scene::settle() {
@@ -119,6 +134,10 @@ void Scene::build_plan() {
         choose_grid(study_, stepping_, sampling.samples, transitions(), [this] { return pilot(); });
     calibration_ = chosen.calibration;
     plan_ = plan_of(std::move(chosen.grid));
+    parts_.clear();
+    if (!study_.effects.quasi_static()) {
+        parts_ = lockstep::mesh_parts(plan_, kParts);
+    }
     if (pitch_errors()) {
         load_shares_ = std::make_unique<const lockstep::LoadShares>(pairs_, plan_.grid);
     }

@@ -58,6 +58,7 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     options.body_radius_1_m = body_radius_m(study, mesh.members.driver);
     options.body_radius_2_m = body_radius_m(study, mesh.members.driven);
     options.force_N = force_N;
+    options.tolerance = study.numerics.stiffness_tolerance;
     try {
         auto coupled = std::make_unique<const stiffness::CoupledMesh>(
             *mesh.geometry, material_of(study), profile_of(study), options);
@@ -112,7 +113,8 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
                 make_coupled(study, force_N, mesh);
             } else {
                 mesh.stiffness = std::make_unique<const stiffness::AdditiveMesh>(
-                    *mesh.geometry, material_of(study), profile_of(study));
+                    *mesh.geometry, material_of(study), profile_of(study),
+                    study.numerics.stiffness_tolerance);
             }
         }
         meshes.push_back(std::move(mesh));

@@ -65,6 +65,7 @@ const Key kKeys[] = {
     {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of a pilot's signals, by which the graded grids of all integrators but bs3 are chosen"},
     {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
+    {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "share of the largest value that the stiffness curves' terms may leave out; 0: 1e-13, of a faulty tooth pair 4e-10"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},

@@ -222,7 +222,8 @@ struct Numerics {
     double tolerance = 0.0;
     bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;
-    int max_meshes = 0;  // 0: from the damping
+    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
+    int max_meshes = 0;                // 0: from the damping
     Horizon horizon = Horizon::reuse;
     int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
     int threads = 0;  // 0: all

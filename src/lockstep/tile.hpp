@@ -4,6 +4,7 @@
 // A linear train under steady load and speed settles on an orbit that repeats every mesh period. A
 // faulty tooth disturbs it and the disturbance decays. So a few recorded mesh periods, arranged by
 // `Pattern`, stand for the Z_p Z_r meshes that windowing looks at. Horizon::march marches them all.
+// What is marched begins and ends with a part of a mesh period (mesh_parts.hpp).
 #pragma once
 
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/march.hpp"
+#include "lockstep/mesh_parts.hpp"
 
 namespace gearpod::lockstep {
 
@@ -22,6 +24,8 @@ struct TileSettings {
     int march_meshes = 0;      // 0: reuse; else: record so many meshes one by one
     int run_in_meshes = 0;     // marched before them: tooth errors have no orbit to start from
     bool with_motion = false;
+    // Of the plan: where the march may stop. Empty: only at integer phases.
+    std::span<const MeshPart> parts = {};
 };
 
 // Recorded mesh periods: 0 is the healthy one; mesh k of the span shows records[content[k mod L]].
@@ -29,7 +33,7 @@ struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()
     std::vector<LaneStatus> status;  // per lane
-    int marched = 0;                 // mesh periods that the tile marched in all
+    double marched = 0.0;            // mesh periods that the tile marched in all
 };
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last

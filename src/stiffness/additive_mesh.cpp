@@ -15,12 +15,12 @@ constexpr double kSeriesTolerance = 1e-13;
 constexpr double kFaultyTolerance = 4e-10;  // of the stiffness of contact and mate
 
 ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
-                            Profile profile, int which) {
+                            Profile profile, double tolerance, int which) {
     const ToothProfile tooth(geometry.gear(which), profile);
     const auto compliance = [&](double tau) {
         return tooth_compliance(tooth, material, geometry.contact_angle(which, tau)).total();
     };
-    return {compliance, 0, geometry.contact_ratio(), kNodes, kSeriesTolerance};
+    return {compliance, 0, geometry.contact_ratio(), kNodes, std::max(tolerance, kSeriesTolerance)};
 }
 
 // Tooth pairs that touch inside a stretch: they stand at tau + age, youngest first.
@@ -92,15 +92,15 @@ class FaultyAdditiveMesh : public FaultyMesh {
 };
 
 AdditiveMesh::AdditiveMesh(const gears::MeshGeometry& geometry, const Material& material,
-                           Profile profile)
+                           Profile profile, double tolerance)
     : contact_ratio_(geometry.contact_ratio()),
       pitch_position_(geometry.pitch_position()),
       contact_(1 / hertz_stiffness(material)),
-      beams_{beam_series(geometry, material, profile, 1),
-             beam_series(geometry, material, profile, 2)},
+      beams_{beam_series(geometry, material, profile, tolerance, 1),
+             beam_series(geometry, material, profile, tolerance, 2)},
       pair_([&](double tau) { return 1 / (contact_ + beams_[0](tau) + beams_[1](tau)); }, 0,
-            contact_ratio_, kNodes, kSeriesTolerance),
-      fit_(kFaultyTolerance / (contact_ + beams_[1](contact_ratio_ / 2))),
+            contact_ratio_, kNodes, std::max(tolerance, kSeriesTolerance)),
+      fit_(std::max(tolerance, kFaultyTolerance) / (contact_ + beams_[1](contact_ratio_ / 2))),
       transitions_(contact_transitions(contact_ratio_)) {}
 
 double AdditiveMesh::tooth_pair(double tau) const {

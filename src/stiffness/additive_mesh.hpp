@@ -6,7 +6,7 @@
 // Sources: Tian (2004), Eqs. 2.35, 2.63; Liang (2016), Eqs. 2.2.32-2.2.33, 3.2.23-3.2.24. A fault
 // changes the terms of its tooth's pair: the beam of its own gear, and k_h with the width on which
 // the tooth is touched (Tian, Eq. 3.1). Curves are Chebyshev series in the position, in error by
-// less than 1e-12 (healthy) and 1e-8 of the healthy tooth pair (faulty).
+// less than 1e-12 (healthy) and 1e-8 of the healthy tooth pair (faulty), or by the tolerance given.
 #pragma once
 
 #include "gears/mesh_geometry.hpp"
@@ -20,7 +20,10 @@ namespace gearpod::stiffness {
 
 class AdditiveMesh : public MeshStiffness {
   public:
-    AdditiveMesh(const gears::MeshGeometry& geometry, const Material& material, Profile profile);
+    // Curves keep the terms that this share of their largest value asks for; 0: all that say
+    // anything.
+    AdditiveMesh(const gears::MeshGeometry& geometry, const Material& material, Profile profile,
+                 double tolerance = 0);
 
     double contact_ratio() const override { return contact_ratio_; }
     double pitch_position() const override { return pitch_position_; }

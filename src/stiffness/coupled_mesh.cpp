@@ -44,7 +44,7 @@ class FaultyCoupledMesh : public FaultyMesh {
         std::sort(breaks.begin(), breaks.end());
         std::sort(jumps_.begin(), jumps_.end());
         const double scale = healthy.stretches_.front().total(0.0);
-        const ToothPairFit fit(kFaultyTolerance * scale);
+        const ToothPairFit fit(std::max(healthy.tolerance_, kFaultyTolerance) * scale);
         curve_ = fit([&](std::span<const double> tau,
                          std::span<double> total) { solve(healthy, fault, tau, total); },
                      breaks, duration_);
@@ -103,7 +103,8 @@ class FaultyCoupledMesh : public FaultyMesh {
 
 CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& material,
                          Profile profile, const CoupledMeshOptions& options)
-    : geometry_(geometry),
+    : tolerance_(options.tolerance),
+      geometry_(geometry),
       contact_(material, options.contact),
       force_N_(options.force_N),
       bodies_{make_foundation(geometry.gear(1), material, profile, options.foundation,
@@ -119,6 +120,7 @@ CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& ma
     if (contact_ratio() > TouchingPairs::kMost)
         throw std::invalid_argument(fmt::format("a contact ratio of {:.2f} (at most {})",
                                                 contact_ratio(), TouchingPairs::kMost));
+    const double tolerance = std::max(tolerance_, kSeriesTolerance);
     for (const int which : {1, 2}) {
         const ToothProfile tooth(geometry.gear(which), profile);
         beams_[which - 1] = ChebyshevSeries(
@@ -126,18 +128,18 @@ CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& ma
                 return tooth_compliance(tooth, material, geometry.contact_angle(which, tau))
                     .total();
             },
-            0, contact_ratio(), kNodes, kSeriesTolerance);
+            0, contact_ratio(), kNodes, tolerance);
     }
     foundation_ =
         ChebyshevSeries([&](double tau) { return foundation(1, tau) + foundation(2, tau); }, 0,
-                        contact_ratio(), kNodes, kSeriesTolerance);
+                        contact_ratio(), kNodes, tolerance);
     for (std::size_t i = 0; i < transitions_.size(); ++i) {
         const double begin = transitions_[i];
         const double end = i + 1 < transitions_.size() ? transitions_[i + 1] : 1;
         const int pairs = pairs_at(0.5 * (begin + end), contact_ratio());
         const auto series = [&](auto&& value) {
             return ChebyshevSeries([&](double phase) { return value(healthy_load(phase, pairs)); },
-                                   begin, end, kNodes, kSeriesTolerance);
+                                   begin, end, kNodes, tolerance);
         };
         HealthyStretch stretch{
             begin, end, series([](const SharedLoad& load) { return load.stiffness; }), {}};

@@ -26,6 +26,9 @@ struct CoupledMeshOptions {
     // The circle on which each gear's body is held (make_foundation).
     double body_radius_1_m = 0, body_radius_2_m = 0;
     double force_N = 0;  // of the mesh, along the line of action; for load-dependent contacts
+    // Curves keep the terms that this share of their largest value asks for; 0: all that say
+    // anything.
+    double tolerance = 0;
 };
 
 class CoupledMesh : public MeshStiffness {
@@ -65,6 +68,7 @@ class CoupledMesh : public MeshStiffness {
     TouchingPairs touching(double phase, int pairs) const;
     const HealthyStretch& stretch_at(double phase) const;
 
+    double tolerance_;  // see CoupledMeshOptions
     gears::MeshGeometry geometry_;
     HertzContact contact_;
     double force_N_;

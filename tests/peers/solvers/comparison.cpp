@@ -49,12 +49,12 @@ mc::PilotError error_of(const mc::Scene& scene, const Boxes& boxes,
     const signals::PathGrid path = mc::path_grid(scene);
     const mc::Sampler sampler(scene.study());
     const std::vector<mc::GearboxId> ids = mc::pilot_gearboxes();
-    mc::GearboxTile tile;
-    tile.inputs = boxes.instances;
-    tile.march.records = records;
-    tile.march.content.resize(records.size());
-    std::iota(tile.march.content.begin(), tile.march.content.end(), 0);
-    mc::add_signals(scene, path, ids, tile);
+    lockstep::TileResult march;
+    march.records = records;
+    march.content.resize(records.size());
+    std::iota(march.content.begin(), march.content.end(), 0);
+    march.status.assign(kGearboxes, lockstep::LaneStatus::ok);
+    const mc::GearboxTile tile = mc::tile_of_march(scene, sampler, path, ids, std::move(march));
 
     const mc::HealthyReference healthy = mc::healthy_reference(scene, sampler, path);
     mc::InstanceFeatures features(scene, &healthy);
