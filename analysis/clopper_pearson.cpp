@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/quiet_policy.hpp"
+
 namespace gearpod::analysis {
 
 Interval clopper_pearson_interval(long detected, long tested, double confidence) {
@@ -15,7 +17,7 @@ Interval clopper_pearson_interval(long detected, long tested, double confidence)
         const double nan = std::numeric_limits<double>::quiet_NaN();
         return {nan, nan};
     }
-    using Beta = boost::math::beta_distribution<double>;
+    using Beta = boost::math::beta_distribution<double, QuietPolicy>;
     const double tail = 0.5 * (1.0 - confidence);
     const auto k = static_cast<double>(detected);
     const auto n = static_cast<double>(tested);

@@ -1,22 +1,20 @@
 #include "analysis/correlation_ratio.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/non_central_f.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "analysis/input_bins.hpp"
+#include "analysis/noncentral_f.hpp"
+#include "analysis/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-namespace policies = boost::math::policies;
-using Policy = policies::policy<policies::evaluation_error<policies::ignore_error>,
-                                policies::promote_double<false>>;
+constexpr double kLeastUnit = std::numeric_limits<double>::min();
 
 // Analysis of variance of y in bins of x; y has mean 0.
 struct Variances {
@@ -54,9 +52,7 @@ Variances variances_of(std::span<const double> x, std::span<const double> y, std
 double share_at(const Variances& v, double probability) {
     const auto beyond = [&](double share) {
         const double noncentrality = v.count * share / (1.0 - share);
-        const boost::math::non_central_f_distribution<double, Policy> law(
-            v.bins - 1.0, v.count - v.bins, noncentrality);
-        return boost::math::cdf(law, v.f()) - probability;
+        return noncentral_f_cdf(v.f(), v.bins - 1.0, v.count - v.bins, noncentrality) - probability;
     };
     constexpr double kLeast = 1e-9;
     if (!(beyond(kLeast) > 0.0)) {
@@ -68,7 +64,7 @@ double share_at(const Variances& v, double probability) {
     }
     std::uintmax_t steps = 60;
     const auto bracket = boost::math::tools::toms748_solve(
-        beyond, kLeast, most, boost::math::tools::eps_tolerance<double>(20), steps, Policy());
+        beyond, kLeast, most, boost::math::tools::eps_tolerance<double>(20), steps, QuietPolicy());
     return 0.5 * (bracket.first + bracket.second);
 }
 
@@ -89,6 +85,15 @@ double widening(const Variances& v, std::span<const double> y) {
     return std::sqrt(std::max(1.0, own / (2.0 * noise * share * (2.0 - share) / n + chance)));
 }
 
+// Near the largest value, so that squares neither overflow nor vanish; exact to divide by.
+double power_of_two(std::span<const double> values) {
+    double largest = 0.0;
+    for (const double value : values) {
+        largest = std::max(largest, std::abs(value));
+    }
+    return largest > 0.0 ? std::max(std::exp2(std::ilogb(largest)), kLeastUnit) : 1.0;
+}
+
 }  // namespace
 
 CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const double> y,
@@ -99,20 +104,22 @@ CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const do
         return result;
     }
     const auto n = static_cast<double>(y.size());
+    const double unit = power_of_two(y);
     double mean = 0.0;
     for (const double value : y) {
-        mean += value / n;
+        mean += value / unit / n;
     }
     std::vector<double> centred;
     for (const double value : y) {
-        centred.push_back(value - mean);
+        centred.push_back(value / unit - mean);
     }
     const auto most = static_cast<std::size_t>(std::lround(2.0 * std::cbrt(n)));
     const Variances v = variances_of(x, centred, most);
     if (v.bins < 2.0 || !(v.total() > 1e-24 * mean * mean * n)) {
         return result;
     }
-    if (!(v.within > 0.0)) {
+    constexpr double kRounding = 1e-24;
+    if (!(v.within > kRounding * v.total())) {
         return {1.0, {kNan, 1.0}};  // no scatter within bins: no scatter to judge by
     }
     result.share = v.share();
@@ -120,7 +127,7 @@ CorrelationRatio correlation_ratio(std::span<const double> x, std::span<const do
     const double tail = 0.5 * (1.0 - confidence);
     const double low = share_at(v, 1.0 - tail), high = share_at(v, tail);
     result.bounds.lower =
-        low > 0.0 ? std::max(0.0, result.share - wide * (result.share - low)) : 0.0;
+        low > 0.0 ? std::clamp(result.share - wide * (result.share - low), 0.0, 1.0) : 0.0;
     result.bounds.upper = std::clamp(result.share + wide * (high - result.share), 0.0, 1.0);
     return result;
 }

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/quiet_policy.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
-using Beta = boost::math::beta_distribution<double>;
+using Beta = boost::math::beta_distribution<double, QuietPolicy>;
 // (n+1)(1-rate) is a whole number for the usual rates: keep rounding from adding one to it.
 constexpr double kRounding = 1e-9;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +33,7 @@ double beta_binomial_cdf(long k, long tested, double a, double b) {
         return 1.0;
     }
     auto i = static_cast<double>(below ? k : k + 1);
-    using boost::math::lgamma;
+    const auto lgamma = [](double x) { return boost::math::lgamma(x, QuietPolicy()); };
     double p =
         std::exp(lgamma(m + 1.0) - lgamma(i + 1.0) - lgamma(m - i + 1.0) + lgamma(i + a) +
                  lgamma(m - i + b) - lgamma(m + a + b) + lgamma(a + b) - lgamma(a) - lgamma(b));
@@ -56,7 +58,7 @@ double solve_rate(Tail tail, double target) {
     }
     std::uintmax_t steps = 200;
     const auto bracket = boost::math::tools::toms748_solve(
-        miss, low, high, boost::math::tools::eps_tolerance<double>(40), steps);
+        miss, low, high, boost::math::tools::eps_tolerance<double>(40), steps, QuietPolicy());
     return 0.5 * (bracket.first + bracket.second);
 }
 

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
+
+#include "analysis/upper_tail.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -73,8 +74,7 @@ GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) 
         return fit;
     }
     fit.statistic = statistic;
-    fit.p_value = boost::math::cdf(
-        boost::math::complement(boost::math::chi_squared(fit.degrees), std::max(0.0, statistic)));
+    fit.p_value = chi_squared_upper_tail(statistic, fit.degrees);
     return fit;
 }
 

@@ -1,13 +1,13 @@
 #include "analysis/input_effects.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 
 #include "analysis/binary_regression.hpp"
 #include "analysis/holm.hpp"
 #include "analysis/input_bins.hpp"
+#include "analysis/upper_tail.hpp"
 #include "analysis/wilson.hpp"
 
 namespace gearpod::analysis {
@@ -210,8 +210,7 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
     }
     effect.degrees = powers;
     effect.statistic = std::max(0.0, 2.0 * (curve.fit.log_likelihood - without.log_likelihood));
-    effect.p_value = boost::math::cdf(
-        boost::math::complement(boost::math::chi_squared(powers), effect.statistic));
+    effect.p_value = chi_squared_upper_tail(effect.statistic, powers);
     const bool reachable = kPod < model.ceiling;
     curve.target =
         reachable ? link_quantile(model.link, (kPod - model.floor) / (model.ceiling - model.floor))

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/quiet_policy.hpp"
+
 namespace gearpod::analysis {
 
 LinkValues link_values(Link link, double eta) {
@@ -39,7 +41,7 @@ double link_quantile(Link link, double probability) {
     if (link == Link::logit) {
         return std::log(probability) - std::log1p(-probability);
     }
-    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability);
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability, QuietPolicy());
 }
 
 const char* link_name(Link link) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/quiet_policy.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
@@ -55,10 +57,11 @@ double crossing(Function beyond, double inside, double outside, double at_inside
     auto steps = static_cast<std::uintmax_t>(bits);  // as many as halving would need
     const boost::math::tools::eps_tolerance<double> tolerance(static_cast<unsigned>(bits));
     const bool up = outside > inside;
-    const auto bracket = up ? boost::math::tools::toms748_solve(beyond, inside, outside, at_inside,
-                                                                value, tolerance, steps)
-                            : boost::math::tools::toms748_solve(beyond, outside, inside, value,
-                                                                at_inside, tolerance, steps);
+    const auto bracket =
+        up ? boost::math::tools::toms748_solve(beyond, inside, outside, at_inside, value, tolerance,
+                                               steps, QuietPolicy())
+           : boost::math::tools::toms748_solve(beyond, outside, inside, value, at_inside, tolerance,
+                                               steps, QuietPolicy());
     return 0.5 * (bracket.first + bracket.second);
 }
 

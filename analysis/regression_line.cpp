@@ -1,8 +1,6 @@
 #include "analysis/regression_line.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "analysis/link.hpp"
+#include "analysis/upper_tail.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -27,14 +26,6 @@ double sum_of_squares(const std::vector<double>& values) {
     return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
 }
 
-double f_tail(double statistic, double numerator, double denominator) {
-    if (!std::isfinite(statistic)) {
-        return 0.0;
-    }
-    return boost::math::cdf(boost::math::complement(boost::math::fisher_f(numerator, denominator),
-                                                    std::max(0.0, statistic)));
-}
-
 CheckResult quadratic_term(std::span<const double> x, std::span<const double> y,
                            const RegressionLine& line, double line_squares) {
     // The centred square made orthogonal to the line; its coefficient takes the squares away.
@@ -48,7 +39,7 @@ CheckResult quadratic_term(std::span<const double> x, std::span<const double> y,
     const double taken = with_y * with_y / sum_of_squares(left);
     const double freedom = static_cast<double>(x.size()) - 3.0;
     const double statistic = taken / ((line_squares - taken) / freedom);
-    return {"quadratic term (F)", statistic, f_tail(statistic, 1.0, freedom)};
+    return {"quadratic term (F)", statistic, f_upper_tail(statistic, 1.0, freedom)};
 }
 
 }  // namespace
@@ -70,9 +61,6 @@ RegressionLine regression_line(std::span<const double> x, std::span<const double
     for (std::size_t i = 0; i < x.size(); ++i) {
         line.sum_xx += (x[i] - line.mean_x) * (x[i] - line.mean_x);
         sum_xy += (x[i] - line.mean_x) * (y[i] - mean_y);
-    }
-    if (!(line.sum_xx > 0.0)) {
-        throw std::invalid_argument("regression line: all x are equal");
     }
     line.slope = sum_xy / line.sum_xx;
     line.intercept = mean_y - line.slope * line.mean_x;
@@ -104,7 +92,7 @@ CheckResult linearity_check(std::span<const double> x, std::span<const double> y
         pure += std::pow(y[i] - group.sum / group.count, 2);
     }
     const double statistic = ((line_squares - pure) / (sizes - 2.0)) / (pure / freedom);
-    return {"lack of fit (F)", statistic, f_tail(statistic, sizes - 2.0, freedom)};
+    return {"lack of fit (F)", statistic, f_upper_tail(statistic, sizes - 2.0, freedom)};
 }
 
 CheckResult constant_variance_check(std::span<const double> x, std::span<const double> y,
@@ -120,10 +108,9 @@ CheckResult constant_variance_check(std::span<const double> x, std::span<const d
         total += (value - mean) * (value - mean);
     }
     const RegressionLine trend = regression_line(x, squares);
-    const double statistic = n * trend.slope * trend.slope * trend.sum_xx / total;
-    return {"Breusch-Pagan (studentised)", statistic,
-            boost::math::cdf(
-                boost::math::complement(boost::math::chi_squared(1.0), std::max(0.0, statistic)))};
+    const double explained = n * trend.slope * trend.slope * trend.sum_xx;
+    const double statistic = total > 0.0 ? explained / total : 0.0;
+    return {"Breusch-Pagan (studentised)", statistic, chi_squared_upper_tail(statistic, 1.0)};
 }
 
 CheckResult normality_check(std::span<const double> x, std::span<const double> y,

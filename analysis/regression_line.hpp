@@ -19,7 +19,7 @@ struct RegressionLine {
     double leverage(double x) const;
 };
 
-// x and y of equal length, three at least, x not constant (else std::invalid_argument).
+// x and y of equal length, three at least (else std::invalid_argument); NaN if sum_xx is 0.
 RegressionLine regression_line(std::span<const double> x, std::span<const double> y);
 
 struct CheckResult {

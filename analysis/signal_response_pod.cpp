@@ -11,6 +11,7 @@
 #include <set>
 
 #include "analysis/link.hpp"
+#include "analysis/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -46,6 +47,10 @@ SignalResponseFit fit_scales(const Points& points, double threshold, bool log_si
         }
     }
     fit.line = regression_line(x, y);
+    if (!(fit.line.sum_xx > 0.0)) {
+        fit.refusals.push_back("the fault sizes are alike but for rounding");
+        return fit;
+    }
     const auto n = static_cast<double>(x.size());
     const double scale = std::max(std::abs(y.front()), std::abs(y.back()));
     if (!(fit.line.sigma > 1e-12 * scale)) {
@@ -98,7 +103,8 @@ class Distance {
         }
         std::uintmax_t steps = 100;
         const auto bracket = boost::math::tools::toms748_solve(
-            miss, smallest, largest, boost::math::tools::eps_tolerance<double>(40), steps);
+            miss, smallest, largest, boost::math::tools::eps_tolerance<double>(40), steps,
+            QuietPolicy());
         return {Where::reached, 0.5 * (bracket.first + bracket.second)};
     }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/quiet_policy.hpp"
+
 namespace gearpod::analysis {
 
 Interval wilson_interval(long detected, long tested, double confidence) {
@@ -17,7 +19,7 @@ Interval wilson_interval(long detected, long tested, double confidence) {
         const double nan = std::numeric_limits<double>::quiet_NaN();
         return {nan, nan};
     }
-    const boost::math::normal normal;
+    const boost::math::normal_distribution<double, QuietPolicy> normal;
     const double z =
         boost::math::quantile(boost::math::complement(normal, 0.5 * (1.0 - confidence)));
     const auto n = static_cast<double>(tested);

@@ -1,0 +1,17 @@
+// Boost.Math throws by default where an argument or a result is out of range. Here it answers with
+// NaN or infinity instead: one odd value must not end the analysis of a finished run.
+#pragma once
+
+#include <boost/math/policies/policy.hpp>
+
+namespace gearpod::analysis {
+
+namespace boost_policies = boost::math::policies;
+using QuietPolicy =
+    boost_policies::policy<boost_policies::domain_error<boost_policies::ignore_error>,
+                           boost_policies::pole_error<boost_policies::ignore_error>,
+                           boost_policies::overflow_error<boost_policies::ignore_error>,
+                           boost_policies::rounding_error<boost_policies::ignore_error>,
+                           boost_policies::evaluation_error<boost_policies::ignore_error>>;
+
+}  // namespace gearpod::analysis
