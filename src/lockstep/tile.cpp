@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
+#include "lockstep/driven_march.hpp"
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/rigid_rotation.hpp"
@@ -59,6 +61,7 @@ class TileMarch {
           schedule_(plan, faults),
           settings_(settings),
           march_mesh_(make_mesh_march<W>(plan, inputs)),
+          driven_(make_driven(plan, inputs, settings.excitation)),
           rotation_(plan.layout, inputs),
           state_(rest_state(plan, inputs)) {
         result_.status.assign(W, LaneStatus::ok);
@@ -80,8 +83,40 @@ class TileMarch {
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
-    void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
-        (*march_mesh_)(overrides, state_, record);
+    static std::unique_ptr<DrivenMarch<W>> make_driven(
+        const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+        const Excitation* excitation) {
+        if (excitation == nullptr) {
+            return nullptr;
+        }
+        if constexpr (W <= 8) {
+            return make_driven_march<W>(plan, *excitation, inputs);
+        } else {
+            throw std::invalid_argument("gearboxes that are driven unevenly march in doubles");
+        }
+    }
+
+    // Mesh period `mesh` as it is driven.
+    void march(int mesh, const std::vector<PairOverride>& overrides, MeshRecord& record) {
+        if (driven_ != nullptr) {
+            (*driven_)(mesh, overrides, state_, record);
+        } else {
+            (*march_mesh_)(overrides, state_, record);
+        }
+        after_mesh();
+    }
+
+    // A healthy mesh period that is like all others.
+    void march_settling(MeshRecord& record) {
+        if (driven_ != nullptr && settings_.excitation->repeats()) {
+            (*driven_)(0, {}, state_, record);
+        } else {
+            (*march_mesh_)({}, state_, record);
+        }
+        after_mesh();
+    }
+
+    void after_mesh() {
         ++result_.marched;
         rotation_.remove(state_);
     }
@@ -156,7 +191,7 @@ class TileMarch {
         std::array<bool, W> settled{};
         for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
             const TileState before = state_;
-            march({}, record);
+            march_settling(record);
             bool waiting = false;
             for (int l = 0; l < W; ++l) {
                 if (settled[static_cast<std::size_t>(l)]) {
@@ -200,7 +235,7 @@ class TileMarch {
             return;
         }
         MeshRecord record = new_record();
-        march(passages, record);
+        march(0, passages, record);
         int& id = result_.content[static_cast<std::size_t>(k)];
         if (id == 0) {
             id = static_cast<int>(result_.records.size());
@@ -264,12 +299,12 @@ class TileMarch {
     void march_everything() {
         MeshRecord unseen = new_record();
         for (int k = -settings_.run_in_meshes; k < 0; ++k) {
-            march(schedule_.all_overrides(k), unseen);
+            march(k, schedule_.all_overrides(k), unseen);
         }
         for (int k = 0; k < settings_.march_meshes; ++k) {
             result_.content.push_back(static_cast<int>(result_.records.size()));
             result_.records.push_back(new_record());
-            march(schedule_.all_overrides(k), result_.records.back());
+            march(k, schedule_.all_overrides(k), result_.records.back());
         }
         for (int l = 0; l < W; ++l) {
             if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
@@ -283,6 +318,7 @@ class TileMarch {
     const FaultSchedule schedule_;
     const TileSettings& settings_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
+    const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
     const RigidRotation rotation_;
     TileState state_;
     TileState orbit_;  // the healthy orbit at an integer phase
@@ -297,6 +333,7 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
     assert(inputs.size() == W && std::all_of(faults.curve.begin(), faults.curve.end(),
                                              [](const auto& lanes) { return lanes.size() == W; }));
     check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
+    check_excitation(settings.excitation, settings.march_meshes);
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 
