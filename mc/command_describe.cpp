@@ -12,6 +12,7 @@
 #include "mc/numerics_choice.hpp"
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
+#include "mc/tile_draws.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -69,7 +70,7 @@ void print_gearbox(const Scene& scene) {
 double marched_meshes(const Scene& scene) {
     const Study& study = scene.study();
     if (study.numerics.horizon == Horizon::march) {
-        return scene.span_meshes();
+        return scene.signal_meshes() + run_in_meshes(scene);
     }
     if (study.effects.quasi_static()) {
         return 1.0 + 3.0 * static_cast<double>(scene.pattern().passages.size());

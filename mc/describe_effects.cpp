@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
+#include "mc/sampling.hpp"
 #include "mc/schema.hpp"
+#include "mc/study_fluctuations.hpp"
 #include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
@@ -92,6 +95,62 @@ void print_meshes(const Study& study) {
     }
 }
 
+// A sine's and a noise's size, nominal.
+std::string sizes(double amplitude, const std::string& rate, double rms, double band_Hz) {
+    std::string text =
+        rate.empty() ? "" : fmt::format("sine of {:g} of the mean, {}", amplitude, rate);
+    if (band_Hz > 0.0) {
+        text += fmt::format("{}noise of {:g} rms of the mean up to {:g} Hz",
+                            text.empty() ? "" : "; ", rms, band_Hz);
+    }
+    return text;
+}
+
+void print_driving(const Study& study) {
+    const FluctuationInstance f = Sampler(study).nominal().fluctuations;
+    if (torque_fluctuates(study)) {
+        const std::string rate = !torque_has_sine(study) ? ""
+                                 : f.torque_order > 0.0
+                                     ? fmt::format("{:g} times a turn of the input", f.torque_order)
+                                     : fmt::format("{:g} Hz", f.torque_Hz);
+        print_entry("torque fluctuation", sizes(f.torque, rate, f.torque_noise,
+                                                torque_has_noise(study) ? f.torque_noise_Hz : 0.0));
+    }
+    if (speed_fluctuates(study)) {
+        const std::string rate = speed_has_sine(study)
+                                     ? fmt::format("{:g} times a turn of the input", f.speed_order)
+                                     : "";
+        print_entry("speed fluctuation", sizes(f.speed, rate, f.speed_noise,
+                                               speed_has_noise(study) ? f.speed_noise_Hz : 0.0));
+    }
+    if (study.effects.gravity) {
+        print_entry("gravity",
+                    fmt::format("{:g} deg from the x axis{}",
+                                study.effects.gravity_direction_rad * 180.0 / std::numbers::pi,
+                                gravity_turns(study) ? ", turning in the carrier's frame" : ""));
+    }
+    if (const std::string why = why_no_mesh_repeats(study); !why.empty()) {
+        print_entry("every mesh", fmt::format("marched or solved, because {}", why));
+    }
+}
+
+void print_driving_left_out(const Study& study) {
+    if (!torque_fluctuates(study)) {
+        print_entry("torque fluctuation", "neither operation.torque_fluctuation nor torque_noise");
+    }
+    if (!speed_fluctuates(study)) {
+        print_entry("speed fluctuation",
+                    study.effects.quasi_static()
+                        ? "without inertia nothing feels it"
+                        : "neither operation.speed_fluctuation nor speed_noise");
+    }
+    if (!study.effects.gravity) {
+        print_entry("gravity", study.effects.torsional() && planets_balance(study)
+                                   ? "the planets' weights balance each other"
+                                   : "effects.gravity = false");
+    }
+}
+
 void print_fault(const Study& study) {
     if (study.fault.kind == FaultKind::none) {
         return;
@@ -147,6 +206,7 @@ void print_left_out(const Scene& scene) {
     } else if (study.gearbox.kind == GearboxKind::planetary && !e.inertial_terms) {
         print_entry("inertial terms", "effects.inertial_terms = false");
     }
+    print_driving_left_out(study);
     if (!stiffness_given(study) && e.foundation == Foundation::none) {
         print_entry("gear bodies", "effects.foundation = \"none\"");
     }
@@ -185,6 +245,7 @@ void print_effects(const Scene& scene) {
     print_heading("simulated");
     print_motion(study);
     print_meshes(study);
+    print_driving(study);
     print_fault(study);
     if (!study.effects.quasi_static()) {
         print_sensor(study);

@@ -21,6 +21,14 @@ class Drive {
 
     // Radians of mesh phase a second, at the speed of Sampler::speed_member().
     virtual double mesh_frequency_rad_s(double speed_rad_s) const = 0;
+    // Turns in a mesh period: of the driven member, and of the frame that x and y turn with, which
+    // may be backwards.
+    virtual double input_turns_per_mesh() const = 0;
+    virtual double frame_turns_per_mesh() const = 0;
+    // The train's turning: the degree of freedom that drives it, and its speed along
+    // dynamics::rigid_rotation.
+    virtual int driving_degree(const dynamics::GearboxLayout& layout) const = 0;
+    virtual double turning_m_s(const InstanceInputs& instance) const = 0;
     // Sets the speed, mesh period and load of one gearbox.
     virtual void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const = 0;
     // Mean force along the line of action of one pair of mesh `mesh` of meshes_of(kind), N.
@@ -54,6 +62,10 @@ class PlanetaryDrive : public Drive {
     explicit PlanetaryDrive(const Study& study);
 
     double mesh_frequency_rad_s(double speed_rad_s) const override;
+    double input_turns_per_mesh() const override;
+    double frame_turns_per_mesh() const override;
+    int driving_degree(const dynamics::GearboxLayout& layout) const override;
+    double turning_m_s(const InstanceInputs& instance) const override;
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return train_.planets; }
@@ -87,6 +99,10 @@ class FixedShaftDrive : public Drive {
     explicit FixedShaftDrive(const Study& study);
 
     double mesh_frequency_rad_s(double speed_rad_s) const override;
+    double input_turns_per_mesh() const override { return 1.0 / pinion_teeth_; }
+    double frame_turns_per_mesh() const override { return 0.0; }
+    int driving_degree(const dynamics::GearboxLayout&) const override { return dynamics::u_m; }
+    double turning_m_s(const InstanceInputs& instance) const override;
     void set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const override;
     double mesh_force_N(const InstanceInputs& instance) const override;
     int pairs_per_mesh() const override { return 1; }

@@ -19,6 +19,10 @@ double FixedShaftDrive::mesh_frequency_rad_s(double speed_rad_s) const {
     return pinion_teeth_ * speed_rad_s;
 }
 
+double FixedShaftDrive::turning_m_s(const InstanceInputs& instance) const {
+    return pinion_radius_m_ * instance.speed_rad_s;
+}
+
 void FixedShaftDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const {
     auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
     out.mesh_period_s = 2.0 * pi / mesh_frequency_rad_s(instance.speed_rad_s);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "mc/drive.hpp"
@@ -51,6 +52,32 @@ PlanetaryDrive::PlanetaryDrive(const Study& study)
 
 double PlanetaryDrive::mesh_frequency_rad_s(double speed_rad_s) const {
     return gears::mesh_frequency(train_, speeds(speed_rad_s));
+}
+
+double PlanetaryDrive::input_turns_per_mesh() const {
+    const gears::Speeds turning = speeds(1.0);
+    const double input = flow_.input == gears::Member::sun    ? turning.sun
+                         : flow_.input == gears::Member::ring ? turning.ring
+                                                              : turning.carrier;
+    return std::abs(input) / gears::mesh_frequency(train_, turning);
+}
+
+double PlanetaryDrive::frame_turns_per_mesh() const {
+    return speeds(1.0).carrier / mesh_frequency_rad_s(1.0);
+}
+
+int PlanetaryDrive::driving_degree(const dynamics::GearboxLayout& layout) const {
+    const dynamics::Body body = flow_.input == gears::Member::sun    ? dynamics::sun
+                                : flow_.input == gears::Member::ring ? dynamics::ring
+                                                                     : dynamics::carrier;
+    return std::get<dynamics::PlanetaryLayout>(layout).rotation_index(body);
+}
+
+// Along rigid_rotation the carrier moves by 1, or the sun where the carrier is held.
+double PlanetaryDrive::turning_m_s(const InstanceInputs& instance) const {
+    const gears::Speeds turning = speeds(instance.speed_rad_s);
+    return flow_.fixed == gears::FixedMember::carrier ? radius_m_.sun * turning.sun
+                                                      : radius_m_.carrier * turning.carrier;
 }
 
 void PlanetaryDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const {

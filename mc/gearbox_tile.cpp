@@ -32,7 +32,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
-    settings.run_in_meshes = scene.load_shares() != nullptr ? scene.max_meshes() / 2 : 0;
+    settings.run_in_meshes = run_in_meshes(scene);
     settings.with_motion = with_motion;
     settings.parts = scene.parts();
     return settings;
@@ -55,7 +55,9 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     const auto tooth_errors = draw_tooth_errors(scene, ids, tile.inputs);
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
-    const auto settings = tile_settings(scene, with_motion);
+    auto settings = tile_settings(scene, with_motion);
+    const auto excitation = draw_excitation(scene, ids, tile.inputs);
+    settings.excitation = excitation ? &*excitation : nullptr;
     const double processor_start = thread_processor_s();
     if constexpr (W <= 8) {
         tile.march = scene.study().effects.quasi_static()

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "mc/study_fluctuations.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -33,7 +35,7 @@ std::size_t bytes_of(const lockstep::TileResult& result) {
 }  // namespace
 
 std::optional<std::size_t> distinct_marches(const Scene& scene) {
-    if (scene.load_shares() != nullptr) {
+    if (scene.load_shares() != nullptr || draws_fluctuations(scene.study())) {
         return std::nullopt;
     }
     std::size_t count = 1;

@@ -98,6 +98,14 @@ double mesh_damping(const Study& study) {
     return 0.0;
 }
 
+FluctuationInstance fluctuations(const Fluctuations& f) {
+    return {
+        f.torque.value_or(0.0),      f.torque_order.value_or(0.0),  f.torque_Hz.value_or(0.0),
+        f.torque_phase_rad,          f.torque_noise.value_or(0.0),  f.torque_noise_Hz.value_or(0.0),
+        f.speed.value_or(0.0),       f.speed_order.value_or(0.0),   f.speed_phase_rad,
+        f.speed_noise.value_or(0.0), f.speed_noise_Hz.value_or(0.0)};
+}
+
 double speed(const Operation& o) {
     for (const auto& given :
          {o.pinion_speed_rad_s, o.sun_speed_rad_s, o.ring_speed_rad_s, o.carrier_speed_rad_s}) {
@@ -150,6 +158,7 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.mesh_damping = mesh_damping(study);
     inputs.torque_N_m = study.operation.torque_N_m;
     inputs.speed_rad_s = speed(study.operation);
+    inputs.fluctuations = fluctuations(study.fluctuations);
     // No path weighs the sensor of a fixed-shaft gearbox.
     inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
     inputs.noise_m_s2 = study.sensor.noise_m_s2;

@@ -22,6 +22,14 @@ struct FixedShaftInstance {
     double load_torque_N_m;  // resolved
 };
 
+// As in Fluctuations, with 0 for what is not given. Orders and frequencies are turns of the sine.
+struct FluctuationInstance {
+    double torque, torque_order, torque_Hz, torque_phase_rad;
+    double torque_noise, torque_noise_Hz;
+    double speed, speed_order, speed_phase_rad;
+    double speed_noise, speed_noise_Hz;
+};
+
 // All inputs that may differ between gearboxes, SI. Names as in Study.
 struct InstanceInputs {
     double sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
@@ -40,6 +48,7 @@ struct InstanceInputs {
     double pitch_error_m;  // rms
     double torque_N_m;
     double speed_rad_s;  // of Sampler::speed_member()
+    FluctuationInstance fluctuations;
     double path_exponent;
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms

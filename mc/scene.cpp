@@ -7,6 +7,7 @@
 #include "mc/instance_features.hpp"
 #include "mc/numerics_choice.hpp"
 #include "mc/scene_body.hpp"
+#include "mc/scene_driving.hpp"
 #include "mc/study_gears.hpp"
 #include "mc/study_sizes.hpp"
 
@@ -134,6 +135,7 @@ void Scene::build_plan() {
         choose_grid(study_, stepping_, sampling.samples, transitions(), [this] { return pilot(); });
     calibration_ = chosen.calibration;
     plan_ = plan_of(std::move(chosen.grid));
+    check_driving(study_, *drive_, plan_);
     parts_.clear();
     if (!study_.effects.quasi_static()) {
         parts_ = lockstep::mesh_parts(plan_, kParts);

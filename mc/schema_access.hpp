@@ -8,8 +8,9 @@ namespace gearpod::mc {
 
 template <class AnyStudy>
 auto parts(AnyStudy& s) {
-    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.operation, s.effects, s.fault, s.sensor,
-                    s.features, s.detection, s.numerics, s.ensemble, s.ensemble.until);
+    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.operation, s.fluctuations, s.effects,
+                    s.fault, s.sensor, s.features, s.detection, s.numerics, s.ensemble,
+                    s.ensemble.until);
 }
 template <class Part>
 Part& part_of(Study& s) {

@@ -26,6 +26,13 @@ Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
     return {need, why, {"effects.mesh_damping", kMotion}};
 }
 
+// Required with that key, and else forbidden.
+Presence with(const std::optional<double>& given, std::string_view because, std::string_view only,
+              std::string_view governor) {
+    return given ? Presence{Need::required, because, {governor}}
+                 : Presence{Need::forbidden, only, {governor}};
+}
+
 struct FaultWords {
     FaultKind kind;
     std::string_view only, because;
@@ -162,7 +169,43 @@ Presence pitch_error(const Study& s) {
                           {"numerics.horizon"}};
 }
 
+Presence torque_sine(const Study& s) {
+    return s.fluctuations.torque ? kOptional
+                                 : Presence{Need::forbidden,
+                                            "only with operation.torque_fluctuation",
+                                            {"operation.torque_fluctuation"}};
+}
+
+Presence torque_noise(const Study& s) {
+    return with(s.fluctuations.torque_noise, "operation.torque_noise is given",
+                "only with operation.torque_noise", "operation.torque_noise");
+}
+
+Presence speed_sine(const Study& s) {
+    return with(s.fluctuations.speed, "operation.speed_fluctuation is given",
+                "only with operation.speed_fluctuation", "operation.speed_fluctuation");
+}
+
+Presence speed_phase(const Study& s) {
+    return s.fluctuations.speed ? kOptional : speed_sine(s);
+}
+
+Presence speed_noise(const Study& s) {
+    return with(s.fluctuations.speed_noise, "operation.speed_noise is given",
+                "only with operation.speed_noise", "operation.speed_noise");
+}
+
+Presence gravity(const Study& s) {
+    return s.effects.gravity
+               ? kOptional
+               : Presence{Need::forbidden, "only with effects.gravity = true", {"effects.gravity"}};
+}
+
 Presence mass(const Study& s) {
+    // Without inertia, but not without weight.
+    if (s.effects.quasi_static() && s.effects.gravity) {
+        return {Need::required, "effects.gravity = true", {kMotion, "effects.gravity"}};
+    }
     return s.effects.quasi_static() ? kOptional : Presence{Need::required, "", {kMotion}};
 }
 

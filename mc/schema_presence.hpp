@@ -31,6 +31,13 @@ Presence ring_foundation(const Study&);     // required for one of which rings h
 Presence backlash(const Study&);            // only for two-sided separation
 Presence pitch_error(const Study&);         // only where every mesh is marched
 
+Presence torque_sine(const Study&);   // only with operation.torque_fluctuation
+Presence torque_noise(const Study&);  // only with operation.torque_noise, and then required
+Presence speed_sine(const Study&);    // likewise
+Presence speed_phase(const Study&);
+Presence speed_noise(const Study&);
+Presence gravity(const Study&);  // only with effects.gravity
+
 Presence mass(const Study&);             // unless the motion is quasi-static
 Presence inertia(const Study&);          // J needs the radii
 Presence inertia_over_r2(const Study&);  // required where no disc can be assumed

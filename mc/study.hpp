@@ -119,6 +119,21 @@ struct Operation {
     bool operator==(const Operation&) const = default;
 };
 
+// How torque and speed vary around their means, relative to these: a sine, and noise whose
+// spectrum has fallen to half at its band (lockstep/excitation.hpp).
+struct Fluctuations {
+    std::optional<double> torque;                   // amplitude; all torques vary in proportion
+    std::optional<double> torque_order, torque_Hz;  // one of them: a turn of the input, or time
+    double torque_phase_rad = 0.0;
+    std::optional<double> torque_noise, torque_noise_Hz;  // rms and band
+    std::optional<double> speed;                          // amplitude
+    std::optional<double> speed_order;
+    double speed_phase_rad = 0.0;
+    std::optional<double> speed_noise, speed_noise_Hz;
+
+    bool operator==(const Fluctuations&) const = default;
+};
+
 struct Effects {
     Motion motion = Motion::translational_torsional;
     Foundation foundation = Foundation::none;
@@ -127,6 +142,8 @@ struct Effects {
     Separation separation = Separation::none;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
+    bool gravity = false;
+    double gravity_direction_rad = -1.5707963267948966;  // in the housing; down
     PathWindow path = PathWindow::hamming;  // in a file by default none where no path leads
 
     bool quasi_static() const {
@@ -267,6 +284,7 @@ struct Study {
     FixedShaft fixed_shaft;
     MeshErrors errors;
     Operation operation;
+    Fluctuations fluctuations;
     Effects effects;
     Fault fault;
     Sensor sensor;

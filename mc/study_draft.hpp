@@ -49,6 +49,9 @@ void check_gears(StudyDraft& draft);
 // study_checks.cpp: what else no key can know alone.
 void check_consistency(StudyDraft& draft);
 
+// study_fluctuation_checks.cpp: what drives the gearbox unevenly, and whether its meshes repeat.
+void check_fluctuations(StudyDraft& draft);
+
 // study_fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
 void check_fault(StudyDraft& draft);
 

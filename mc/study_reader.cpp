@@ -4,6 +4,7 @@
 
 #include "features/feature.hpp"
 #include "mc/study_draft.hpp"
+#include "mc/study_fluctuations.hpp"
 #include "mc/study_spelling.hpp"
 
 namespace gearpod::mc {
@@ -222,11 +223,19 @@ void fill_lanes(StudyDraft& draft) {
     }
 }
 
+// Where no mesh repeats, all are marched.
+void fill_horizon(StudyDraft& draft) {
+    if (!draft.is_given("numerics.horizon") && !why_no_mesh_repeats(draft.study).empty()) {
+        draft.study.numerics.horizon = Horizon::march;
+    }
+}
+
 StudyReading read_document(const Value& document, Problems problems) {
     StudyDraft draft;
     draft.problems = std::move(problems);
     draft.sections[""] = document.position;
     read_sections(draft, document);
+    fill_horizon(draft);
     check_presence(draft);
     fill_features(draft.study);
     fill_operation(draft);
@@ -234,6 +243,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     fill_lanes(draft);
     check_gears(draft);
     check_consistency(draft);
+    check_fluctuations(draft);
     check_fault(draft);
     check_until(draft);
     sort_problems(draft.problems);

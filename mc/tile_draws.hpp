@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "lockstep/excitation.hpp"
 #include "lockstep/tooth_errors.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
@@ -22,5 +23,15 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
 std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
                                                        std::span<const GearboxId> ids,
                                                        std::span<const InstanceInputs> inputs);
+
+// Mesh periods that are marched before the first recorded one.
+int run_in_meshes(const Scene& scene);
+
+// Gravity, and the fluctuations of torque and speed; their noise has knots from before the run-in
+// to behind the last mesh of scene.signal_meshes(), and begins anywhere between two knots. None if
+// nothing drives the gearboxes unevenly.
+std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+                                                    std::span<const GearboxId> ids,
+                                                    std::span<const InstanceInputs> inputs);
 
 }  // namespace gearpod::mc

@@ -309,11 +309,14 @@ GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* _
 // The acceleration A of a stage from x and v; t.pairs holds the meshes. All [degree of
 // freedom][lane].
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void implicit_stage(const ImplicitLanes<W>& p, const double* __restrict block,
+GEARPOD_INLINE void implicit_stage(const typename Model::Lanes& p, const double* __restrict block,
                                    const StageSpan<W>& span, const double* __restrict x,
                                    const double* __restrict v, double* __restrict acceleration,
                                    StageScratch<Model>& t) {
     free_forces<W>(p, x, v, t.g);
+    if constexpr (requires { Model::add_forces(p, t.pairs, t.g); }) {
+        Model::add_forces(p, t.pairs, t.g);
+    }
     solve_constant_part<W>(p, block, t.g, acceleration);
     deflections<W>(p, x, t.d);
     deflections<W>(p, v, t.r);

@@ -71,7 +71,8 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
-// What the mesh law needs of all pairs at a stage node, shared values spread over the lanes.
+// What the mesh law needs of all pairs at a stage node, shared values spread over the lanes; and
+// where the forces that vary with time (driven_forces.hpp) have their values there.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                const std::vector<PairOverride>& overrides, int step, int node,
@@ -111,6 +112,9 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
     }
     if constexpr (Model::Mesh::kSeparates) {
         std::copy_n(lanes.backlash, W, m.backlash);
+    }
+    if constexpr (requires { m.row; }) {
+        m.row = lanes.drive.row(step, node);
     }
 }
 

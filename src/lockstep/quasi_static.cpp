@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "lockstep/driven_forces.hpp"
+#include "lockstep/excitation_rows.hpp"
 #include "lockstep/static_lanes.hpp"
 
 namespace gearpod::lockstep {
@@ -35,8 +38,10 @@ class QuasiStatic {
           settings_(settings),
           lanes_(make_static_lanes<W>(plan.layout, plan.mesh_law, inputs,
                                       largest_stiffness(plan.nodes))),
+          steady_force_(lanes_.force),
           state_(lanes_) {
         result_.status.assign(W, LaneStatus::ok);
+        drive(inputs);
         if (plan.grid.stage_nodes.front() != 0.0) {
             throw std::invalid_argument(
                 "a quasi-static tile needs the stiffness at the start of every step");
@@ -44,10 +49,11 @@ class QuasiStatic {
     }
 
     TileResult run() {
-        add_record({});
-        if (faults_.tooth_errors) {
+        add_record(0, {});
+        const bool repeats = settings_.excitation == nullptr || settings_.excitation->repeats();
+        if (faults_.tooth_errors || !repeats) {
             for (int k = 0; k < settings_.march_meshes; ++k) {
-                result_.content.push_back(add_record(schedule_.all_overrides(k)));
+                result_.content.push_back(add_record(k, schedule_.all_overrides(k)));
             }
         } else {
             solve_pattern();
@@ -61,7 +67,7 @@ class QuasiStatic {
         const int length = faults_.pattern.length;
         for (int k = 0; k < length; ++k) {
             const std::vector<PairOverride> passages = schedule_.overrides(k);
-            result_.content.push_back(passages.empty() ? 0 : add_record(passages));
+            result_.content.push_back(passages.empty() ? 0 : add_record(0, passages));
         }
         for (int k = length; k < settings_.march_meshes; ++k) {
             result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
@@ -93,7 +99,36 @@ class QuasiStatic {
         }
     }
 
-    int add_record(const std::vector<PairOverride>& overrides) {
+    // The varying forces; there is no speed for inertia to feel.
+    void drive(std::span<const dynamics::GearboxInputs> inputs) {
+        if (settings_.excitation == nullptr) {
+            return;
+        }
+        if (settings_.excitation->speed) {
+            throw std::invalid_argument("a quasi-static gearbox feels no change of speed");
+        }
+        forces_ = make_driven_forces<W>(plan_, *settings_.excitation, inputs, false);
+        rows_ = std::make_unique<ExcitationRows>(plan_, *settings_.excitation, inputs);
+        forces_.rows = rows_->rows().data();
+        for (std::size_t l = 0; l < W; ++l) {
+            for (int e = 0; e < forces_.first[forces_.columns]; ++e) {
+                lanes_.force_size[l] =
+                    std::max(lanes_.force_size[l], std::abs(forces_.pattern[e][l]));
+            }
+        }
+    }
+
+    void load_forces(int step) {
+        if (rows_ != nullptr) {
+            lanes_.force = steady_force_;
+            forces_.add(forces_.row(step, 0), lanes_.force.data());
+        }
+    }
+
+    int add_record(int mesh, const std::vector<PairOverride>& overrides) {
+        if (rows_ != nullptr) {
+            rows_->fill(mesh);
+        }
         MeshRecord record = make_record(plan_, W, settings_.with_motion);
         record.acceleration.clear();
         const int steps = static_cast<int>(plan_.grid.steps.size());
@@ -101,6 +136,7 @@ class QuasiStatic {
             const int sample = plan_.grid.steps[static_cast<std::size_t>(i)].sample;
             if (sample >= 0) {
                 load_meshes(overrides, i);
+                load_forces(i);
                 solve_static(lanes_, state_);
                 write(static_cast<std::size_t>(sample), record);
                 note_status();
@@ -155,7 +191,10 @@ class QuasiStatic {
     const FaultCurves& faults_;
     const FaultSchedule schedule_;
     const TileSettings& settings_;
-    const StaticLanes<W> lanes_;
+    StaticLanes<W> lanes_;
+    const machine::AlignedVector steady_force_;
+    DrivenForces<W> forces_;                // only with
+    std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
     TileResult result_;
 };
@@ -167,6 +206,7 @@ TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::Gea
                             const FaultCurves& faults, const TileSettings& settings) {
     assert(inputs.size() == W);
     check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
+    check_excitation(settings.excitation, settings.march_meshes);
     return QuasiStatic<W>(plan, inputs, faults, settings).run();
 }
 

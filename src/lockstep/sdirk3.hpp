@@ -20,7 +20,7 @@ struct Sdirk3 {
     };
 
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                     const machine::AlignedVector& filter,
                                     const std::vector<PairOverride>& overrides, int i,
                                     TileState& state, Stages<Model>& s) {
@@ -79,7 +79,7 @@ struct Sdirk3 {
     // From s.x and s.v: the stage's velocity and acceleration, its positions in s.q_end and the
     // sensor's input.
     template <class Model, int W = Model::kWidth>
-    static GEARPOD_INLINE void stage(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+    static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                      const std::vector<PairOverride>& overrides, int i, int node,
                                      const StageSpan<W>& span, Stages<Model>& s,
                                      double* __restrict velocity, double* __restrict acceleration) {

@@ -15,6 +15,7 @@ namespace gearpod::lockstep {
 
 inline constexpr int kFilterStates = 4;  // x, x', y, y'; y is the output
 inline constexpr int kFilterOutput = 2;
+inline constexpr double kFilterDamping[] = {1.8477590650225735, 0.7653668647301797};  // b1, b2
 
 // Positions in one step's coefficients: the transition matrix without its zero block, then the
 // columns of the input at the stage nodes (newmark: start, none, end; generalized_alpha: the

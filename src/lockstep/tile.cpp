@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
+#include "lockstep/driven_march.hpp"
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/rigid_rotation.hpp"
@@ -69,9 +71,10 @@ class TileMarch {
           faults_(faults),
           schedule_(plan, faults),
           settings_(settings),
-          whole_(settings.parts.empty() ? mesh_parts(plan, 1) : std::vector<MeshPart>{}),
-          parts_(settings.parts.empty() ? std::span<const MeshPart>(whole_) : settings.parts),
+          whole_(in_parts(settings) ? std::vector<MeshPart>{} : mesh_parts(plan, 1)),
+          parts_(in_parts(settings) ? settings.parts : std::span<const MeshPart>(whole_)),
           march_mesh_(make_mesh_march<W>(plan, inputs)),
+          driven_(make_driven(plan, inputs, settings.excitation)),
           rotation_(plan.layout, inputs),
           state_(rest_state(plan, inputs)) {
         result_.status.assign(W, LaneStatus::ok);
@@ -93,14 +96,42 @@ class TileMarch {
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
-    void march(const std::vector<PairOverride>& overrides, MeshRecord& record) {
-        (*march_mesh_)(overrides, state_, record);
+    // What drives gearboxes unevenly drives them a mesh period at a time.
+    static bool in_parts(const TileSettings& settings) {
+        return !settings.parts.empty() && settings.excitation == nullptr;
+    }
+
+    static std::unique_ptr<DrivenMarch<W>> make_driven(
+        const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+        const Excitation* excitation) {
+        if (excitation == nullptr) {
+            return nullptr;
+        }
+        if constexpr (W <= 8) {
+            return make_driven_march<W>(plan, *excitation, inputs);
+        } else {
+            throw std::invalid_argument("gearboxes that are driven unevenly march in doubles");
+        }
+    }
+
+    // Mesh period `mesh` as it is driven.
+    void march(int mesh, const std::vector<PairOverride>& overrides, MeshRecord& record) {
+        if (driven_ != nullptr) {
+            (*driven_)(mesh, overrides, state_, record);
+        } else {
+            (*march_mesh_)(overrides, state_, record);
+        }
         result_.marched += 1.0;
         rotation_.remove(state_);
     }
 
+    // A part of a mesh period that is like all others.
     void march_part(const MeshPart& part, const std::vector<PairOverride>& overrides,
                     MeshRecord& record) {
+        if (driven_ != nullptr && settings_.excitation->repeats()) {
+            march(0, overrides, record);  // the part is all of it
+            return;
+        }
         march_mesh_->march_part(part.plan, overrides, state_, record);
         result_.marched += static_cast<double>(part.last_step - part.first_step) /
                            static_cast<double>(plan_.grid.steps.size());
@@ -361,12 +392,12 @@ class TileMarch {
     void march_everything() {
         MeshRecord unseen = new_record();
         for (int k = -settings_.run_in_meshes; k < 0; ++k) {
-            march(schedule_.all_overrides(k), unseen);
+            march(k, schedule_.all_overrides(k), unseen);
         }
         for (int k = 0; k < settings_.march_meshes; ++k) {
             result_.content.push_back(static_cast<int>(result_.records.size()));
             result_.records.push_back(new_record());
-            march(schedule_.all_overrides(k), result_.records.back());
+            march(k, schedule_.all_overrides(k), result_.records.back());
         }
         for (int l = 0; l < W; ++l) {
             if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
@@ -382,6 +413,7 @@ class TileMarch {
     const std::vector<MeshPart> whole_;
     const std::span<const MeshPart> parts_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
+    const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
     const RigidRotation rotation_;
     TileState state_;
     std::vector<TileState> orbit_;                 // the healthy orbit where each part begins
@@ -398,6 +430,7 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
     assert(inputs.size() == W && std::all_of(faults.curve.begin(), faults.curve.end(),
                                              [](const auto& lanes) { return lanes.size() == W; }));
     check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
+    check_excitation(settings.excitation, settings.march_meshes);
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "lockstep/excitation.hpp"
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/march.hpp"
 #include "lockstep/mesh_parts.hpp"
@@ -22,10 +23,15 @@ struct TileSettings {
     double tolerance = 1e-10;  // of the state, relative, when orbit or decay count as reached
     int max_meshes = 200;      // of one approach to the orbit or of one decay
     int march_meshes = 0;      // 0: reuse; else: record so many meshes one by one
-    int run_in_meshes = 0;     // marched before them: tooth errors have no orbit to start from
+    // Marched before them: with tooth errors, or an excitation that does not repeat, there is no
+    // orbit to start from; the tile starts from the one without.
+    int run_in_meshes = 0;
     bool with_motion = false;
     // Of the plan: where the march may stop. Empty: only at integer phases.
     std::span<const MeshPart> parts = {};
+    // What drives these gearboxes unevenly, or null. One that does not repeat every mesh period
+    // needs march_meshes.
+    const Excitation* excitation = nullptr;
 };
 
 // Recorded mesh periods: 0 is the healthy one; mesh k of the span shows records[content[k mod L]].
@@ -38,6 +44,7 @@ struct TileResult {
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
 // one. A lane's result never depends on its neighbours. Tiles of 16 march in single precision.
+// Throws std::invalid_argument for an excitation that the settings or the plan cannot march.
 template <int W>
 TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                     const FaultCurves& faults, const TileSettings& settings);

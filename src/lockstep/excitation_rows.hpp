@@ -1,0 +1,64 @@
+// The values of an excitation at the stage nodes of one mesh period, for all lanes of a tile.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lockstep/excitation.hpp"
+#include "lockstep/march.hpp"
+
+namespace gearpod::lockstep {
+
+// Forces that an excitation applies (DrivenForces), and values in a row: these, and a pace.
+int columns_in(const Excitation& excitation);
+int values_in_row(const Excitation& excitation);
+
+// Stage nodes a step, the last of which is the next step's first if both exist.
+int distinct_nodes_per_step(const PhaseGrid& grid);
+
+class ExcitationRows {
+  public:
+    // `inputs`: one gearbox a lane (8, 4 or 1). Plan and excitation must outlive the rows.
+    ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
+                   std::span<const dynamics::GearboxInputs> inputs);
+
+    // Computes the rows of a mesh period. Time runs on from the mesh period before if that was the
+    // last one asked for; else the mesh period begins at its number times its mean length.
+    void fill(int mesh);
+
+    // [distinct stage node][value][lane], values_in_row() values: relative torque less 1, gravity
+    // along the model's x and y (m/s^2), acceleration of the train's turning (m/s^2), pace
+    // (PaceValue). Stays where it is.
+    const machine::AlignedVector& rows() const { return rows_; }
+    const double* row(int step, int node) const {
+        return rows_.data() + (step * nodes_per_step_ + node) * values_ * lanes_;
+    }
+
+  private:
+    double* value(std::size_t node, int which) {
+        return rows_.data() +
+               (node * static_cast<std::size_t>(values_) + static_cast<std::size_t>(which)) *
+                   static_cast<std::size_t>(lanes_);
+    }
+    void fill_pace(int mesh);
+    void fill_torque(int mesh);
+    void fill_gravity(int mesh, int column);
+    // Adds a fluctuation at `time_` to `sum_`, and its change to `slope_` (a mesh period).
+    void fluctuate(const Fluctuation& fluctuation, int mesh, bool with_slope);
+    void steady_time(int mesh);
+    void integrate_time(int mesh);
+
+    const MarchPlan& plan_;
+    const Excitation& excitation_;
+    const int lanes_, nodes_per_step_, values_;
+    std::vector<double> position_;               // of the distinct stage nodes, mesh periods
+    std::vector<double> turn_x_, turn_y_;        // cosine and sine of the carrier's angle there
+    machine::AlignedVector period_;              // [lane], mean, s
+    machine::AlignedVector time_, sum_, slope_;  // [distinct stage node][lane]
+    machine::AlignedVector end_time_;            // [lane], of the last mesh period
+    int last_mesh_ = 0;
+    bool any_before_ = false;
+    machine::AlignedVector rows_;
+};
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,170 @@
+// Classical Runge-Kutta in mesh phase for a train whose speed fluctuates: time runs unevenly,
+//   dq/dphase = T v,   dv/dphase = T a(q, v),   dz/dphase = T (A z + b u)
+// with T, seconds a mesh period, at the stage nodes. The sensor's low-pass z (sensor_filter.hpp) is
+// a filter in time; so it is integrated beside the motion and has no coefficients of its own.
+#pragma once
+
+#include "lockstep/march_steps.hpp"
+#include "lockstep/paced_motion.hpp"
+
+namespace gearpod::lockstep {
+
+struct PacedRungeKutta4 {
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages {
+        double q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
+        double a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
+        typename Model::Pairs pairs;
+        double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
+        double h[3][W];  // seconds of the step at the speeds of its nodes
+    };
+
+    template <class Model, class State, class Filter, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const Filter&, const std::vector<PairOverride>& overrides,
+                                    int i, State& state, Stages<Model>& s) {
+        const int channels = 2 * Model::sources(lanes);
+        const int size = Model::degrees_of_freedom(lanes) * W;
+        double* __restrict q = state.q.data();
+        double* __restrict v = state.v.data();
+        const double* const h0 = s.h[0];
+        const double* const hm = s.h[1];
+        const double* const h1 = s.h[2];
+
+        load_node<Model>(plan, lanes, overrides, i, 0, s);
+        load_length<Model>(plan, lanes, i, 1, s);
+        load_length<Model>(plan, lanes, i, 2, s);
+        accelerate<Model>(lanes, q, v, s, s.a1, s.input[0]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                s.q[j + l] = std::fma(0.5 * h0[l], v[j + l], q[j + l]);
+                s.v[j + l] = std::fma(0.5 * h0[l], s.a1[j + l], v[j + l]);
+            }
+        }
+        load_node<Model>(plan, lanes, overrides, i, 1, s);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a2, s.input[1]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                s.q[j + l] = std::fma(0.5 * hm[l], s.v[j + l], q[j + l]);
+                s.v[j + l] = std::fma(0.5 * hm[l], s.a2[j + l], v[j + l]);
+            }
+        }
+        accelerate<Model>(lanes, s.q, s.v, s, s.a3, s.input[2]);
+        for (int j = 0; j < channels * W; ++j) {
+            s.input[1][j] = 0.5 * (s.input[1][j] + s.input[2][j]);
+        }
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                // The rates of the position at the four stages are v, v + h0 a1 / 2,
+                // v + hm a2 / 2 and v + hm a3.
+                const double all = (h0[l] + 4.0 * hm[l] + h1[l]) / 6.0;
+                const double change =
+                    std::fma(hm[l] * h0[l], s.a1[j + l],
+                             std::fma(hm[l] * hm[l], s.a2[j + l], hm[l] * h1[l] * s.a3[j + l])) /
+                    6.0;
+                const double later = std::fma(hm[l], s.v[j + l], q[j + l]);
+                const double start = v[j + l];
+                s.q[j + l] = later;
+                s.v[j + l] = std::fma(hm[l], s.a3[j + l], start);
+                q[j + l] = std::fma(all, start, q[j + l] + change);
+                v[j + l] = std::fma(h0[l] / 6.0, s.a1[j + l],
+                                    std::fma(hm[l] / 3.0, s.a2[j + l] + s.a3[j + l], start));
+            }
+        }
+        load_node<Model>(plan, lanes, overrides, i, 2, s);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a1, s.input[2]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                v[j + l] = std::fma(h1[l] / 6.0, s.a1[j + l], v[j + l]);
+            }
+        }
+        for (int channel = 0; channel < channels; ++channel) {
+            low_pass<Model>(plan.low_pass_rad_s, channel * W, s,
+                            state.filter.data() + channel * W * kFilterStates);
+        }
+    }
+
+  private:
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void load_length(const MarchPlan& plan,
+                                           const typename Model::Lanes& lanes, int i, int node,
+                                           Stages<Model>& s) {
+        const double length = plan.grid.steps[static_cast<std::size_t>(i)].length;
+        const double* period = lanes.drive.pace(lanes.drive.row(i, node), pace_period);
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            s.h[node][l] = length * period[l];
+        }
+    }
+
+    // Meshes, forces and length of the step at a stage node. Errors change with the phase, so their
+    // rates follow the speed.
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void load_node(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                         const std::vector<PairOverride>& overrides, int i,
+                                         int node, Stages<Model>& s) {
+        load_pairs<Model>(plan, lanes, overrides, i, node, s.pairs);
+        load_length<Model>(plan, lanes, i, node, s);
+        if constexpr (Model::Mesh::kHasError) {
+            const double* speed = lanes.drive.pace(s.pairs.row, pace_speed);
+            for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    s.pairs.de[pair * W + l] *= speed[l];
+                }
+            }
+        }
+    }
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void accelerate(const typename Model::Lanes& lanes, const double* q,
+                                          const double* v, const Stages<Model>& s, double* a,
+                                          double* input) {
+        Model::accelerations(lanes, q, v, s.pairs, a);
+        Model::source_accelerations(lanes, q, v, a, s.pairs.row, input);
+    }
+
+    // Rates of a filter's four states f under the input u.
+    static GEARPOD_INLINE void rates(double w, const double (&f)[kFilterStates], double u,
+                                     double (&rate)[kFilterStates]) {
+        rate[0] = f[1];
+        rate[1] = w * std::fma(w, u - f[0], -kFilterDamping[0] * f[1]);
+        rate[2] = f[3];
+        rate[3] = w * std::fma(w, f[0] - f[2], -kFilterDamping[1] * f[3]);
+    }
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void low_pass(double w, int at, const Stages<Model>& s,
+                                        double* __restrict filter) {
+        const double* __restrict u0 = s.input[0] + at;
+        const double* __restrict um = s.input[1] + at;
+        const double* __restrict u1 = s.input[2] + at;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double h[] = {s.h[0][l], s.h[1][l], s.h[1][l], s.h[2][l]};
+            const double u[] = {u0[l], um[l], um[l], u1[l]};
+            constexpr double kReach[] = {0.5, 0.5, 1.0, 0.0};
+            constexpr double kWeight[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+            double start[kFilterStates], f[kFilterStates], end[kFilterStates], rate[kFilterStates];
+            for (int k = 0; k < kFilterStates; ++k) {
+                start[k] = f[k] = end[k] = filter[k * W + l];
+            }
+            for (int stage = 0; stage < 4; ++stage) {
+                rates(w, f, u[stage], rate);
+                for (int k = 0; k < kFilterStates; ++k) {
+                    f[k] = std::fma(kReach[stage] * h[stage], rate[k], start[k]);
+                    end[k] = std::fma(kWeight[stage] * h[stage], rate[k], end[k]);
+                }
+            }
+            for (int k = 0; k < kFilterStates; ++k) {
+                filter[k * W + l] = end[k];
+            }
+        }
+    }
+};
+
+}  // namespace gearpod::lockstep
