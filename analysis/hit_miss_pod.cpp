@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace gearpod::analysis {
@@ -56,8 +57,27 @@ struct Fitted {
     PodLikelihood::Maximum maximum;
 };
 
+// Sizes and their logarithms, as far as forms ask for them.
+class Scales {
+  public:
+    explicit Scales(const HitMissTable& table) : table_(table) {}
+
+    PodLikelihood likelihood(const PodForm& form) {
+        std::shared_ptr<const StandardisedSizes>& sizes = sizes_[form.log_size ? 1 : 0];
+        if (!sizes) {
+            sizes = std::make_shared<const StandardisedSizes>(table_, form.log_size);
+        }
+        return {sizes, form};
+    }
+
+  private:
+    const HitMissTable& table_;
+    std::shared_ptr<const StandardisedSizes> sizes_[2];
+};
+
 // `start`: the maximum of a form with fewer terms of its own, if there is one.
-Fitted fit_form(const HitMissTable& table, const PodForm& form, const Fitted* start = nullptr) {
+Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
+                const Fitted* start = nullptr) {
     Fitted result;
     HitMissFit& fit = result.fit;
     fit.curve.form = form;
@@ -74,14 +94,14 @@ Fitted fit_form(const HitMissTable& table, const PodForm& form, const Fitted* st
         fit.refusal = "fewer sizes than parameters";
         return result;
     }
-    const PodLikelihood likelihood(table, form);
+    const PodLikelihood likelihood = scales.likelihood(form);
     std::optional<PodLikelihood::Parameters> from;
     if (start != nullptr && start->fit.refusal.empty()) {
         from = start->maximum.parameters;
     } else if (form.free_ceiling) {
         PodForm without = form;
         without.free_ceiling = false;
-        from = PodLikelihood(table, without).maximise().parameters;
+        from = scales.likelihood(without).maximise().parameters;
     }
     result.maximum = likelihood.maximise(from);
     const PodLikelihood::Maximum& maximum = result.maximum;
@@ -123,9 +143,9 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
 }
 
 // The first curve's bounds, or those so far widened to one more curve's.
-void add_bounds(HitMissPod& pod, const HitMissTable& table, const Fitted& fitted,
+void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, const Fitted& fitted,
                 const HitMissRequest& request) {
-    const PodLikelihood likelihood(table, fitted.fit.curve.form);
+    const PodLikelihood likelihood = scales.likelihood(fitted.fit.curve.form);
     const auto bounds = [&](double rate) {
         return size_bounds(table, likelihood, fitted.maximum, rate, request.confidence);
     };
@@ -149,7 +169,8 @@ void add_bounds(HitMissPod& pod, const HitMissTable& table, const Fitted& fitted
 }  // namespace
 
 HitMissFit fit_hit_miss(const HitMissTable& table, const PodForm& form) {
-    return fit_form(table, form).fit;
+    Scales scales(table);
+    return fit_form(table, scales, form).fit;
 }
 
 HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request) {
@@ -162,13 +183,14 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     if (!pod.refusal.empty()) {
         return pod;
     }
+    Scales scales(table);
     std::vector<Fitted> fitted;
     const Fitted* best = nullptr;
     fitted.reserve(forms(request.floor).size());
     for (const PodForm& form : forms(request.floor)) {
         const bool more = !fitted.empty() && fitted.back().fit.curve.form.link == form.link &&
                           fitted.back().fit.curve.form.log_size == form.log_size;
-        fitted.push_back(fit_form(table, form, more ? &fitted.back() : nullptr));
+        fitted.push_back(fit_form(table, scales, form, more ? &fitted.back() : nullptr));
         const HitMissFit& fit = fitted.back().fit;
         pod.candidates.push_back(fit);
         if (fit.refusal.empty() && (best == nullptr || fit.aic < best->fit.aic)) {
@@ -185,11 +207,11 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
         return pod;
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;
-    add_bounds(pod, table, *best, request);
+    add_bounds(pod, table, scales, *best, request);
     for (const Fitted& other : fitted) {
         if (&other != best && other.fit.refusal.empty() && other.fit.curve.slope > 0.0 &&
             other.fit.aic <= best->fit.aic + kSupported) {
-            add_bounds(pod, table, other, request);
+            add_bounds(pod, table, scales, other, request);
         }
     }
     return pod;

@@ -13,104 +13,105 @@ namespace {
 constexpr double kTiny = 1e-290;
 constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr double kInTransition = 1e-6;
+// Half a cell of sizes in units of eta, at most: the singularities of the links nearest to the real
+// axis are pi away for the logit, about 2 with a usual floor for the probit.
+constexpr double kHalfCellLogit = 2.0, kHalfCellProbit = 1.0;
 
-// Sum of k ln P; P is held off 0, where nothing was counted if the sum is finite.
-double terms(const Eigen::ArrayXd& count, const Eigen::ArrayXd& probability) {
-    // Eigen takes many logarithms at once only in an array of their own.
-    const Eigen::ArrayXd logs = probability.max(kLeast).log();
-    return (count * logs).sum();
-}
+constexpr Eigen::Index kBlock = 128;  // arrays of a block stay on the stack
+using Block = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kBlock, 1>;
 
 // link_values() of many; Eigen's exponential has the same bits on every processor, too.
-struct LinkArrays {
-    Eigen::ArrayXd up, down, density;
-};
-LinkArrays link_arrays(Link link, const Eigen::ArrayXd& eta) {
-    LinkArrays values;
-    Eigen::ArrayXd small;
-    if (link == Link::logit) {
-        const Eigen::ArrayXd e = (-eta.abs()).exp();
-        small = e / (1.0 + e);
-        values.density = small / (1.0 + e);
-    } else {
-        small = eta.unaryExpr(
-            [](double at) { return 0.5 * std::erfc(std::abs(at) / std::numbers::sqrt2); });
-        values.density =
-            (-0.5 * eta.square()).exp() * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+struct LinkBlock {
+    Block up, down, density;
+
+    LinkBlock(Link link, const Block& eta) {
+        Block small;
+        if (link == Link::logit) {
+            const Block e = (-eta.abs()).exp();
+            small = e / (1.0 + e);
+            density = small / (1.0 + e);
+        } else {
+            small = eta.unaryExpr(
+                [](double at) { return 0.5 * std::erfc(std::abs(at) / std::numbers::sqrt2); });
+            density =
+                (-0.5 * eta.square()).exp() * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+        }
+        up = (eta > 0.0).select(1.0 - small, small);
+        down = (eta > 0.0).select(small, 1.0 - small);
     }
-    values.up = (eta > 0.0).select(1.0 - small, small);
-    values.down = (eta > 0.0).select(small, 1.0 - small);
-    return values;
-}
+};
 
 }  // namespace
 
-PodLikelihood::PodLikelihood(const HitMissTable& table, const PodForm& form)
-    : table_(table), form_(form) {
-    if (table.size() < 2) {
+PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
+    : sizes_(std::move(sizes)), form_(form) {
+    if (sizes_->sizes().size() < 2) {
         throw std::invalid_argument("POD likelihood: needs two fault sizes at least");
-    }
-    const double tests = total_tests(table);
-    for (const HitMissRow& row : table) {
-        centre_ += row.tests * form.scaled(row.size) / tests;
-    }
-    double square = 0.0;
-    for (const HitMissRow& row : table) {
-        const double away = form.scaled(row.size) - centre_;
-        square += row.tests * away * away / tests;
-    }
-    spread_ = std::sqrt(square);
-    const auto rows = static_cast<Eigen::Index>(table.size());
-    u_.resize(rows);
-    hits_.resize(rows);
-    tests_.resize(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const HitMissRow& row = table[static_cast<std::size_t>(i)];
-        u_[i] = standardised(row.size);
-        hits_[i] = row.hits;
-        tests_[i] = row.tests;
     }
 }
 
+PodLikelihood::PodLikelihood(const HitMissTable& table, const PodForm& form)
+    : PodLikelihood(std::make_shared<const StandardisedSizes>(table, form.log_size), form) {}
+
+const SizeNodes& PodLikelihood::nodes_for(double slope) const {
+    const double half = form_.link == Link::logit ? kHalfCellLogit : kHalfCellProbit;
+    return sizes_->nodes(2.0 * half / std::abs(slope));
+}
+
 PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
-                                              const std::optional<Point>& through) const {
+                                              const std::optional<Point>& through,
+                                              const SizeNodes& nodes) const {
     const double floor = form_.floor;
     const double ceiling = parameters[2];
     const double rise = ceiling - floor;
-    // The intercept follows from slope and ceiling if the curve is held to a point.
-    double eta_by_ceiling = 0.0;
+    // Held to a point, the first parameter is eta there, and the ceiling follows from it.
+    double ceiling_by_eta = 0.0;
     if (through && form_.free_ceiling) {
-        const double eta = link_quantile(form_.link, (through->pod - floor) / rise);
-        eta_by_ceiling = -(through->pod - floor) / (rise * rise * link_density(form_.link, eta));
+        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * through->u);
+        ceiling_by_eta = -(through->pod - floor) * at.density / (at.up * at.up);
     }
-    // Arrays at once: this is nearly all of the time of a report.
     const double origin = through ? through->u : 0.0;
-    const LinkArrays link = link_arrays(form_.link, parameters[0] + parameters[1] * u_);
-    const Eigen::ArrayXd hit = floor + rise * link.up;
-    const Eigen::ArrayXd miss = (1.0 - ceiling) + rise * link.down;
-    const double value = terms(hits_, hit) + terms(tests_ - hits_, miss);
-    const Eigen::ArrayXd both = hit * miss;
-    const Eigen::ArrayXd weight = (both < kTiny).select(0.0, both.max(kTiny).inverse());
-    const Eigen::ArrayXd left = (hits_ - tests_ * hit) * weight;
-    const Eigen::ArrayXd bend = tests_ * weight;
-    const Eigen::ArrayXd by_eta = rise * link.density;
-    const Eigen::ArrayXd by_slope = by_eta * (u_ - origin);
-    const double s0 = (left * by_eta).sum(), s1 = (left * by_slope).sum();
-    const double i00 = (bend * by_eta * by_eta).sum(), i01 = (bend * by_eta * by_slope).sum();
-    const double i11 = (bend * by_slope * by_slope).sum();
-    double s2 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
-    if (form_.free_ceiling) {
-        const Eigen::ArrayXd by_ceiling = link.up + by_eta * eta_by_ceiling;
-        s2 = (left * by_ceiling).sum();
-        i02 = (bend * by_eta * by_ceiling).sum();
-        i12 = (bend * by_slope * by_ceiling).sum();
-        i22 = (bend * by_ceiling * by_ceiling).sum();
-    }
     Slopes slopes;
-    slopes.value = value;
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0;
+    double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
+    const auto add = [&](Eigen::Index first, Eigen::Index count, bool detected) {
+        const auto u = nodes.u.segment(first, count);
+        const auto weight = nodes.weight.segment(first, count);
+        const LinkBlock link(form_.link, parameters[0] + parameters[1] * u);
+        const Block hit = floor + rise * link.up;
+        const Block miss = (1.0 - ceiling) + rise * link.down;
+        // Eigen takes many logarithms at once only in an array of their own. Held off 0.
+        const Block logs = (detected ? hit : miss).max(kLeast).log();
+        slopes.value += (weight * logs).sum();
+        const Block both = hit * miss;
+        const Block bend = (both < kTiny).select(0.0, weight / both.max(kTiny));
+        const Block left = detected ? Block(bend * miss) : Block(-bend * hit);
+        const Block by_eta = rise * link.density;
+        const Block by_slope = by_eta * (u - origin);
+        const Block by_first = by_eta + ceiling_by_eta * link.up;
+        const Block bend_first = bend * by_first;
+        s0 += (left * by_first).sum();
+        s1 += (left * by_slope).sum();
+        i00 += (bend_first * by_first).sum();
+        i01 += (bend_first * by_slope).sum();
+        i11 += (bend * by_slope * by_slope).sum();
+        if (form_.free_ceiling && !through) {
+            const Block bend_ceiling = bend * link.up;
+            s2 += (left * link.up).sum();
+            i02 += (bend_ceiling * by_first).sum();
+            i12 += (bend_ceiling * by_slope).sum();
+            i22 += (bend_ceiling * link.up).sum();
+        }
+    };
+    const Eigen::Index ends[] = {nodes.hits, nodes.u.size()};
+    for (Eigen::Index first = 0, kind = 0; kind < 2; ++kind) {
+        for (; first < ends[kind]; first += std::min(kBlock, ends[kind] - first)) {
+            add(first, std::min(kBlock, ends[kind] - first), kind == 0);
+        }
+    }
     slopes.score = {s0, s1, s2};
     slopes.information << i00, i01, i02, i01, i11, i12, i02, i12, i22;
-    if (through) {  // the intercept is not free
+    if (through && !form_.free_ceiling) {  // eta there is given
         slopes.score[0] = 0.0;
         slopes.information.row(0).setZero();
         slopes.information.col(0).setZero();
@@ -119,15 +120,19 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
 }
 
 bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& through) const {
-    if (parameters[2] <= form_.floor) {
-        return false;
+    if (!through) {
+        parameters[2] = std::min(parameters[2], 1.0);
+        return parameters[2] > form_.floor;
     }
-    if (through) {
-        if (parameters[2] <= through->pod) {
-            return false;
-        }
-        const double share = (through->pod - form_.floor) / (parameters[2] - form_.floor);
-        parameters[0] = link_quantile(form_.link, share) - parameters[1] * through->u;
+    const double rise = through->pod - form_.floor;  // up to the point
+    const double least = link_quantile(form_.link, rise / (1.0 - form_.floor));
+    const double eta = parameters[0] + parameters[1] * through->u;
+    if (form_.free_ceiling && eta > least) {
+        const double share = link_probability(form_.link, eta);
+        parameters[2] = std::min(1.0, form_.floor + rise / share);
+    } else {
+        parameters[2] = 1.0;
+        parameters[0] = least - parameters[1] * through->u;
     }
     return true;
 }
@@ -141,14 +146,16 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
     const double shortest = through ? 1e-3 : 1e-8;    // step
     Maximum maximum;
     meet(parameters, through);
-    Slopes here = evaluate(parameters, through);
+    const SizeNodes* nodes = &nodes_for(parameters[1]);
+    Slopes here = evaluate(parameters, through, *nodes);
     for (int step = 0; step < most_steps; ++step) {
         Eigen::Matrix3d system = here.information;
         Parameters score = here.score;
         // A parameter that is fixed, or a ceiling that pushes against 1, does not move.
-        const bool at_one = form_.free_ceiling && parameters[2] >= 1.0 && score[2] >= 0.0;
+        const bool at_one = form_.free_ceiling && parameters[2] >= 1.0 &&
+                            (through ? score[0] <= 0.0 : score[2] >= 0.0);
         for (int j = 0; j < 3; ++j) {
-            if (system(j, j) == 0.0 || (j == 2 && at_one)) {
+            if (system(j, j) == 0.0 || (at_one && j == (through ? 0 : 2))) {
                 system.row(j).setZero();
                 system.col(j).setZero();
                 system(j, j) = 1.0;
@@ -169,11 +176,18 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
         bool better = false;
         for (double length = 1.0; length > shortest && !better; length *= 0.5) {
             Parameters next = parameters + length * move;
-            next[2] = std::min(next[2], 1.0);
+            if (through) {  // the first moves eta at the point
+                next[0] -= length * move[1] * through->u;
+            }
             if (!meet(next, through)) {
                 continue;
             }
-            Slopes there = evaluate(next, through);
+            // Never coarser than before: sums over other nodes differ by more than rounding.
+            if (const SizeNodes& finer = nodes_for(next[1]); finer.cell < nodes->cell) {
+                nodes = &finer;
+                here = evaluate(parameters, through, finer);
+            }
+            Slopes there = evaluate(next, through, *nodes);
             if (there.value > here.value - 1e-14 * std::abs(here.value)) {
                 better = true;
                 parameters = next;
@@ -193,7 +207,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
 
 PodLikelihood::Maximum PodLikelihood::maximise(std::optional<Parameters> start) const {
     if (!start) {
-        const double rate = total_hits(table_) / total_tests(table_);
+        const double rate = sizes_->hits() / sizes_->tests();
         const double share = std::clamp((rate - form_.floor) / (1.0 - form_.floor), 0.01, 0.99);
         start = Parameters{link_quantile(form_.link, share), 0.1, form_.free_ceiling ? 0.99 : 1.0};
     }
@@ -203,8 +217,11 @@ PodLikelihood::Maximum PodLikelihood::maximise(std::optional<Parameters> start) 
 PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
                                                        const Parameters& start) const {
     Parameters parameters = start;
-    if (form_.free_ceiling && parameters[2] <= pod + 0.01 * (1.0 - pod)) {
-        parameters[2] = 0.5 * (1.0 + pod);
+    // The start's ceiling if the point is clear of it, else its place.
+    constexpr double kClear = 0.9;
+    const double share = (pod - form_.floor) / (start[2] - form_.floor);
+    if (form_.free_ceiling && share < kClear) {
+        parameters[0] = link_quantile(form_.link, share) - parameters[1] * u;
     }
     return ascend(parameters, Point{u, pod});
 }
@@ -217,7 +234,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
     const double floor = form_.floor;
     Parameters parameters = start;
     for (int step = 0; step < kMostSteps; ++step) {
-        const Slopes here = evaluate(parameters, std::nullopt);
+        const Slopes here = evaluate(parameters, std::nullopt, nodes_for(parameters[1]));
         // Gradient of zeta; it is eta itself with a ceiling of 1.
         const double rise = parameters[2] - floor;
         const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
@@ -242,7 +259,8 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         parameters += move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
             // Far out the likelihood is flat, and a move is small there wherever it leads.
-            const double reached = evaluate(parameters, std::nullopt).value;
+            const double reached =
+                evaluate(parameters, std::nullopt, nodes_for(parameters[1])).value;
             if (!(std::abs(reached - log_likelihood) < kOnContour)) {
                 return std::nullopt;
             }
@@ -256,18 +274,16 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
 PodCurve PodLikelihood::curve(const Parameters& parameters) const {
     PodCurve curve;
     curve.form = form_;
-    curve.slope = parameters[1] / spread_;
-    curve.intercept = parameters[0] - curve.slope * centre_;
+    curve.slope = parameters[1] / sizes_->spread();
+    curve.intercept = parameters[0] - curve.slope * sizes_->centre();
     curve.ceiling = parameters[2];
     return curve;
 }
 
 int PodLikelihood::sizes_in_transition(const Parameters& parameters) const {
-    return static_cast<int>(std::count_if(u_.begin(), u_.end(), [&](double u) {
-        const double eta = parameters[0] + parameters[1] * u;
-        return std::min(link_probability(form_.link, eta), link_probability(form_.link, -eta)) >
-               kInTransition;
-    }));
+    const double farthest = link_quantile(form_.link, 1.0 - kInTransition);
+    return static_cast<int>(
+        ((parameters[0] + parameters[1] * sizes_->sizes()).abs() < farthest).count());
 }
 
 }  // namespace gearpod::analysis

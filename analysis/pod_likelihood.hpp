@@ -4,10 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 
-#include "analysis/hit_miss_table.hpp"
 #include "analysis/pod_curve.hpp"
+#include "analysis/standardised_sizes.hpp"
 
 namespace gearpod::analysis {
 
@@ -23,12 +24,13 @@ class PodLikelihood {
         bool converged = false;
     };
 
-    // `table` must outlive this and hold two sizes at least.
+    // Two sizes at least, on the form's scale.
+    PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form);
     PodLikelihood(const HitMissTable& table, const PodForm& form);
 
     const PodForm& form() const { return form_; }
-    double standardised(double size) const { return (form_.scaled(size) - centre_) / spread_; }
-    double size(double u) const { return form_.size(centre_ + spread_ * u); }
+    double standardised(double size) const { return sizes_->u(form_.scaled(size)); }
+    double size(double u) const { return form_.size(sizes_->centre() + sizes_->spread() * u); }
 
     // From `start`, or from a flat curve.
     Maximum maximise(std::optional<Parameters> start = std::nullopt) const;
@@ -59,16 +61,16 @@ class PodLikelihood {
         Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     };
 
-    Slopes evaluate(const Parameters& parameters, const std::optional<Point>& through) const;
+    // The nodes that a curve of this slope asks for.
+    const SizeNodes& nodes_for(double slope) const;
+    Slopes evaluate(const Parameters& parameters, const std::optional<Point>& through,
+                    const SizeNodes& nodes) const;
     // Sets the intercept so that the curve meets the point; false if its ceiling is too low.
     bool meet(Parameters& parameters, const std::optional<Point>& through) const;
     Maximum ascend(Parameters parameters, const std::optional<Point>& through) const;
 
-    const HitMissTable& table_;
+    std::shared_ptr<const StandardisedSizes> sizes_;
     PodForm form_;
-    double centre_ = 0.0;
-    double spread_ = 1.0;
-    Eigen::ArrayXd u_, hits_, tests_;
 };
 
 }  // namespace gearpod::analysis
