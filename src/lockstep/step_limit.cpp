@@ -77,7 +77,8 @@ double central_difference_limit(const dynamics::GearboxMatrices& m) {
     double above = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < m.mass.rows(); ++i) {
         const double c = m.damping(i, i), k = std::max(0.0, stiffness(i, i)), mass = m.mass(i, i);
-        above = std::min(above, 2.0 * mass / (c + std::sqrt(c * c + k * mass)));
+        const double rate = c + std::sqrt(c * c + k * mass);
+        above = rate > 0.0 ? std::min(above, 2.0 * mass / rate) : above;
     }
     if (!std::isfinite(above)) {
         return above;

@@ -45,7 +45,9 @@ std::string without(const std::string& text, const std::string& key) {
 }  // namespace
 
 TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is stiff") {
-    const mc::Study study = study_of(kFixedShaftStudy, {"numerics.integrator=rk4"});
+    const std::string integrator =
+        GENERATE("numerics.integrator=rk4", "numerics.integrator=central-difference");
+    const mc::Study study = study_of(kFixedShaftStudy, {integrator});
     // The coupling's damper between motor and pinion: c (1 / I_m + 1 / I_1).
     const double rate = 5e5 * (1.0 / 0.0021 + 1.0 / 4.3659e-4);
     try {
@@ -66,6 +68,28 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is 
         study_of(kFixedShaftStudy, {"numerics.integrator=newmark", "numerics.steps_per_mesh=77"}));
     CHECK(newmark.plan().integrator == lockstep::Integrator::newmark);
     CHECK(newmark.plan().grid.steps.size() >= 77);
+}
+
+TEST_CASE("Steps by which central differences are unstable are refused, their own are stable") {
+    const std::string by = "numerics.integrator=central-difference";
+    const Scene own(test::shipped_study("liang-fig-5-8.toml", {by}));
+    CHECK(own.plan().integrator == lockstep::Integrator::central_difference);
+    const int least = own.least_steps();
+    CHECK(static_cast<int>(own.plan().grid.steps.size()) >= 1.2 * least);
+    CHECK(run_one(own).status[0] == mc::Status::ok);
+    const auto with_steps = [&](int steps) {
+        return test::shipped_study("liang-fig-5-8.toml",
+                                   {by, "numerics.steps_per_mesh=" + std::to_string(steps)});
+    };
+    CHECK(run_one(Scene(with_steps(least))).status[0] == mc::Status::ok);
+    try {
+        const Scene scene(with_steps(least - 1));
+        FAIL("accepted");
+    } catch (const mc::SceneError& error) {
+        CHECK(error.key() == "numerics.steps_per_mesh");
+        CHECK(std::string(error.what()).find("central-difference is unstable") !=
+              std::string::npos);
+    }
 }
 
 TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused with its part") {
