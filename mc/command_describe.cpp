@@ -6,6 +6,7 @@
 #include "machine/dispatch.hpp"
 #include "mc/command_support.hpp"
 #include "mc/describe_effects.hpp"
+#include "mc/effect_costs.hpp"
 #include "mc/ensemble.hpp"
 #include "mc/instance_features.hpp"
 #include "mc/march_cache.hpp"
@@ -135,6 +136,23 @@ double time_signal_s(const Scene& scene) {
     return time_samples(scene) * (kGearbox_s + kLevel_s * levels);
 }
 
+// Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
+void print_effect_costs(const Study& study) {
+    for (const EffectCost& cost : effect_costs(study)) {
+        print_entry(("cost of " + cost.effect).c_str(),
+                    fmt::format("{:.0f} % of a plain step of rk4", 100.0 * cost.share));
+    }
+}
+
+// A step over one without any effect.
+double step_with_effects(const Study& study) {
+    double whole = 1.0;
+    for (const EffectCost& cost : effect_costs(study)) {
+        whole += cost.share;
+    }
+    return whole;
+}
+
 void print_cost(const Scene& scene) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
@@ -153,6 +171,7 @@ void print_cost(const Scene& scene) {
         print_entry("steps a mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
                                                        lockstep::name(plan.integrator)));
     }
+    print_effect_costs(study);
     if (const NumericsChoice* choice = scene.numerics_choice()) {
         print_entry("chosen for the tolerance", choice->text());
     }
@@ -186,8 +205,8 @@ void print_cost(const Scene& scene) {
     // proportional to the degrees of freedom. One lane costs as much as eight.
     const double step_s =
         0.65e-6 * dynamics::degrees_of_freedom(plan.layout) / 21.0 / study.numerics.lanes;
-    const double march_s =
-        marched_meshes(scene) * static_cast<double>(plan.grid.steps.size()) * step_s * 1.3;
+    const double march_s = marched_meshes(scene) * static_cast<double>(plan.grid.steps.size()) *
+                           step_s * step_with_effects(study) * 1.3;
     const double seconds =
         (marched_rows * march_s + static_cast<double>(rows) * time_signal_s(scene)) /
         thread_count(study);

@@ -92,7 +92,7 @@ struct Parts {
 };
 
 template <int W, class ModelLanes>
-std::unique_ptr<DrivenMarch<W>> make_march(const Parts& parts, ModelLanes model_lanes,
+std::unique_ptr<DrivenMarch<W>> make_march(const Parts& parts, const ModelLanes& model_lanes,
                                            Kernel<DrivenLanes<ModelLanes, W>> kernel) {
     const auto& [plan, excitation, inputs] = parts;
     std::vector<double> periods;
@@ -100,8 +100,7 @@ std::unique_ptr<DrivenMarch<W>> make_march(const Parts& parts, ModelLanes model_
         periods.push_back(dynamics::mesh_period_s(in));
     }
     DrivenLanes<ModelLanes, W> lanes{
-        std::move(model_lanes),
-        make_driven_forces<W>(plan, excitation, inputs, is_explicit(plan.integrator))};
+        model_lanes, make_driven_forces<W>(plan, excitation, inputs, is_explicit(plan.integrator))};
     return std::make_unique<DrivenKernelMarch<W, DrivenLanes<ModelLanes, W>>>(
         plan, std::move(lanes),
         filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods),

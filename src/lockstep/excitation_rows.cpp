@@ -13,40 +13,19 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-struct SplineValue {
-    double value, slope;  // slope a knot spacing
-};
-
-// Cubic B-spline of lane l's knots at coordinate u (de Boor, A Practical Guide to Splines).
-SplineValue spline(const machine::AlignedVector& knots, std::size_t lanes, std::size_t l,
-                   double u) {
-    const double left = std::floor(u);
-    const double x = u - left, y = 1.0 - x;
-    const double weight[] = {y * y * y / 6.0, 2.0 / 3.0 - x * x * (1.0 - 0.5 * x),
-                             2.0 / 3.0 - y * y * (1.0 - 0.5 * y), x * x * x / 6.0};
-    const double slope[] = {-0.5 * y * y, x * (1.5 * x - 2.0), y * (2.0 - 1.5 * y), 0.5 * x * x};
-    const auto count = static_cast<long>(knots.size() / lanes);
-    SplineValue sum{0.0, 0.0};
-    for (int i = 0; i < 4; ++i) {
-        const long knot = static_cast<long>(left) - 1 + i;
-        if (knot >= 0 && knot < count) {
-            const double k = knots[static_cast<std::size_t>(knot) * lanes + l];
-            sum.value = std::fma(weight[i], k, sum.value);
-            sum.slope = std::fma(slope[i], k, sum.slope);
-        }
-    }
-    return sum;
+// The kernel of so many lanes.
+template <class Kernel>
+Kernel* by_lanes(std::size_t lanes, Kernel* one, Kernel* four, Kernel* eight) {
+    assert(lanes == 8 || lanes == 4 || lanes == 1);
+    return lanes == 8 ? eight : lanes == 4 ? four : one;
 }
 
-void add_sines(std::size_t lanes, const SineRows& rows) {
-    if (lanes == 8) {
-        add_sines_8(rows);
-    } else if (lanes == 4) {
-        add_sines_4(rows);
-    } else {
-        assert(lanes == 1);
-        add_sines_1(rows);
-    }
+// With zeros before and behind.
+machine::AlignedVector with_margins(const Fluctuation& f, std::size_t lanes) {
+    machine::AlignedVector knots(f.knot.size() + 2 * kSplineMargin * lanes);
+    std::copy(f.knot.begin(), f.knot.end(),
+              knots.begin() + static_cast<std::ptrdiff_t>(kSplineMargin * lanes));
+    return knots;
 }
 
 }  // namespace
@@ -82,6 +61,12 @@ ExcitationRows::ExcitationRows(const MarchPlan& plan, const Excitation& excitati
     }
     for (const auto& in : inputs) {
         period_.push_back(dynamics::mesh_period_s(in));
+    }
+    if (excitation.torque) {
+        torque_knots_ = with_margins(*excitation.torque, inputs.size());
+    }
+    if (excitation.speed) {
+        speed_knots_ = with_margins(*excitation.speed, inputs.size());
     }
     if (excitation.gravity) {
         for (const double position : position_) {
@@ -127,30 +112,35 @@ void ExcitationRows::steady_time(int mesh) {
     }
 }
 
-void ExcitationRows::fluctuate(const Fluctuation& f, int mesh, bool with_slope) {
+void ExcitationRows::fluctuate(const Fluctuation& f, const machine::AlignedVector& knots, int mesh,
+                               bool with_slope) {
     const auto lanes = static_cast<std::size_t>(lanes_);
     std::fill(sum_.begin(), sum_.end(), 0.0);
     std::fill(slope_.begin(), slope_.end(), 0.0);
+    const auto nodes = static_cast<int>(position_.size());
+    double* const slope = with_slope ? slope_.data() : nullptr;
     if (!f.amplitude.empty()) {
         std::vector<double> phase = position_;
         for (double& p : phase) {
             p += mesh;
         }
-        add_sines(lanes, {static_cast<int>(phase.size()), phase.data(), time_.data(),
-                          f.amplitude.data(), f.turns_per_mesh.data(), f.turns_per_s.data(),
-                          f.turns.data(), sum_.data(), with_slope ? slope_.data() : nullptr});
+        by_lanes(lanes, add_sines_1, add_sines_4, add_sines_8)(
+            {nodes, phase.data(), time_.data(), f.amplitude.data(), f.turns_per_mesh.data(),
+             f.turns_per_s.data(), f.turns.data(), sum_.data(), slope});
     }
-    for (std::size_t i = 0; i < sum_.size() && !f.knot.empty(); ++i) {
-        const std::size_t l = i % lanes;
-        const SplineValue at =
-            spline(f.knot, lanes, l, std::fma(time_[i], f.knots_per_s[l], f.first_knot[l]));
-        sum_[i] += at.value;
-        slope_[i] = std::fma(at.slope, f.knots_per_s[l] * period_[l], slope_[i]);
+    if (!f.knot.empty()) {
+        machine::AlignedVector first = f.first_knot;
+        for (double& knot : first) {
+            knot += kSplineMargin;
+        }
+        by_lanes(lanes, add_splines_1, add_splines_4, add_splines_8)(
+            {nodes, static_cast<int>(knots.size() / lanes), time_.data(), f.knots_per_s.data(),
+             first.data(), period_.data(), knots.data(), sum_.data(), slope});
     }
 }
 
 void ExcitationRows::fill_torque(int mesh) {
-    fluctuate(*excitation_.torque, mesh, false);
+    fluctuate(*excitation_.torque, torque_knots_, mesh, false);
     for (std::size_t n = 0; n < position_.size(); ++n) {
         std::copy_n(sum_.data() + n * static_cast<std::size_t>(lanes_), lanes_, value(n, 0));
     }
@@ -169,21 +159,11 @@ void ExcitationRows::fill_gravity(int mesh, int column) {
     }
 }
 
-// With dphase/dt = r / T: dr/dt = dr/dphase r / T.
 void ExcitationRows::fill_pace(int mesh) {
-    fluctuate(*excitation_.speed, mesh, true);
-    const auto lanes = static_cast<std::size_t>(lanes_);
-    const int columns = columns_in(excitation_);
-    for (std::size_t n = 0; n < position_.size(); ++n) {
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const double speed = 1.0 + sum_[n * lanes + l];
-            const double change = slope_[n * lanes + l] * speed / period_[l];
-            value(n, columns + pace_period)[l] = period_[l] / speed;
-            value(n, columns + pace_speed)[l] = speed;
-            value(n, columns + pace_change)[l] = change;
-            value(n, columns - 1)[l] = excitation_.turning_m_s[l] * change;
-        }
-    }
+    fluctuate(*excitation_.speed, speed_knots_, mesh, true);
+    by_lanes(static_cast<std::size_t>(lanes_), write_pace_1, write_pace_4, write_pace_8)(
+        {static_cast<int>(position_.size()), values_, columns_in(excitation_) - 1, sum_.data(),
+         slope_.data(), period_.data(), excitation_.turning_m_s.data(), rows_.data()});
 }
 
 // The classical Runge-Kutta method has nodes at the start, middle and end of a step: Simpson's rule

@@ -43,16 +43,19 @@ class ExcitationRows {
     void fill_pace(int mesh);
     void fill_torque(int mesh);
     void fill_gravity(int mesh, int column);
-    // Adds a fluctuation at `time_` to `sum_`, and its change to `slope_` (a mesh period).
-    void fluctuate(const Fluctuation& fluctuation, int mesh, bool with_slope);
+    // A fluctuation at `time_` in `sum_`, and its change in `slope_` (a mesh period). `knots`: with
+    // their margins.
+    void fluctuate(const Fluctuation& fluctuation, const machine::AlignedVector& knots, int mesh,
+                   bool with_slope);
     void steady_time(int mesh);
     void integrate_time(int mesh);
 
     const MarchPlan& plan_;
     const Excitation& excitation_;
     const int lanes_, nodes_per_step_, values_;
-    std::vector<double> position_;               // of the distinct stage nodes, mesh periods
-    std::vector<double> turn_x_, turn_y_;        // cosine and sine of the carrier's angle there
+    std::vector<double> position_;         // of the distinct stage nodes, mesh periods
+    std::vector<double> turn_x_, turn_y_;  // cosine and sine of the carrier's angle there
+    machine::AlignedVector torque_knots_, speed_knots_;
     machine::AlignedVector period_;              // [lane], mean, s
     machine::AlignedVector time_, sum_, slope_;  // [distinct stage node][lane]
     machine::AlignedVector end_time_;            // [lane], of the last mesh period

@@ -128,13 +128,19 @@ struct PacedRungeKutta4 {
         Model::source_accelerations(lanes, q, v, a, s.pairs.row, input);
     }
 
-    // Rates of a filter's four states f under the input u.
-    static GEARPOD_INLINE void rates(double w, const double (&f)[kFilterStates], double u,
-                                     double (&rate)[kFilterStates]) {
-        rate[0] = f[1];
-        rate[1] = w * std::fma(w, u - f[0], -kFilterDamping[0] * f[1]);
-        rate[2] = f[3];
-        rate[3] = w * std::fma(w, f[0] - f[2], -kFilterDamping[1] * f[3]);
+    // One gearbox's filter on one channel: input to x, x to y (sensor_filter.hpp).
+    struct Sections {
+        double x, dx, y, dy;
+    };
+
+    static GEARPOD_INLINE Sections rates(double w, const Sections& f, double u) {
+        return {f.dx, w * std::fma(w, u - f.x, -kFilterDamping[0] * f.dx), f.dy,
+                w * std::fma(w, f.x - f.y, -kFilterDamping[1] * f.dy)};
+    }
+
+    static GEARPOD_INLINE Sections moved(const Sections& f, double h, const Sections& rate) {
+        return {std::fma(h, rate.x, f.x), std::fma(h, rate.dx, f.dx), std::fma(h, rate.y, f.y),
+                std::fma(h, rate.dy, f.dy)};
     }
 
     template <class Model, int W = Model::kWidth>
@@ -145,24 +151,18 @@ struct PacedRungeKutta4 {
         const double* __restrict u1 = s.input[2] + at;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double h[] = {s.h[0][l], s.h[1][l], s.h[1][l], s.h[2][l]};
-            const double u[] = {u0[l], um[l], um[l], u1[l]};
-            constexpr double kReach[] = {0.5, 0.5, 1.0, 0.0};
-            constexpr double kWeight[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-            double start[kFilterStates], f[kFilterStates], end[kFilterStates], rate[kFilterStates];
-            for (int k = 0; k < kFilterStates; ++k) {
-                start[k] = f[k] = end[k] = filter[k * W + l];
-            }
-            for (int stage = 0; stage < 4; ++stage) {
-                rates(w, f, u[stage], rate);
-                for (int k = 0; k < kFilterStates; ++k) {
-                    f[k] = std::fma(kReach[stage] * h[stage], rate[k], start[k]);
-                    end[k] = std::fma(kWeight[stage] * h[stage], rate[k], end[k]);
-                }
-            }
-            for (int k = 0; k < kFilterStates; ++k) {
-                filter[k * W + l] = end[k];
-            }
+            const double h0 = s.h[0][l], hm = s.h[1][l], h1 = s.h[2][l];
+            const Sections f{filter[l], filter[W + l], filter[2 * W + l], filter[3 * W + l]};
+            const Sections k1 = rates(w, f, u0[l]);
+            const Sections k2 = rates(w, moved(f, 0.5 * h0, k1), um[l]);
+            const Sections k3 = rates(w, moved(f, 0.5 * hm, k2), um[l]);
+            const Sections k4 = rates(w, moved(f, hm, k3), u1[l]);
+            const Sections first = moved(moved(f, h0 / 6.0, k1), hm / 3.0, k2);
+            const Sections end = moved(moved(first, hm / 3.0, k3), h1 / 6.0, k4);
+            filter[l] = end.x;
+            filter[W + l] = end.dx;
+            filter[2 * W + l] = end.y;
+            filter[3 * W + l] = end.dy;
         }
     }
 };

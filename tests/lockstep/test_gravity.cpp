@@ -51,7 +51,9 @@ TEST_CASE("the bearings of a turning train carry its weight, which turns backwar
         const MeshRecord& record = tile.records[static_cast<std::size_t>(tile.content[k])];
         for (std::size_t s = 0; s < 10; ++s) {
             // Down in the housing, seen from the carrier.
-            const double angle = -pi / 2 - 2.0 * pi * (static_cast<double>(k) + static_cast<double>(s) / 10.0) / 81.0;
+            const double angle =
+                -pi / 2 -
+                2.0 * pi * (static_cast<double>(k) + static_cast<double>(s) / 10.0) / 81.0;
             worst = std::max(
                 {worst,
                  std::abs(bearing_force(record, in, 21, s, 0) - weight(in) * std::cos(angle)),

@@ -213,6 +213,8 @@ TEST_CASE("The resolved text spells out every key that may be given") {
                                                         "outer",
                                                         "error",
                                                         "tones",
+                                                        "torque_fluctuation",
+                                                        "torque_noise",
                                                         "until"};
     for (const Key& key : schema()) {
         const bool optional_here =

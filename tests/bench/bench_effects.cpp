@@ -1,0 +1,172 @@
+// What each effect of a scene costs: time of a step and gearbox against the effects that are on, in
+// three scenes (x, y and rotation of Liang's train; its rotations alone; a fixed-shaft stage),
+// eight abreast. `a_step` is what README.md tabulates and mc/effect_costs.cpp holds.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lockstep/driven_march.hpp"
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/rigid_rotation.hpp"
+#include "mc/scene.hpp"
+#include "mc/tile_draws.hpp"
+
+namespace {
+
+using namespace gearpod;
+
+constexpr int kLanes = 8;
+
+struct Case {
+    const char* name;
+    std::vector<std::string> overrides;
+};
+
+const std::vector<std::string> kTrain{"effects.inertial_terms=false", "numerics.integrator=rk4",
+                                      "fault.depth_mm=0", "numerics.steps_per_mesh=4320"};
+// Tian's stage with couplings that an explicit method stands.
+const std::vector<std::string> kStage{"gearbox.motor_coupling_damping_N_m_s_rad=5",
+                                      "gearbox.load_coupling_damping_N_m_s_rad=5",
+                                      "gearbox.pinion_bearing_damping_N_s_m=1800",
+                                      "gearbox.gear_bearing_damping_N_s_m=1800",
+                                      "numerics.integrator=rk4",
+                                      "sensor.low_pass_Hz=4000"};
+
+// The effects that a scene may have more of, one after the other.
+const std::vector<Case> kTrainEffects{
+    {"none", {}},
+    {"inertial-terms", {"effects.inertial_terms=true"}},
+    {"transmission-error", {"gearbox.sun_planet_error_um=[1]"}},
+    {"mesh-error", {"gearbox.mesh_error_um=[1]"}},
+    {"separation", {"effects.separation=one-sided"}},
+    {"torque-sine", {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=3"}},
+    {"torque-noise", {"operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3"}},
+    {"gravity", {"effects.gravity=true"}},
+    {"torque-sine+gravity",
+     {"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=3",
+      "effects.gravity=true"}},
+    {"speed-sine", {"operation.speed_fluctuation=0.01", "operation.speed_fluctuation_order=1"}},
+    {"speed-noise", {"operation.speed_noise=0.01", "operation.speed_noise_band_Hz=3"}},
+    {"all",
+     {"effects.inertial_terms=true", "effects.separation=one-sided",
+      "gearbox.sun_planet_error_um=[1]", "operation.torque_fluctuation=0.1",
+      "operation.torque_fluctuation_Hz=3", "operation.torque_noise=0.1",
+      "operation.torque_noise_band_Hz=3", "effects.gravity=true",
+      "operation.speed_fluctuation=0.01", "operation.speed_fluctuation_order=1"}}};
+
+std::vector<std::string> joined(std::vector<std::string> first,
+                                const std::vector<std::string>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+// A tile of one study, marched mesh by mesh as mc does.
+class Tile {
+  public:
+    Tile(const std::string& study, const std::vector<std::string>& overrides)
+        : reading_(mc::read_study(study, overrides)) {
+        if (!reading_.study) {
+            std::fputs(mc::format(reading_.problems.front()).c_str(), stderr);
+            std::exit(2);
+        }
+        scene_ = std::make_unique<mc::Scene>(*reading_.study);
+        const std::vector<mc::GearboxId> ids{{mc::Group::graded, 0}};
+        const std::vector<mc::InstanceInputs> instances(kLanes,
+                                                        mc::Sampler(*reading_.study).nominal());
+        for (const mc::InstanceInputs& instance : instances) {
+            inputs_.push_back(scene_->inputs(instance));
+        }
+        excitation_ = mc::draw_excitation(*scene_, ids, instances);
+        if (excitation_) {
+            driven_ = lockstep::make_driven_march<kLanes>(scene_->plan(), *excitation_, inputs_);
+        } else {
+            steady_ = lockstep::make_mesh_march<kLanes>(scene_->plan(), inputs_);
+        }
+        state_ = lockstep::rest_state(scene_->plan(), inputs_);
+        record_ = lockstep::make_record(scene_->plan(), kLanes, false);
+    }
+
+    void march(int mesh) {
+        if (driven_ != nullptr) {
+            (*driven_)(mesh, {}, state_, record_);
+        } else {
+            (*steady_)({}, state_, record_);
+        }
+    }
+    double gearbox_steps() const {
+        return kLanes * static_cast<double>(scene_->plan().grid.steps.size());
+    }
+
+  private:
+    mc::StudyReading reading_;
+    std::unique_ptr<mc::Scene> scene_;
+    std::vector<dynamics::GearboxInputs> inputs_;
+    std::optional<lockstep::Excitation> excitation_;
+    std::unique_ptr<lockstep::DrivenMarch<kLanes>> driven_;
+    std::unique_ptr<const lockstep::MeshMarch<kLanes>> steady_;
+    lockstep::TileState state_;
+    lockstep::MeshRecord record_;
+};
+
+void run(benchmark::State& state, const std::string& study,
+         const std::vector<std::string>& overrides) {
+    Tile tile(study, overrides);
+    int mesh = 0;
+    tile.march(mesh++);
+    for (auto _ : state) {
+        tile.march(mesh++ % 200);
+    }
+    state.counters["a_step"] =
+        benchmark::Counter(tile.gearbox_steps(), benchmark::Counter::kIsIterationInvariantRate |
+                                                     benchmark::Counter::kInvert);
+}
+
+void add(const std::string& scene, const std::string& study, const std::vector<std::string>& base,
+         const std::vector<std::string>& left_out) {
+    for (const Case& effect : kTrainEffects) {
+        bool possible = true;
+        std::vector<std::string> overrides = base;
+        for (const std::string& text : effect.overrides) {
+            bool kept = true;
+            for (const std::string& key : left_out) {
+                kept = kept && !text.starts_with(key);
+            }
+            possible = possible && (kept || effect.overrides.size() > 2);
+            if (kept) {
+                overrides.push_back(text);
+            }
+        }
+        if (possible) {
+            benchmark::RegisterBenchmark((scene + "/" + effect.name).c_str(), run, study,
+                                         overrides);
+        }
+    }
+}
+
+}  // namespace
+
+// The top folder is the only argument of its own.
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (argc != 2) {
+        std::fputs("usage: bench_effects TOP-FOLDER [--benchmark_...]\n", stderr);
+        return 2;
+    }
+    const std::string studies = std::string(argv[1]) + "/studies/";
+    add("translational", studies + "liang-fig-5-8.toml", kTrain, {"gearbox.mesh_error"});
+    add("rotations", studies + "liang-fig-5-8.toml", joined(kTrain, {"effects.motion=torsional"}),
+        {"effects.gravity", "effects.inertial", "gearbox.mesh_error"});
+    // Rotations feel weight only where the planets do not balance each other.
+    add("rotations-unbalanced", studies + "liang-fig-5-8.toml",
+        joined(kTrain, {"effects.motion=torsional", "gearbox.planets=3",
+                        "gearbox.planet_positions_deg=[0,90,180]"}),
+        {"effects.inertial", "effects.separation", "gearbox.sun_planet_error", "gearbox.mesh_error",
+         "operation."});
+    add("fixed-shaft", studies + "tian-fig-4-9.toml", kStage,
+        {"effects.inertial", "gearbox.sun_planet_error"});
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
