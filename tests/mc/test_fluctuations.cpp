@@ -144,6 +144,9 @@ TEST_CASE("Bad fluctuations and a weight that does nothing are refused with key 
         }
         CHECK(found);
     }
+    CHECK_THROWS_WITH(Scene(study_of(kQuasiStaticStudy, {"operation.torque_noise=0.1",
+                                                         "operation.torque_noise_band_Hz=1e7"})),
+                      Catch::Contains("cannot show what fluctuates fastest"));
     for (const BadScene& bad : kBadScenes) {
         const Study study = study_of(kExampleStudy, with(kFast, bad.overrides));
         CAPTURE(bad.key, bad.words);
