@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "lockstep/excitation_rows.hpp"
 #include "mc/atomic_file.hpp"
 #include "mc/command_support.hpp"
 #include "mc/gearbox_tile.hpp"
@@ -16,6 +17,8 @@
 #include "mc/provenance.hpp"
 #include "mc/run_report.hpp"
 #include "mc/simulation.hpp"
+#include "mc/study_fluctuations.hpp"
+#include "mc/tile_draws.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -69,6 +72,33 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
     }
 }
 
+// Seconds of every sample, which a fluctuating speed spaces unevenly.
+std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
+                                 const InstanceInputs& instance, long meshes) {
+    const auto& grid = scene.plan().grid;
+    const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(instance)};
+    std::vector<double> times;
+    if (!speed_fluctuates(scene.study())) {
+        const double period_s = dynamics::mesh_period_s(inputs[0]);
+        const int samples = scene.samples_per_mesh();
+        for (long i = 0; i < meshes * samples; ++i) {
+            times.push_back(static_cast<double>(i) / samples * period_s);
+        }
+        return times;
+    }
+    const auto excitation = draw_excitation(scene, std::span(&id, 1), std::span(&instance, 1));
+    lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
+    for (long mesh = 0; mesh < meshes; ++mesh) {
+        rows.fill(static_cast<int>(mesh));
+        for (std::size_t step = 0; step < grid.steps.size(); ++step) {
+            if (grid.steps[step].sample >= 0) {
+                times.push_back(*rows.time(static_cast<int>(step)));
+            }
+        }
+    }
+    return times;
+}
+
 }  // namespace
 
 GearboxId id_of_row(const Study& study, long row) {
@@ -103,9 +133,9 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     for (std::size_t i = 0; i < rows; ++i) {
         const double mesh = static_cast<double>(i) / samples;
         phase.values.push_back(mesh);
-        time.values.push_back(mesh * period_s);
         angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
     }
+    time.values = sample_times(scene, id, tile.inputs[0], meshes);
     out.columns = {time, phase};
     if (scene.study().gearbox.kind == GearboxKind::planetary) {
         out.columns.push_back(angle);

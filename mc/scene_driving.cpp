@@ -75,10 +75,26 @@ void check_kernels(const Study& study, const lockstep::MarchPlan& plan) {
             : "use integrator = \"auto\"");
 }
 
+// Without inertia there are no steps, only the encoders' samples.
+void check_samples(const Study& study, const Drive& drive, int samples) {
+    const double rate = fastest(study, drive);
+    if (samples < 2.0 * rate) {
+        throw SceneError("sensor.encoder_sampling_Hz",
+                         fmt::format("{} samples a mesh period cannot show what fluctuates fastest "
+                                     "({:.3g} periods or band periods a mesh)",
+                                     samples, rate),
+                         "raise the rate, or have a slower fluctuation");
+    }
+}
+
 }  // namespace
 
 void check_driving(const Study& study, const Drive& drive, const lockstep::MarchPlan& plan) {
-    if (!driven_unevenly(study) || study.effects.quasi_static()) {
+    if (!driven_unevenly(study)) {
+        return;
+    }
+    if (study.effects.quasi_static()) {
+        check_samples(study, drive, plan.grid.samples);
         return;
     }
     check_kernels(study, plan);

@@ -60,10 +60,10 @@ Kernel<DrivenImplicitLanes<W>> implicit_kernel_of(const MarchPlan& plan) {
 template <int W, class Lanes>
 class DrivenKernelMarch final : public DrivenMarch<W> {
   public:
-    DrivenKernelMarch(const MarchPlan& plan, Lanes lanes, machine::AlignedVector filter,
+    DrivenKernelMarch(const MarchPlan& plan, const Lanes& lanes, machine::AlignedVector filter,
                       Kernel<Lanes> kernel, ExcitationRows rows)
         : plan_(plan),
-          lanes_(std::move(lanes)),
+          lanes_(lanes),
           filter_(std::move(filter)),
           kernel_(kernel),
           rows_(std::move(rows)) {
@@ -99,10 +99,10 @@ std::unique_ptr<DrivenMarch<W>> make_march(const Parts& parts, const ModelLanes&
     for (const auto& in : inputs) {
         periods.push_back(dynamics::mesh_period_s(in));
     }
-    DrivenLanes<ModelLanes, W> lanes{
+    const DrivenLanes<ModelLanes, W> lanes{
         model_lanes, make_driven_forces<W>(plan, excitation, inputs, is_explicit(plan.integrator))};
     return std::make_unique<DrivenKernelMarch<W, DrivenLanes<ModelLanes, W>>>(
-        plan, std::move(lanes),
+        plan, lanes,
         filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods),
         kernel, ExcitationRows(plan, excitation, inputs));
 }

@@ -44,12 +44,13 @@ int distinct_nodes_per_step(const PhaseGrid& grid) {
 }
 
 ExcitationRows::ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
-                               std::span<const dynamics::GearboxInputs> inputs)
+                               std::span<const dynamics::GearboxInputs> inputs, bool with_time)
     : plan_(plan),
       excitation_(excitation),
       lanes_(static_cast<int>(inputs.size())),
       nodes_per_step_(distinct_nodes_per_step(plan.grid)),
-      values_(values_in_row(excitation)) {
+      values_(values_in_row(excitation)),
+      with_time_(with_time || excitation.torque) {
     for (const Step& step : plan.grid.steps) {
         for (int node = 0; node < nodes_per_step_; ++node) {
             const auto part = plan.grid.stage_nodes[static_cast<std::size_t>(node)];
@@ -87,7 +88,7 @@ void ExcitationRows::fill(int mesh) {
     steady_time(mesh);
     if (excitation_.speed) {
         fill_pace(mesh);
-        if (excitation_.torque) {
+        if (with_time_) {
             integrate_time(mesh);
         }
     }

@@ -19,8 +19,9 @@ int distinct_nodes_per_step(const PhaseGrid& grid);
 class ExcitationRows {
   public:
     // `inputs`: one gearbox a lane (8, 4 or 1). Plan and excitation must outlive the rows.
+    // `with_time`: time is kept even where no torque depends on it.
     ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
-                   std::span<const dynamics::GearboxInputs> inputs);
+                   std::span<const dynamics::GearboxInputs> inputs, bool with_time = false);
 
     // Computes the rows of a mesh period. Time runs on from the mesh period before if that was the
     // last one asked for; else the mesh period begins at its number times its mean length.
@@ -33,6 +34,8 @@ class ExcitationRows {
     const double* row(int step, int node) const {
         return rows_.data() + (step * nodes_per_step_ + node) * values_ * lanes_;
     }
+    // Seconds since the first recorded mesh period began, [lane]; only where time is kept.
+    const double* time(int step) const { return time_.data() + step * nodes_per_step_ * lanes_; }
 
   private:
     double* value(std::size_t node, int which) {
@@ -53,6 +56,7 @@ class ExcitationRows {
     const MarchPlan& plan_;
     const Excitation& excitation_;
     const int lanes_, nodes_per_step_, values_;
+    const bool with_time_;
     std::vector<double> position_;         // of the distinct stage nodes, mesh periods
     std::vector<double> turn_x_, turn_y_;  // cosine and sine of the carrier's angle there
     machine::AlignedVector torque_knots_, speed_knots_;

@@ -104,6 +104,46 @@ TEST_CASE("a marched train rests on its bearings by its weight, too", "[gravity]
     CHECK(worst < 0.01 * weight(in));
 }
 
+TEST_CASE("weight that stands still keeps the orbit and the passage of a fault",
+          "[gravity][lockstep]") {
+    const auto& train = test::LiangTrain::instance();
+    const MarchPlan plan = train.plan(50, 450, dynamics::Motion::translational_torsional, false);
+    auto in = train.inputs(12.0);
+    for (double& damping : in.bearing_damping_N_s_m) {
+        damping = 5e3;
+    }
+    const std::vector<dynamics::GearboxInputs> inputs{in};
+    const FaultCurves cracked = train.ring_side_cracks({3e-3});
+    Excitation excitation;
+    excitation.gravity = Gravity{kGravity, -pi / 2, 0.0};
+    TileSettings reuse;
+    reuse.tolerance = 1e-9;
+    reuse.max_meshes = 400;
+    reuse.with_motion = true;
+    reuse.excitation = &excitation;
+    TileSettings march = reuse;
+    march.march_meshes = 62;
+    const TileResult orbit = run_tile<1>(plan, inputs, cracked, reuse);
+    const TileResult all = run_tile<1>(plan, inputs, cracked, march);
+    REQUIRE(orbit.status[0] == LaneStatus::ok);
+    REQUIRE(orbit.records.size() < all.records.size());
+    for (std::size_t k = 31; k < 62; ++k) {
+        const auto& a =
+            orbit.records[static_cast<std::size_t>(orbit.content[k % orbit.content.size()])];
+        const auto& b = all.records[static_cast<std::size_t>(all.content[k])];
+        for (std::size_t i = 0; i < a.motion.size(); i += 21) {
+            // The carrier sags and the transmission error is the same.
+            CHECK(a.motion[i + 1] == Approx(b.motion[i + 1]).epsilon(1e-5));
+            CHECK(a.te[i / 21] == Approx(b.te[i / 21]).epsilon(1e-6));
+        }
+    }
+    double sag = 0.0;
+    for (std::size_t s = 0; s < 50; ++s) {
+        sag += bearing_force(orbit.records[0], in, 21, s, 1) / 50.0;
+    }
+    CHECK(sag == Approx(-weight(in)).epsilon(1e-4));
+}
+
 TEST_CASE("a shaft's gear sags by its weight over its bearing's stiffness", "[gravity][lockstep]") {
     dynamics::FixedShaftLayout layout;
     layout.base_radius_m[dynamics::pinion] = 0.03;

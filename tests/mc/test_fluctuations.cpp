@@ -6,6 +6,7 @@
 
 #include "mc/effect_costs.hpp"
 #include "mc/gearbox_tile.hpp"
+#include "mc/simulation.hpp"
 #include "mc/study_fluctuations.hpp"
 #include "scene_examples.hpp"
 #include "study_example.hpp"
@@ -143,6 +144,9 @@ TEST_CASE("Bad fluctuations and a weight that does nothing are refused with key 
         }
         CHECK(found);
     }
+    CHECK_THROWS_WITH(Scene(study_of(kQuasiStaticStudy, {"operation.torque_noise=0.1",
+                                                         "operation.torque_noise_band_Hz=1e7"})),
+                      Catch::Contains("cannot show what fluctuates fastest"));
     for (const BadScene& bad : kBadScenes) {
         const Study study = study_of(kExampleStudy, with(kFast, bad.overrides));
         CAPTURE(bad.key, bad.words);
@@ -216,6 +220,28 @@ TEST_CASE("Without inertia the transmission error follows the torque from mesh t
         }
     }
     CHECK(worst < 1e-9);
+}
+
+TEST_CASE("Simulated samples lie at the times at which the phase passes them") {
+    // 15.39 meshes are a turn of the sun: the speed varies once a mesh period, which then takes
+    // T times the mean of 1 / (1 + A sin), 1 / sqrt(1 - A^2).
+    const Study study = study_of(
+        kExampleStudy,
+        with(kFast, {"operation.speed_fluctuation=0.2", "operation.speed_fluctuation_order=15.39",
+                     "features.use=[\"te_rms\"]", "fault.kind=none"}));
+    const Scene scene(study);
+    const Simulation out = simulate(scene, {Group::graded, 0}, 12);
+    const auto samples = static_cast<std::size_t>(scene.samples_per_mesh());
+    REQUIRE(out.columns[0].name == "time");
+    const double period = 1.0 / scene.nominal_mesh_frequency_Hz();
+    for (const std::size_t mesh : {1U, 5U, 11U}) {
+        CHECK(out.columns[0].values[mesh * samples] ==
+              Approx(static_cast<double>(mesh) * period / std::sqrt(1.0 - 0.04)).epsilon(1e-9));
+    }
+    // The speed is highest a quarter of the mesh period after its beginning.
+    const auto& time = out.columns[0].values;
+    CHECK(time[samples / 4 + 1] - time[samples / 4] ==
+          Approx(period / static_cast<double>(samples) / 1.2).epsilon(0.02));
 }
 
 TEST_CASE("Fluctuations and weight give the same bits in 1, 4 and 8 lanes, beside any neighbours") {
