@@ -151,7 +151,7 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     if (given > 0 && given < least) {
         throw SceneError(
             "numerics.steps_per_mesh",
-            fmt::format("{} steps are too few (below {} {} is unstable for this study's stiffest "
+            fmt::format("{} steps are too few (below {}, {} is unstable for this study's stiffest "
                         "gearbox, or its sensor's low-pass inaccurate)",
                         given, least, name(integrator)),
             "leave the key out to have the steps chosen");

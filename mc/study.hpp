@@ -26,7 +26,15 @@ using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
-enum class Integrator { automatic, rk4, newmark, sdirk3, generalized_alpha, bs3, central_difference };
+enum class Integrator {
+    automatic,
+    rk4,
+    newmark,
+    sdirk3,
+    generalized_alpha,
+    bs3,
+    central_difference
+};
 enum class Precision { double_precision, single_precision };
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };

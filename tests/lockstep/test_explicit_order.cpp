@@ -47,6 +47,10 @@ double largest_difference(const machine::AlignedVector& a, const machine::Aligne
     return largest;
 }
 
+double largest(const machine::AlignedVector& a) {
+    return largest_difference(a, machine::AlignedVector(a.size(), 0.0));
+}
+
 // Slope of log error over log step, by least squares.
 double slope(const std::vector<double>& steps, const std::vector<double>& errors) {
     double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
@@ -144,6 +148,34 @@ TEST_CASE(
                     CHECK(slope(counts, errors) > 0.3);
                 }
             }
+        }
+    }
+}
+
+TEST_CASE("A step of next to no length leaves an explicit march as it is") {
+    const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
+    const TileState rest = rest_state(liang_plan(1200, Integrator::rk4, true), std::span(&in, 1));
+    for (const Integrator integrator : kExplicit) {
+        const MarchPlan plan = liang_plan(1200, integrator, true);
+        MarchPlan cut = plan;
+        std::vector<double> transitions = contact_transitions(LiangTrain::instance().pairs);
+        transitions.push_back(0.3 + 1e-11);  // just after a node
+        cut.grid = make_phase_grid(24, 1200, transitions);
+        cut.grid.stage_nodes = stage_nodes(integrator);
+        cut.nodes = tabulate(LiangTrain::instance().pairs, cut.grid, dynamics::MeshDamping::ratio);
+        REQUIRE(cut.grid.steps.size() == plan.grid.steps.size() + 1);
+        for (const Precision precision :
+             {Precision::double_precision, Precision::single_precision}) {
+            if (precision == Precision::single_precision && !marches_singles(integrator)) {
+                continue;
+            }
+            MarchPlan whole = plan;
+            whole.precision = cut.precision = precision;
+            const Marched a = march(whole, in, rest, 2), b = march(cut, in, rest, 2);
+            INFO(name(integrator) << (precision == Precision::single_precision ? " single" : ""));
+            CHECK(largest_difference(a.state.q, b.state.q) < 1e-5 * largest(a.state.q));
+            CHECK(largest_difference(a.record.acceleration, b.record.acceleration) <
+                  1e-4 * largest(a.record.acceleration));
         }
     }
 }
