@@ -78,6 +78,7 @@ struct CentralDifference {
             const bool stops = last || next.sample >= 0;
             const Real further = stops ? Real(0) : static_cast<Real>(0.5 * next.length);
             const Real ratio = static_cast<Real>(plan.grid.steps[now].length / next.length);
+#pragma omp simd
             for (int l = 0; l < W; ++l) {
                 drift[l] = std::fma(further, period[l], half[l]);
                 reach[l] = ratio * half[l];
