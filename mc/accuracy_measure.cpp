@@ -127,8 +127,8 @@ class Measurement {
     void settle_loosely() {
         std::vector<Rung> tight;
         for (const RungResult& result : report_.rungs) {
-            if (near_frontier(result) && result.rung.integrator != "auto" &&
-                !marches_everything(result.rung)) {
+            if (result.refusal.empty() && near_frontier(result) &&
+                result.rung.integrator != "auto" && !marches_everything(result.rung)) {
                 tight.push_back(result.rung);
             }
         }

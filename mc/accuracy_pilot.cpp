@@ -110,6 +110,18 @@ Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
     : ids_(std::move(ids)), sampler_(scene.study()), path_(path_grid(scene)) {}
 
 PilotRecord Pilot::run(const Scene& scene) const {
+    return record(scene, [&](std::span<const GearboxId> some) {
+        return run_gearboxes(scene, sampler_, path_, some, lockstep::kPilotLanes);
+    });
+}
+
+PilotRecord Pilot::of_march(const Scene& scene, const March& march) const {
+    return record(scene, [&](std::span<const GearboxId> some) {
+        return tile_of_march(scene, sampler_, path_, some, march(some));
+    });
+}
+
+PilotRecord Pilot::record(const Scene& scene, const Tile& tile_of) const {
     PilotRecord record;
     record.features_used = static_cast<int>(scene.study().features.use.size());
     record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
@@ -122,7 +134,7 @@ PilotRecord Pilot::run(const Scene& scene) const {
     for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
         const auto some = std::span(ids_).subspan(
             first, std::min<std::size_t>(lockstep::kPilotLanes, ids_.size() - first));
-        const GearboxTile tile = run_gearboxes(scene, sampler_, path_, some, lockstep::kPilotLanes);
+        const GearboxTile tile = tile_of(some);
         record.tile_meshes += tile.march.marched;
         record.march_s += tile.march_cpu_s;
         for (std::size_t g = 0; g < some.size(); ++g) {

@@ -2,8 +2,11 @@
 // sampling grid are the same whatever computes them, so all that differs is numerical.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "mc/gearbox_tile.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
 #include "signals/transmission_path.hpp"
@@ -43,8 +46,14 @@ class Pilot {
     std::size_t size() const { return ids_.size(); }
     // `scene`: of the same study but for its numerics.
     PilotRecord run(const Scene& scene) const;
+    // What another program's march of them gives; one tile of eight lanes at a time.
+    using March = std::function<lockstep::TileResult(std::span<const GearboxId>)>;
+    PilotRecord of_march(const Scene& scene, const March& march) const;
 
   private:
+    using Tile = std::function<GearboxTile(std::span<const GearboxId>)>;
+    PilotRecord record(const Scene& scene, const Tile& tile_of) const;
+
     std::vector<GearboxId> ids_;
     Sampler sampler_;
     signals::PathGrid path_;

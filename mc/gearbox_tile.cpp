@@ -120,9 +120,9 @@ signals::PathGrid path_grid(const Scene& scene) {
             sense};
 }
 
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int lanes, bool with_motion,
-                          const MarchCache* marches) {
+namespace {
+
+GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
     auto start = Clock::now();
     GearboxTile tile;
     for (const GearboxId& id : ids) {
@@ -130,23 +130,21 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     }
     tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
     tile.sampling_s = lap(start);
-    const MarchCache* const kept = with_motion ? nullptr : marches;
-    if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
-        tile.march = *before;
-        tile.march_s = lap(start);
-    } else {
-        march(scene, ids, lanes, with_motion, tile);
-        if (kept != nullptr) {
-            kept->keep(tile.inputs, tile.march);
-        }
-    }
+    return tile;
+}
 
+// What the sensors see of a tile that has been marched.
+void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 GearboxTile& tile) {
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
-
-    start = Clock::now();
-    tile.views = {lanes, dynamics::sources(scene.plan().layout), scene.samples_per_mesh(), {}, {}};
+    auto start = Clock::now();
+    tile.views = {static_cast<int>(tile.inputs.size()),
+                  dynamics::sources(scene.plan().layout),
+                  scene.samples_per_mesh(),
+                  {},
+                  {}};
     for (const lockstep::MeshRecord& record : tile.march.records) {
         tile.views.accel.push_back(record.acceleration.data());
         tile.views.te.push_back(record.te.data());
@@ -164,6 +162,34 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
                         tile.te_turn);
     tile.signals_s = lap(start);
+}
+
+}  // namespace
+
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int lanes, bool with_motion,
+                          const MarchCache* marches) {
+    GearboxTile tile = sampled_tile(sampler, ids, lanes);
+    const MarchCache* const kept = with_motion ? nullptr : marches;
+    auto start = Clock::now();
+    if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
+        tile.march = *before;
+        tile.march_s = lap(start);
+    } else {
+        march(scene, ids, lanes, with_motion, tile);
+        if (kept != nullptr) {
+            kept->keep(tile.inputs, tile.march);
+        }
+    }
+    add_signals(scene, path, ids, tile);
+    return tile;
+}
+
+GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult march) {
+    GearboxTile tile = sampled_tile(sampler, ids, static_cast<int>(march.status.size()));
+    tile.march = std::move(march);
+    add_signals(scene, path, ids, tile);
     return tile;
 }
 

@@ -39,6 +39,10 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           std::span<const GearboxId> ids, int lanes, bool with_motion = false,
                           const MarchCache* marches = nullptr);
 
+// The same from a march made elsewhere, of as many lanes as it has a status.
+GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult march);
+
 // One lane of a tile.
 struct LaneSignals {
     std::vector<double> folded;   // as GearboxTile::folded
