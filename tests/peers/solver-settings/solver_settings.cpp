@@ -193,7 +193,7 @@ void grade(const mc::Study& study, const std::vector<std::string>& arguments) {
         const Signals signals = read_signals(scene, argument);
         const mc::PilotRecord record = pilot.of_march(scene, [&](auto) { return signals.tile; });
         const mc::PilotError error = mc::pilot_error(record, reference.record);
-        fmt::print("{},see tests/peers/solver-settings/README.md,{:.4g},{:.4g},{:.3g},{:.3g}",
+        fmt::print("\"{}\",see tests/peers/solver-settings/README.md,{:.4g},{:.4g},{:.3g},{:.3g}",
                    signals.name, signals.march_s, signals.mesh_s, error.sensor, error.te);
         for (int f = 0; f < record.features_used; ++f) {
             fmt::print(",{:.3g}", error.feature(f, record.levels));
