@@ -34,7 +34,6 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
     settings.run_in_meshes = run_in_meshes(scene);
     settings.with_motion = with_motion;
-    settings.parts = scene.parts();
     return settings;
 }
 

@@ -16,9 +16,6 @@ namespace {
 
 using std::numbers::pi;
 
-// Of a mesh period, between which a march may stop.
-constexpr int kParts = 8;
-
 const Study& with_gears(const Study& study) {
     if (!has_gears(study)) {
         throw std::invalid_argument("a scene needs tooth numbers and a module");
@@ -136,10 +133,6 @@ void Scene::build_plan() {
     calibration_ = chosen.calibration;
     plan_ = plan_of(std::move(chosen.grid));
     check_driving(study_, *drive_, plan_);
-    parts_.clear();
-    if (!study_.effects.quasi_static()) {
-        parts_ = lockstep::mesh_parts(plan_, kParts);
-    }
     if (pitch_errors()) {
         load_shares_ = std::make_unique<const lockstep::LoadShares>(pairs_, plan_.grid);
     }

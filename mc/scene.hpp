@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lockstep/march.hpp"
-#include "lockstep/mesh_parts.hpp"
 #include "lockstep/tooth_errors.hpp"
 #include "lockstep/transmission_error.hpp"
 #include "mc/drive.hpp"
@@ -41,8 +40,6 @@ class Scene {
     const lockstep::PairSet& pairs() const { return pairs_; }
     const SceneFault& fault() const { return *fault_; }
     const lockstep::MarchPlan& plan() const { return plan_; }
-    // Where a march may stop; empty for a gearbox without inertia.
-    const std::vector<lockstep::MeshPart>& parts() const { return parts_; }
     const lockstep::FaultPattern& pattern() const { return fault_->pattern(); }
     // The pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
@@ -107,7 +104,6 @@ class Scene {
     lockstep::PairSet pairs_;
     std::optional<const SceneFault> fault_;
     lockstep::MarchPlan plan_;
-    std::vector<lockstep::MeshPart> parts_;
     std::unique_ptr<const lockstep::LoadShares> load_shares_;
     Stepping stepping_;
     std::optional<Calibration> calibration_;

@@ -98,11 +98,7 @@ class KernelMarch final : public MeshMarch<W> {
 
     void operator()(const std::vector<PairOverride>& overrides, TileState& state,
                     MeshRecord& record) const override {
-        march_part(plan_, overrides, state, record);
-    }
-    void march_part(const MarchPlan& part, const std::vector<PairOverride>& overrides,
-                    TileState& state, MeshRecord& record) const override {
-        kernel_(part, lanes_, filter_, overrides, state, record);
+        kernel_(plan_, lanes_, filter_, overrides, state, record);
     }
 
   private:

@@ -19,9 +19,6 @@ class MeshMarch {
     // `record` must have its sizes (make_record).
     virtual void operator()(const std::vector<PairOverride>& overrides, TileState& state,
                             MeshRecord& record) const = 0;
-    // The same through the steps of `part` (mesh_parts.hpp), in which the overrides count steps.
-    virtual void march_part(const MarchPlan& part, const std::vector<PairOverride>& overrides,
-                            TileState& state, MeshRecord& record) const = 0;
 };
 
 // The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W

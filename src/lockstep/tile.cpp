@@ -32,17 +32,6 @@ void fill_lane(machine::AlignedVector& values, int lane, double value) {
     }
 }
 
-// The rows of one lane in [first, last) of all rows.
-template <int W>
-void copy_lane(const machine::AlignedVector& from, machine::AlignedVector& to, int lane, int first,
-               int last) {
-    const auto end = static_cast<std::size_t>(last) * W;
-    for (std::size_t i = static_cast<std::size_t>(first) * W + static_cast<std::size_t>(lane);
-         i < end; i += W) {
-        to[i] = from[i];
-    }
-}
-
 template <int W>
 double largest(const machine::AlignedVector& values, int lane) {
     double result = 0.0;
@@ -71,8 +60,6 @@ class TileMarch {
           faults_(faults),
           schedule_(plan, faults),
           settings_(settings),
-          whole_(in_parts(settings) ? std::vector<MeshPart>{} : mesh_parts(plan, 1)),
-          parts_(in_parts(settings) ? settings.parts : std::span<const MeshPart>(whole_)),
           march_mesh_(make_mesh_march<W>(plan, inputs)),
           driven_(make_driven(plan, inputs, settings.excitation)),
           rotation_(plan.layout, inputs),
@@ -96,11 +83,6 @@ class TileMarch {
                result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
     }
 
-    // What drives gearboxes unevenly drives them a mesh period at a time.
-    static bool in_parts(const TileSettings& settings) {
-        return !settings.parts.empty() && settings.excitation == nullptr;
-    }
-
     static std::unique_ptr<DrivenMarch<W>> make_driven(
         const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
         const Excitation* excitation) {
@@ -121,34 +103,30 @@ class TileMarch {
         } else {
             (*march_mesh_)(overrides, state_, record);
         }
-        result_.marched += 1.0;
-        rotation_.remove(state_);
+        after_mesh();
     }
 
-    // A part of a mesh period that is like all others.
-    void march_part(const MeshPart& part, const std::vector<PairOverride>& overrides,
-                    MeshRecord& record) {
+    // A healthy mesh period that is like all others.
+    void march_settling(MeshRecord& record) {
         if (driven_ != nullptr && settings_.excitation->repeats()) {
-            march(0, overrides, record);  // the part is all of it
-            return;
+            (*driven_)(0, {}, state_, record);
+        } else {
+            (*march_mesh_)({}, state_, record);
         }
-        march_mesh_->march_part(part.plan, overrides, state_, record);
-        result_.marched += static_cast<double>(part.last_step - part.first_step) /
-                           static_cast<double>(plan_.grid.steps.size());
+        after_mesh();
+    }
+
+    void after_mesh() {
+        ++result_.marched;
         rotation_.remove(state_);
     }
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
 
-    void copy_part_lane(const MeshPart& part, const MeshRecord& from, MeshRecord& to,
-                        int lane) const {
-        const auto copy = [&](const machine::AlignedVector& a, machine::AlignedVector& b) {
-            const int rows = static_cast<int>(a.size()) / (W * plan_.grid.samples);
-            copy_lane<W>(a, b, lane, part.first_sample * rows, part.last_sample * rows);
-        };
-        copy(from.acceleration, to.acceleration);
-        copy(from.te, to.te);
-        copy(from.motion, to.motion);
+    void copy_record_lane(const MeshRecord& from, MeshRecord& to, int lane) const {
+        copy_lane<W>(from.acceleration, to.acceleration, lane);
+        copy_lane<W>(from.te, to.te, lane);
+        copy_lane<W>(from.motion, to.motion, lane);
     }
 
     static void copy_state_lane(const TileState& from, TileState& to, int lane) {
@@ -157,26 +135,15 @@ class TileMarch {
         copy_lane<W>(from.filter, to.filter, lane);
     }
 
-    // Of a part's recorded accelerations in one lane.
-    double largest_acceleration(const MeshPart& part, const MeshRecord& record, int lane) const {
-        double result = 0.0;
-        const auto row = static_cast<std::size_t>(plan_.channels()) * W;
-        for (std::size_t i =
-                 static_cast<std::size_t>(part.first_sample) * row + static_cast<std::size_t>(lane);
-             i < static_cast<std::size_t>(part.last_sample) * row; i += W) {
-            const double value = record.acceleration[i];
-            result = std::isfinite(value) ? std::max(result, std::abs(value)) : INFINITY;
-        }
-        return result;
-    }
-
     // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
     // edge, filtered accelerations against the largest recorded one.
-    double distance(const TileState& a, const TileState& b, double recorded, int lane) const {
+    double distance(const TileState& a, const TileState& b, const MeshRecord& record,
+                    int lane) const {
         const double scale = largest<W>(b.q, lane);
         // Where the sensor sees next to nothing, rounding must not count as motion.
         const double acceleration =
-            std::max(recorded, 0.01 * scale * plan_.low_pass_rad_s * plan_.low_pass_rad_s);
+            std::max(largest<W>(record.acceleration, lane),
+                     0.01 * scale * plan_.low_pass_rad_s * plan_.low_pass_rad_s);
         const double dq = largest_difference<W>(a.q, b.q, lane);
         const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
         double df = 0.0;
@@ -202,11 +169,9 @@ class TileMarch {
             fill_lane<W>(record.te, lane, NAN);
             fill_lane<W>(record.motion, lane, NAN);
         }
-        for (TileState& orbit : orbit_) {
-            fill_lane<W>(orbit.q, lane, 0.0);
-            fill_lane<W>(orbit.v, lane, 0.0);
-            fill_lane<W>(orbit.filter, lane, 0.0);
-        }
+        fill_lane<W>(orbit_.q, lane, 0.0);
+        fill_lane<W>(orbit_.v, lane, 0.0);
+        fill_lane<W>(orbit_.filter, lane, 0.0);
     }
 
     // Lanes that did not get back to their orbit in the mesh periods they had.
@@ -218,34 +183,33 @@ class TileMarch {
         }
     }
 
-    // Marches until every lane's state repeats the one a mesh period before, and keeps that mesh
-    // period, wherever it began.
+    // Marches until every lane's mesh period repeats the one before, and keeps that one.
     void settle() {
-        const std::size_t parts = parts_.size();
         result_.records.push_back(new_record());
-        orbit_.assign(parts, state_);
-        recorded_.assign(parts, {});
+        orbit_ = state_;
         MeshRecord record = new_record();
         std::array<bool, W> settled{};
-        const std::size_t most = static_cast<std::size_t>(settings_.max_meshes) * parts;
-        for (std::size_t at = 0; at <= most; ++at) {
-            const std::size_t p = at % parts;
-            const bool waiting = compare_with_orbit(p, at >= parts, settled);
-            if (!waiting || at == most) {
-                break;
-            }
-            march_part(parts_[p], {}, record);
+        for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
+            const TileState before = state_;
+            march_settling(record);
+            bool waiting = false;
             for (int l = 0; l < W; ++l) {
                 if (settled[static_cast<std::size_t>(l)]) {
                     continue;
                 }
-                copy_part_lane(parts_[p], record, result_.records[0], l);
-                recorded_[p][static_cast<std::size_t>(l)] =
-                    largest_acceleration(parts_[p], record, l);
-                if (diverged(l)) {
+                copy_record_lane(record, result_.records[0], l);
+                copy_state_lane(state_, orbit_, l);
+                const bool lost = diverged(l);
+                if (lost) {
                     retire(l);
-                    settled[static_cast<std::size_t>(l)] = true;
                 }
+                const bool done =
+                    lost || distance(state_, before, record, l) <= settings_.tolerance;
+                settled[static_cast<std::size_t>(l)] = done;
+                waiting = waiting || !done;
+            }
+            if (!waiting) {
+                break;
             }
         }
         // Teeth that separate may move without ever repeating; marched mesh by mesh they need not.
@@ -254,104 +218,48 @@ class TileMarch {
         if (!may_wander) {
             mark_unsettled(settled);
         }
-        state_ = orbit_[0];
+        state_ = orbit_;
     }
 
-    // Before part `p`: lanes whose state is what it was a mesh period ago have settled; it becomes
-    // the orbit of all that had not. Whether any is still to settle.
-    bool compare_with_orbit(std::size_t p, bool period_before, std::array<bool, W>& settled) {
-        bool waiting = false;
-        for (int l = 0; l < W; ++l) {
-            bool& done = settled[static_cast<std::size_t>(l)];
-            if (done) {
-                continue;
-            }
-            done =
-                period_before && distance(state_, orbit_[p], recorded(l), l) <= settings_.tolerance;
-            copy_state_lane(state_, orbit_[p], l);
-            waiting = waiting || !done;
-        }
-        return waiting;
-    }
-
-    // Largest acceleration of a lane's orbit.
-    double recorded(int lane) const {
-        double result = 0.0;
-        for (const auto& part : recorded_) {
-            result = std::max(result, part[static_cast<std::size_t>(lane)]);
-        }
-        return result;
-    }
-
-    // One part of a mesh of the pattern: quiet lanes stay on their orbit, the others march.
-    // `passages` counts its steps; `id` is the mesh's record, or 0.
-    void march_pattern_part(std::size_t p, const std::vector<PairOverride>& passages,
-                            bool continues, std::array<bool, W>& quiet,
-                            const std::array<bool, W>& finished, int& id) {
-        const MeshPart& part = parts_[p];
-        const int steps = part.last_step - part.first_step;
-        const bool passing = std::any_of(
-            passages.begin(), passages.end(),
-            [&](const PairOverride& o) { return o.first_step < steps && o.last_step > 0; });
+    // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
+    void march_pattern_mesh(int k, std::array<bool, W>& quiet,
+                            const std::array<bool, W>& finished) {
+        const std::vector<PairOverride> passages = schedule_.overrides(k);
         bool any = false;
         for (int l = 0; l < W; ++l) {
             auto& q = quiet[static_cast<std::size_t>(l)];
-            q = q && (!passing || !faulty(l));
-            const bool open = !finished[static_cast<std::size_t>(l)];
-            any = any || (!q && open);
-            if (q && open && id != 0) {  // a disturbance of the pass before may stand there
-                copy_part_lane(part, result_.records[0],
-                               result_.records[static_cast<std::size_t>(id)], l);
-            }
+            q = q && (passages.empty() || !faulty(l));
+            any = any || (!q && !finished[static_cast<std::size_t>(l)]);
         }
         if (!any) {
             return;
         }
+        MeshRecord record = new_record();
+        march(0, passages, record);
+        int& id = result_.content[static_cast<std::size_t>(k)];
         if (id == 0) {
             id = static_cast<int>(result_.records.size());
             result_.records.push_back(result_.records[0]);
         }
         for (int l = 0; l < W; ++l) {
-            if (quiet[static_cast<std::size_t>(l)]) {
-                copy_state_lane(orbit_[p], state_, l);
-            }
-        }
-        march_part(part, passages, record_);
-        const TileState& orbit = orbit_[(p + 1) % parts_.size()];
-        for (int l = 0; l < W; ++l) {
             auto& q = quiet[static_cast<std::size_t>(l)];
-            if (q || finished[static_cast<std::size_t>(l)]) {
+            if (q) {
+                copy_state_lane(orbit_, state_, l);
                 continue;
             }
-            copy_part_lane(part, record_, result_.records[static_cast<std::size_t>(id)], l);
+            if (finished[static_cast<std::size_t>(l)]) {
+                continue;
+            }
+            copy_record_lane(record, result_.records[static_cast<std::size_t>(id)], l);
             if (diverged(l)) {
                 retire(l);
                 q = true;
-            } else {
-                q = !continues && distance(state_, orbit, recorded(l), l) <= settings_.tolerance;
+            } else if (!schedule_.continues_after(k) &&
+                       distance(state_, orbit_, result_.records[0], l) <= settings_.tolerance) {
+                q = true;
             }
             if (q) {
-                copy_state_lane(orbit, state_, l);
-            }
-        }
-    }
-
-    void march_pattern_mesh(int k, std::array<bool, W>& quiet,
-                            const std::array<bool, W>& finished) {
-        std::vector<PairOverride> passages = schedule_.overrides(k);
-        for (std::size_t p = 0; p < parts_.size(); ++p) {
-            const int steps = parts_[p].last_step - parts_[p].first_step;
-            const bool continues =
-                p + 1 == parts_.size()
-                    ? schedule_.continues_after(k)
-                    : std::any_of(passages.begin(), passages.end(), [&](const PairOverride& o) {
-                          return o.first_step < steps && o.last_step > steps;
-                      });
-            march_pattern_part(p, passages, continues, quiet, finished,
-                               result_.content[static_cast<std::size_t>(k)]);
-            for (PairOverride& o : passages) {
-                o.first_step -= steps;
-                o.last_step -= steps;
+                copy_state_lane(orbit_, state_, l);
             }
         }
     }
@@ -361,7 +269,6 @@ class TileMarch {
     void march_pattern() {
         const int length = faults_.pattern.length;
         result_.content.assign(static_cast<std::size_t>(length), 0);
-        record_ = new_record();
         std::array<bool, W> quiet;
         std::array<bool, W> finished;
         for (int l = 0; l < W; ++l) {
@@ -378,7 +285,7 @@ class TileMarch {
             for (int l = 0; l < W; ++l) {
                 auto& done = finished[static_cast<std::size_t>(l)];
                 done = done || quiet[static_cast<std::size_t>(l)] ||
-                       distance(state_, before, recorded(l), l) <= settings_.tolerance;
+                       distance(state_, before, result_.records[0], l) <= settings_.tolerance;
                 waiting = waiting || !done;
             }
             if (!waiting) {
@@ -410,15 +317,11 @@ class TileMarch {
     const FaultCurves& faults_;
     const FaultSchedule schedule_;
     const TileSettings& settings_;
-    const std::vector<MeshPart> whole_;
-    const std::span<const MeshPart> parts_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
     const RigidRotation rotation_;
     TileState state_;
-    std::vector<TileState> orbit_;                 // the healthy orbit where each part begins
-    std::vector<std::array<double, W>> recorded_;  // largest acceleration in each of its parts
-    MeshRecord record_;                            // what is being marched of the pattern
+    TileState orbit_;  // the healthy orbit at an integer phase
     TileResult result_;
 };
 

@@ -4,7 +4,6 @@
 // A linear train under steady load and speed settles on an orbit that repeats every mesh period. A
 // faulty tooth disturbs it and the disturbance decays. So a few recorded mesh periods, arranged by
 // `Pattern`, stand for the Z_p Z_r meshes that windowing looks at. Horizon::march marches them all.
-// What is marched begins and ends with a part of a mesh period (mesh_parts.hpp).
 #pragma once
 
 #include <span>
@@ -13,7 +12,6 @@
 #include "lockstep/excitation.hpp"
 #include "lockstep/fault_schedule.hpp"
 #include "lockstep/march.hpp"
-#include "lockstep/mesh_parts.hpp"
 
 namespace gearpod::lockstep {
 
@@ -27,8 +25,6 @@ struct TileSettings {
     // orbit to start from; the tile starts from the one without.
     int run_in_meshes = 0;
     bool with_motion = false;
-    // Of the plan: where the march may stop. Empty: only at integer phases.
-    std::span<const MeshPart> parts = {};
     // What drives these gearboxes unevenly, or null. One that does not repeat every mesh period
     // needs march_meshes.
     const Excitation* excitation = nullptr;
@@ -39,7 +35,7 @@ struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()
     std::vector<LaneStatus> status;  // per lane
-    double marched = 0.0;            // mesh periods that the tile marched in all
+    int marched = 0;                 // mesh periods that the tile marched in all
 };
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
