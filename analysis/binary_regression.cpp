@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "analysis/link_block.hpp"
+
 namespace gearpod::analysis {
 namespace {
 
@@ -23,16 +25,19 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
     const double rise = model.ceiling - model.floor;
     Eigen::VectorXd left(eta.size()), weight(eta.size());
     Slopes slopes;
-    for (Eigen::Index i = 0; i < eta.size(); ++i) {
-        const LinkValues link = link_values(model.link, eta[i]);
-        const double hit = model.floor + rise * link.up;
-        const double miss = (1.0 - model.ceiling) + rise * link.down;
-        const bool is_yes = yes[static_cast<std::size_t>(i)] != 0;
-        slopes.log_likelihood += std::log(is_yes ? hit : miss);
-        const double by_eta = rise * link.density;
-        const bool flat = hit * miss < kTiny;
-        left[i] = flat ? 0.0 : by_eta * (is_yes ? 1.0 / hit : -1.0 / miss);
-        weight[i] = flat ? 0.0 : by_eta * by_eta / (hit * miss);
+    for (Eigen::Index first = 0; first < eta.size(); first += kBlock) {
+        const Eigen::Index count = std::min(kBlock, eta.size() - first);
+        const LinkBlock link(model.link, eta.segment(first, count).array());
+        const Block hit = model.floor + rise * link.up;
+        const Block miss = (1.0 - model.ceiling) + rise * link.down;
+        const auto yes_here = Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(
+                                  yes.data() + first, count) != char{0};
+        slopes.log_likelihood += block_log(yes_here.select(hit, miss)).sum();
+        const Block by_eta = rise * link.density;
+        const Block both = hit * miss;
+        const Block inverse = (both < kTiny).select(0.0, 1.0 / both.max(kTiny));
+        left.segment(first, count) = by_eta * inverse * yes_here.select(miss, -hit);
+        weight.segment(first, count) = by_eta.square() * inverse;
     }
     Eigen::VectorXd penalty = Eigen::VectorXd::Constant(b.size(), model.ridge);
     penalty[0] = 0.0;
@@ -47,7 +52,7 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
 // reach.
 bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
             Eigen::VectorXd& b, Slopes& here) {
-    constexpr int kMostSteps = 60;
+    constexpr int kMostSteps = 200;
     constexpr double kConverged = 1e-10;  // of the log likelihood
     constexpr double kFarthest = 1e3;     // coefficients of covariates of order 1
     for (int step = 0; step < kMostSteps; ++step) {
@@ -79,7 +84,7 @@ bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const Bina
 }  // namespace
 
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
-                     const BinaryModel& model) {
+                     const BinaryModel& model, const Eigen::VectorXd& start) {
     if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
         throw std::invalid_argument("binary regression: a row of the design for each outcome");
     }
@@ -95,6 +100,7 @@ BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
         std::clamp((hits / count - model.floor) / (model.ceiling - model.floor), 0.01, 0.99);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(design.cols());
     b[0] = link_quantile(model.link, share);
+    b.head(start.size()) = start;
     Slopes here = evaluate(design, yes, model, b);
     if (!ascend(design, yes, model, b, here)) {
         fit.refusal = "the likelihood has no maximum within reach";

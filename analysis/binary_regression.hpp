@@ -27,8 +27,9 @@ struct BinaryFit {
     std::string refusal;          // why there is no fit, else empty
 };
 
-// `design`: outcomes x coefficients, its first column 1; the others should be of order 1.
+// `design`: outcomes x coefficients, its first column 1; the others should be of order 1. `start`:
+// the first coefficients of a fit with fewer, to set out from.
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
-                     const BinaryModel& model);
+                     const BinaryModel& model, const Eigen::VectorXd& start = {});
 
 }  // namespace gearpod::analysis

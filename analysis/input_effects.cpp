@@ -203,7 +203,8 @@ void fit_input(InputEffect& effect, const std::vector<double>& values, const Out
         Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
     const int powers = effect.values.size() > 2 ? 2 : 1;
     CovariateCurve curve{pod.chosen.curve.form, Scale(x), Scale(z), {}, 0.0};
-    curve.fit = fit_binary(design_of(x, curve.size, z, curve.input, powers), outcomes.hits, model);
+    curve.fit = fit_binary(design_of(x, curve.size, z, curve.input, powers), outcomes.hits, model,
+                           without.coefficients);
     effect.refusal = curve.fit.refusal;
     if (!effect.refusal.empty()) {
         return;

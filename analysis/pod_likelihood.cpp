@@ -4,41 +4,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
+
+#include "analysis/link_block.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
 constexpr double kTiny = 1e-290;
-constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr double kInTransition = 1e-6;
 // Half a cell of sizes in units of eta, at most: the singularities of the links nearest to the real
 // axis are pi away for the logit, about 2 with a usual floor for the probit.
 constexpr double kHalfCellLogit = 2.0, kHalfCellProbit = 1.0;
 
-constexpr Eigen::Index kBlock = 128;  // arrays of a block stay on the stack
-using Block = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kBlock, 1>;
+// Where the curve is as flat as doubles tell, in its own probability's share.
+constexpr double kFlat = 1e-17;
 
-// link_values() of many; Eigen's exponential has the same bits on every processor, too.
-struct LinkBlock {
-    Block up, down, density;
+// eta from -low to high; beyond them the probability of this outcome is constant. Infinite where
+// that is 0 and its logarithm goes on.
+struct Transition {
+    double low = 0.0, high = 0.0;
 
-    LinkBlock(Link link, const Block& eta) {
-        Block small;
-        if (link == Link::logit) {
-            const Block e = (-eta.abs()).exp();
-            small = e / (1.0 + e);
-            density = small / (1.0 + e);
-        } else {
-            small = eta.unaryExpr(
-                [](double at) { return 0.5 * std::erfc(std::abs(at) / std::numbers::sqrt2); });
-            density =
-                (-0.5 * eta.square()).exp() * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
-        }
-        up = (eta > 0.0).select(1.0 - small, small);
-        down = (eta > 0.0).select(small, 1.0 - small);
-    }
+    Transition(Link link, double at_floor, double at_ceiling, double rise)
+        : low(-link_quantile(link, std::min(0.5, kFlat * at_floor / rise))),
+          high(-link_quantile(link, std::min(0.5, kFlat * at_ceiling / rise))) {}
 };
 
 }  // namespace
@@ -74,15 +63,11 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
     Slopes slopes;
     double s0 = 0.0, s1 = 0.0, s2 = 0.0;
     double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
-    const auto add = [&](Eigen::Index first, Eigen::Index count, bool detected) {
-        const auto u = nodes.u.segment(first, count);
-        const auto weight = nodes.weight.segment(first, count);
+    const auto add = [&](const Block& u, const Block& weight, bool detected) {
         const LinkBlock link(form_.link, parameters[0] + parameters[1] * u);
         const Block hit = floor + rise * link.up;
         const Block miss = (1.0 - ceiling) + rise * link.down;
-        // Eigen takes many logarithms at once only in an array of their own. Held off 0.
-        const Block logs = (detected ? hit : miss).max(kLeast).log();
-        slopes.value += (weight * logs).sum();
+        slopes.value += (weight * block_log(detected ? hit : miss)).sum();
         const Block both = hit * miss;
         const Block bend = (both < kTiny).select(0.0, weight / both.max(kTiny));
         const Block left = detected ? Block(bend * miss) : Block(-bend * hit);
@@ -103,12 +88,32 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
             i22 += (bend_ceiling * link.up).sum();
         }
     };
-    const Eigen::Index ends[] = {nodes.hits, nodes.u.size()};
-    for (Eigen::Index first = 0, kind = 0; kind < 2; ++kind) {
-        for (; first < ends[kind]; first += std::min(kBlock, ends[kind] - first)) {
-            add(first, std::min(kBlock, ends[kind] - first), kind == 0);
+    const auto add_all = [&](Eigen::Index first, Eigen::Index last, bool detected) {
+        const Transition flat = detected ? Transition(form_.link, floor, ceiling, rise)
+                                         : Transition(form_.link, 1.0 - floor, 1.0 - ceiling, rise);
+        const double low = (-flat.low - parameters[0]) / parameters[1];
+        const double high = (flat.high - parameters[0]) / parameters[1];
+        const double* const begin = nodes.u.data();
+        const Eigen::Index from =
+            std::lower_bound(begin + first, begin + last, std::min(low, high)) - begin;
+        const Eigen::Index to =
+            std::lower_bound(begin + from, begin + last, std::max(low, high)) - begin;
+        for (Eigen::Index at = from; at < to; at += kBlock) {
+            const Eigen::Index count = std::min(kBlock, to - at);
+            add(nodes.u.segment(at, count), nodes.weight.segment(at, count), detected);
         }
-    }
+        // Where the curve is flat one size stands for all.
+        const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index at) {
+            if (end > start) {
+                const double weight = nodes.weight.segment(start, end - start).sum();
+                add(Block::Constant(1, nodes.u[at]), Block::Constant(1, weight), detected);
+            }
+        };
+        add_flat(first, from, from - 1);
+        add_flat(to, last, to);
+    };
+    add_all(0, nodes.hits, true);
+    add_all(nodes.hits, nodes.u.size(), false);
     slopes.score = {s0, s1, s2};
     slopes.information << i00, i01, i02, i01, i11, i12, i02, i12, i22;
     if (through && !form_.free_ceiling) {  // eta there is given
@@ -233,6 +238,7 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
     constexpr double kOnContour = 1e-2;  // of the log likelihood
     const double floor = form_.floor;
     Parameters parameters = start;
+    bool held = !form_.free_ceiling;  // the ceiling
     for (int step = 0; step < kMostSteps; ++step) {
         const Slopes here = evaluate(parameters, std::nullopt, nodes_for(parameters[1]));
         // Gradient of zeta; it is eta itself with a ceiling of 1.
@@ -241,27 +247,39 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
         const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
         const double scale = (1.0 - floor) * link_density(form_.link, zeta);
         const double by_eta = form_.free_ceiling ? rise * at.density / scale : 1.0;
-        const Parameters gradient{by_eta, by_eta * u, form_.free_ceiling ? at.up / scale : 0.0};
+        const double by_ceiling = form_.free_ceiling ? at.up / scale : 0.0;
+        const Parameters gradient{by_eta, by_eta * u, held ? 0.0 : by_ceiling};
+        const Parameters score{here.score[0], here.score[1], held ? 0.0 : here.score[2]};
         Eigen::Matrix3d system = here.information;
-        if (!form_.free_ceiling) {
+        if (held) {
+            system.row(2).setZero();
+            system.col(2).setZero();
             system(2, 2) = 1.0;
         }
         const Eigen::LDLT<Eigen::Matrix3d> solver(system);
         // The extreme of zeta where the quadratic model of the log likelihood keeps its value.
-        const Parameters to_top = solver.solve(here.score);
+        const Parameters to_top = solver.solve(score);
         const Parameters along = solver.solve(gradient);
-        const double height = here.value + 0.5 * here.score.dot(to_top) - log_likelihood;
+        const double height = here.value + 0.5 * score.dot(to_top) - log_likelihood;
         const double length = std::sqrt(std::max(0.0, 2.0 * height / gradient.dot(along)));
         const Parameters move = to_top + side * length * along;
-        if (!move.allFinite() || parameters[2] + move[2] > 1.0) {
+        if (!move.allFinite()) {
             return std::nullopt;
+        }
+        if (parameters[2] + move[2] > 1.0) {  // a ceiling at its end stays there
+            parameters[2] = 1.0;
+            held = true;
+            continue;
         }
         parameters += move;
         if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
             // Far out the likelihood is flat, and a move is small there wherever it leads.
             const double reached =
                 evaluate(parameters, std::nullopt, nodes_for(parameters[1])).value;
-            if (!(std::abs(reached - log_likelihood) < kOnContour)) {
+            // Below a ceiling of 1 there must be nothing more extreme.
+            const bool at_end = held && form_.free_ceiling;
+            if (!(std::abs(reached - log_likelihood) < kOnContour) ||
+                (at_end && !(side * length * by_ceiling + here.score[2] >= 0.0))) {
                 return std::nullopt;
             }
             start = parameters;
