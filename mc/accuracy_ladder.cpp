@@ -127,7 +127,8 @@ std::optional<double> step_cost(const Study& study, const std::string& integrato
     const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
                                    [&](const StepCost& c) { return c.integrator == integrator; });
     const auto known = [](const std::string& key) {
-        return key == kSingle || key.starts_with("numerics.grid");
+        return key == kSingle || key.starts_with("numerics.grid") ||
+               key.starts_with("numerics.stiffness_tolerance");
     };
     if (row == std::end(kStepCosts) || !std::all_of(other.begin(), other.end(), known)) {
         return std::nullopt;

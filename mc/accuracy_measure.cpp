@@ -7,24 +7,21 @@
 #include <memory>
 
 #include "mc/accuracy_ladder.hpp"
+#include "mc/accuracy_listing.hpp"
 #include "mc/accuracy_report.hpp"
 #include "mc/explicit_step_time.hpp"
 #include "mc/numerics_choice.hpp"
-#include "mc/schema.hpp"
+#include "mc/rung_scenes.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
-constexpr double kBeyondOwnRule = 1.5;
 // Rungs slower than so many times the fastest that is as close are timed once, and not settled more
 // loosely.
 constexpr double kNearFrontier = 3.0;
 // Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
-// Of the ladder's graded grids: each takes a pilot of its own.
-constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
 // Tried on the fastest rung for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
@@ -37,24 +34,24 @@ double median(std::vector<double> values) {
 class Measurement {
   public:
     Measurement(const Study& study, const AccuracyRequest& request)
-        : study_(plain(study)),
-          request_(request),
-          scene_(std::make_unique<Scene>(study_)),
-          pilot_(*scene_) {
+        : study_(plain(study)), request_(request), scenes_(study_), pilot_(scenes_.own()) {
+        const Scene& scene = scenes_.own();
         report_.features = study_.features.use;
         report_.noise_levels = study_.sensor.noise_levels;
         report_.gearboxes = static_cast<int>(pilot_.size());
-        report_.signal_meshes = std::clamp(scene_->pattern().length, 1, kMostSignalMeshes);
-        report_.span_meshes = scene_->span_meshes();
-        report_.mesh_frequency_Hz = scene_->nominal_mesh_frequency_Hz();
-        report_.explicit_limit.steps = scene_->explicit_steps();
+        report_.signal_meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
+        report_.span_meshes = scene.span_meshes();
+        report_.mesh_frequency_Hz = scene.nominal_mesh_frequency_Hz();
+        report_.explicit_limit.steps = scene.explicit_steps();
     }
 
     AccuracyReport run() {
         request_.progress("reference: two methods until they agree");
         report_.reference = converged_reference(study_, pilot_, {});
-        list_rungs();
-        add_graded();
+        report_.own = 0;
+        for (const ListedRung& listed : listed_rungs(study_)) {
+            add(listed.rung, listed.refusal);
+        }
         times_.resize(report_.rungs.size());
         request_.progress(fmt::format("{} rungs", report_.rungs.size()));
         march_all(0, true);
@@ -92,72 +89,10 @@ class Measurement {
         study.numerics.tolerance = 0.0;
         return study;
     }
-    Rung own_rung() const {
-        return {std::string(choice_text(study_, "numerics", "integrator")),
-                study_.numerics.steps_per_mesh,
-                study_.numerics.settle_tolerance,
-                {}};
-    }
-    Study free_study() const {
-        Study free = study_;
-        free.numerics.integrator = Integrator::automatic;
-        free.numerics.steps_per_mesh = 0;
-        return free;
-    }
-
     void add(const Rung& rung, const std::string& refusal = "") {
         report_.rungs.emplace_back();
         report_.rungs.back().rung = rung;
         report_.rungs.back().refusal = refusal;
-    }
-
-    // At the tightest settling.
-    void list_rungs() {
-        report_.own = 0;
-        add(own_rung());
-        for (const Flight& flight : flights(free_study(), kBeyondOwnRule)) {
-            if (flight.graded()) {
-                graded_.push_back(flight);
-                continue;
-            }
-            if (flight.size() == 0) {
-                add({flight.integrator, 0, study_.numerics.settle_tolerance, flight.other},
-                    flight.refusal);
-            }
-            for (std::size_t i = 0; i < flight.size(); ++i) {
-                add(flight.rung(i, settle_tolerances().front()));
-            }
-            least_cost_ = std::min(least_cost_, own_cost(flight));
-        }
-        Rung all = own_rung();
-        all.other.push_back("numerics.horizon=march");
-        add(all);
-    }
-
-    // Of the integrator's own equal steps, in steps of rk4.
-    double own_cost(const Flight& flight) const {
-        const auto cost = step_cost(study_, flight.integrator, flight.other);
-        return cost && flight.own_steps > 0 ? *cost * flight.own_steps : INFINITY;
-    }
-
-    void add_graded() {
-        for (const Flight& flight : graded_) {
-            const double over = kFewestGraded * own_cost(flight) / least_cost_;
-            if (over > kNearFrontier) {
-                add({flight.integrator, 0, study_.numerics.settle_tolerance, flight.other},
-                    fmt::format(
-                        "not tried: an eighth of its {} equal steps would cost {:.0f} times "
-                        "the cheapest integrator's",
-                        flight.own_steps, over));
-                continue;
-            }
-            for (std::size_t i = 0; i < flight.size(); ++i) {
-                if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
-                              flight.grid_tolerances[i]) != std::end(kGridTolerances)) {
-                    add(flight.rung(i, settle_tolerances().front()));
-                }
-            }
-        }
     }
 
     // The fastest rung for each tolerance with fewer terms in the stiffness curves.
@@ -189,24 +124,6 @@ class Measurement {
         request_.progress(
             fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
         march_all(first, true);
-    }
-
-    // A graded grid takes a pilot: each has a scene of its own.
-    Scene& scene_for(const Rung& rung, const Numerics& numerics) {
-        Scene* scene = scene_.get();
-        if (numerics.grid == StepGrid::graded) {
-            std::string key = rung.integrator;
-            for (const std::string& other : rung.other) {
-                key += other;
-            }
-            auto& own = graded_scenes_[key];
-            if (own == nullptr) {
-                own = rung_scene(study_, rung);
-            }
-            scene = own.get();
-        }
-        scene->use(numerics);
-        return *scene;
     }
 
     // Rungs with the same steps stand together, so that a scene serves them all.
@@ -254,8 +171,7 @@ class Measurement {
             return;
         }
         try {
-            const Scene& scene = scene_for(result.rung, with_rung(study_, result.rung).numerics);
-            const PilotRecord record = pilot_.run(scene);
+            const PilotRecord record = pilot_.run(scenes_.of(result.rung));
             times_[place].march.push_back(record.march_s);
             times_[place].total.push_back(record.total_s);
             if (first) {
@@ -273,7 +189,7 @@ class Measurement {
         result.error = pilot_error(record, report_.reference.record);
         // The study's own rung may leave the integrator to the program.
         const std::string integrator = result.rung.integrator == "auto"
-                                           ? std::string(lockstep::name(scene_->plan().integrator))
+                                           ? std::string(lockstep::name(own_integrator_))
                                            : result.rung.integrator;
         result.cost = step_cost(study_, integrator, result.rung.other).value_or(0.0) *
                       result.steps * result.meshes;
@@ -289,7 +205,7 @@ class Measurement {
         request_.progress(fmt::format("choice for {:g}", tolerance));
         ChoiceCheck check;
         check.tolerance = tolerance;
-        Study study = free_study();
+        Study study = without_steps(study_);
         study.numerics.tolerance = tolerance;
         try {
             const Rung rung = choose_numerics(study)->rung;
@@ -384,8 +300,7 @@ class Measurement {
 
     void measure_explicit_limit() {
         ExplicitLimit& limit = report_.explicit_limit;
-        scene_->use(study_.numerics);
-        limit.step_s = explicit_step_s(*scene_);
+        limit.step_s = explicit_step_s(scenes_.of(own_rung(study_)));
         limit.meshes = report_.rungs[0].meshes;
         limit.refused = std::none_of(report_.rungs.begin(), report_.rungs.end(), [](const auto& r) {
             return r.rung.integrator == "rk4" && r.refusal.empty();
@@ -449,13 +364,11 @@ class Measurement {
     };
     const Study study_;
     const AccuracyRequest& request_;
-    const std::unique_ptr<Scene> scene_;
+    RungScenes scenes_;
+    const lockstep::Integrator own_integrator_ = scenes_.own().plan().integrator;
     const Pilot pilot_;
     AccuracyReport report_;
     std::vector<Times> times_;
-    std::vector<Flight> graded_;
-    double least_cost_ = INFINITY;  // of the flights of equal steps, see own_cost()
-    std::map<std::string, std::unique_ptr<Scene>> graded_scenes_;
 };
 
 }  // namespace

@@ -64,11 +64,16 @@ void add_row(const AccuracyReport& report, const RungResult& r, const char* mark
                    r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "");
 }
 
+// With fewer terms in the stiffness curves.
+bool is_thin(const Rung& rung) {
+    return !rung.other.empty() && rung.other.back().starts_with("numerics.stiffness_tolerance");
+}
+
 // Of each flight at the tightest settling, of the frontier, and the study's own.
 bool worth_a_line(const AccuracyReport& report, std::size_t i) {
     const RungResult& r = report.rungs[i];
     return r.frontier || static_cast<int>(i) == report.own || !r.refusal.empty() ||
-           r.rung.settle_tolerance <= 1e-10 ||
+           r.rung.settle_tolerance <= 1e-10 || is_thin(r.rung) ||
            std::any_of(report.choices.begin(), report.choices.end(),
                        [&](const ChoiceCheck& c) { return c.chosen == static_cast<int>(i); });
 }
