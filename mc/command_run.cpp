@@ -176,8 +176,7 @@ class Run {
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && !options_.quiet) {
-                    text = results_text(all, rows,
-                                        reliability_of(all, rows, "", thread_count(study_, 1)));
+                    text = results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
                 }
             } catch (const std::exception& error) {
                 trouble = error.what();
@@ -200,6 +199,12 @@ class Run {
             print_end(outcome, path);
         }
         return counts.failed() == 0 ? kDone : kSomeFailed;
+    }
+
+    // Of all ranks on this machine, which have nothing more to compute.
+    int idle_threads() const {
+        const int ranks = ranks_.on_this_machine();
+        return std::min(processors(), ranks * thread_count(study_, ranks));
     }
 
     std::string state_of(const EnsembleOutcome& outcome) const {

@@ -7,8 +7,10 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <thread>
 
 #include "mc/provenance.hpp"
 
@@ -23,6 +25,20 @@ bool launched() {
         }
     }
     return false;
+}
+
+// From rank 0 to all. Ranks that wait leave their processors to others: what rank 0 still has to do
+// may take them.
+void broadcast(void* data, int count, MPI_Datatype type) {
+    MPI_Request request;
+    MPI_Ibcast(data, count, type, 0, MPI_COMM_WORLD, &request);
+    for (int arrived = 0;;) {
+        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+        if (arrived != 0) {
+            return;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
 }  // namespace
@@ -81,10 +97,10 @@ std::string Ranks::from_leader(const std::string& text) const {
         return text;
     }
     int length = static_cast<int>(text.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    broadcast(&length, 1, MPI_INT);
     std::string copy = text;
     copy.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(copy.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+    broadcast(copy.data(), length, MPI_CHAR);
     return copy;
 }
 
