@@ -173,7 +173,7 @@ class Search {
         }
         for (std::size_t i = 0; i < flight.size(); ++i) {
             const double ratio = flight.grid_tolerances[i] / tolerance_;
-            if (ratio > kNear || ratio < 1.0 / kNear) {
+            if (flight.size() > 1 && (ratio > kNear || ratio < 1.0 / kNear)) {
                 continue;
             }
             const Trial found = trial(flight, i, settle_tolerances().front());
