@@ -20,6 +20,8 @@ void check(int code, const char* what) {
     }
 }
 
+struct Late {};
+
 class Cvode {
   public:
     Cvode(const Task& task, Multistep method, double tolerance, int gearbox)
@@ -35,7 +37,7 @@ class Cvode {
         check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
         check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
         check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
-        check(CVodeSetMaxNumSteps(memory_, -1), "CVodeSetMaxNumSteps");
+        check(CVodeSetMaxNumSteps(memory_, kStepsBetweenLooks), "CVodeSetMaxNumSteps");
         if (method == Multistep::bdf) {
             matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
@@ -68,6 +70,7 @@ class Cvode {
         const std::vector<int>& all = task_.fine.stretches();
         const std::vector<int> whole{all.front(), all.back()};
         stops_ = stops;
+        give_up_at_s_ = mc::thread_processor_s() + extent.most_s;
         restart(-extent.run_in);
         for (k_ = -extent.run_in; k_ < extent.recorded; ++k_) {
             lockstep::MeshRecord* record =
@@ -83,6 +86,8 @@ class Cvode {
     }
 
   private:
+    static constexpr long kStepsBetweenLooks = 2000;  // at the clock
+
     double phase_of(int step) const {
         const auto& steps = task_.fine.grid().steps;
         return step < static_cast<int>(steps.size()) ? steps[static_cast<std::size_t>(step)].phase
@@ -99,7 +104,14 @@ class Cvode {
     }
     void solve_to(double t) {
         double reached = 0.0;
-        check(CVode(memory_, t, y_, &reached, CV_NORMAL), "CVode");
+        int code = CVode(memory_, t, y_, &reached, CV_NORMAL);
+        while (code == CV_TOO_MUCH_WORK) {
+            if (mc::thread_processor_s() > give_up_at_s_) {
+                throw Late{};
+            }
+            code = CVode(memory_, t, y_, &reached, CV_NORMAL);
+        }
+        check(code, "CVode");
     }
 
     void stretch(lockstep::MeshRecord* record) {
@@ -164,7 +176,7 @@ class Cvode {
     const Gearbox<double> box_;
     bool stops_ = false;
     int k_ = 0, first_ = 0, last_ = 0;
-    double steps_ = 0.0;
+    double steps_ = 0.0, give_up_at_s_ = 0.0;
     SUNContext context_ = nullptr;
     N_Vector y_ = nullptr, absolute_ = nullptr;
     void* memory_ = nullptr;
@@ -183,6 +195,8 @@ PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multi
         const double began = mc::thread_processor_s();
         try {
             solver.march(extent, stops, run.records);
+        } catch (const Late&) {
+            run.late = true;
         } catch (const std::runtime_error&) {
             run.failed = true;
         }

@@ -153,7 +153,9 @@ class Dopri5 {
 
     double steps() const { return steps_; }
 
-    void march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+    // Whether it came to the end in time.
+    bool march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+        const double give_up_at_s = mc::thread_processor_s() + extent.most_s;
         Sensing y;
         copy_start(task_, gearbox_, y.data());
         const std::vector<int>& all = task_.fine.stretches();
@@ -165,7 +167,11 @@ class Dopri5 {
             for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
                 stretch(k, stretches[i], stretches[i + 1], stops, record);
             }
+            if (mc::thread_processor_s() > give_up_at_s) {
+                return false;
+            }
         }
+        return true;
     }
 
   private:
@@ -249,7 +255,7 @@ PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int las
     for (int g = first; g < last; ++g) {
         Dopri5 solver(task, tolerance, g);
         const double began = mc::thread_processor_s();
-        solver.march(extent, stops, run.records);
+        run.late |= !solver.march(extent, stops, run.records);
         run.march_s += mc::thread_processor_s() - began;
         run.steps += solver.steps() / (extent.run_in + extent.recorded) / (last - first);
     }

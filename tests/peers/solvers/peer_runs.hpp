@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "gearbox.hpp"
@@ -27,13 +28,15 @@ struct Task {
 // pattern on. The pattern repeats, so those before are its last.
 struct Extent {
     int run_in = 2, recorded = 1;
+    // Processor time after which a solver that chooses its steps gives up a gearbox.
+    double most_s = std::numeric_limits<double>::infinity();
 };
 
 struct PeerRun {
     std::vector<lockstep::MeshRecord> records;  // of eight lanes; only the marched ones are filled
     double march_s = 0.0;                       // of processor time, over all mesh periods marched
     double steps = 0.0;                         // a mesh period and gearbox
-    bool failed = false;
+    bool late = false, failed = false;          // gave up; or the solver did
 };
 
 // Gearboxes first to last - 1 march one by one, wide ones all eight together.

@@ -11,9 +11,9 @@
 
 namespace gearpod::peers {
 
-inline constexpr int kGearboxes = 8;
+// Eight, of the scene's graded group; where they march one by one, the one with the largest crack.
+inline constexpr int kGearboxes = 8, kLargestCrack = 6;
 
-// Which gearboxes: eight, of the scene's graded group.
 struct Boxes {
     std::vector<mc::InstanceInputs> instances;
     std::vector<dynamics::GearboxInputs> inputs;
