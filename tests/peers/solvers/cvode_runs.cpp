@@ -37,6 +37,7 @@ class Cvode {
         check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
         check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
         check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
+        check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // or every look is an error
         check(CVodeSetMaxNumSteps(memory_, kStepsBetweenLooks), "CVodeSetMaxNumSteps");
         if (method == Multistep::bdf) {
             matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);

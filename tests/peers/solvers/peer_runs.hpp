@@ -42,10 +42,15 @@ struct PeerRun {
 // Gearboxes first to last - 1 march one by one, wide ones all eight together.
 
 // Classical Runge-Kutta on the steps of the task's grid. `motion_only`: without the sensor's
-// low-pass, which leaves the records' accelerations zero.
-PeerRun odeint_scalar_rk4(const Task& task, const Extent& extent, int first, int last,
-                          bool motion_only);
+// low-pass, which leaves the records' accelerations zero. Of a release build, whose compiler makes
+// vectors of one gearbox's states where it can; and without that.
+namespace vectorized {
+PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
 PeerRun odeint_wide_rk4(const Task& task, const Extent& extent, bool motion_only);
+}  // namespace vectorized
+namespace scalar {
+PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
+}  // namespace scalar
 
 // Dormand and Prince's pair with dense output. `stops`: starts anew at every transition of the
 // stiffness, instead of finding it by rejected steps.

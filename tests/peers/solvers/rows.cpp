@@ -7,8 +7,18 @@
 
 namespace gearpod::peers {
 
-std::unique_ptr<mc::Scene> scene_of(const Options& options,
-                                    const std::vector<std::string>& overrides) {
+namespace {
+
+// The basic ones but window_z, which without noise divides by the differences of teeth that are
+// alike: a solver whose steps differ from mesh period to mesh period has another value of it until
+// its error is far below the differences that any sensor sees.
+constexpr const char* kFeatures =
+    R"(features.use=["te_rms","te_kurtosis","te_fc","te_fm0","sensor_rms","window_ratio"])";
+
+}  // namespace
+
+std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides) {
+    overrides.emplace_back(kFeatures);
     const mc::StudyReading reading = mc::read_study(options.study, overrides);
     if (!reading.study) {
         throw std::runtime_error(mc::format(reading.problems));

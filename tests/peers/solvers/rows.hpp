@@ -20,8 +20,8 @@ struct Options {
     bool steps_only = false;
 };
 
-std::unique_ptr<mc::Scene> scene_of(const Options& options,
-                                    const std::vector<std::string>& overrides);
+// The study with the features that are compared. Throws std::runtime_error with its problems.
+std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides);
 
 // A way to march. `times`: seconds a gearbox, over the span or a step, by round.
 struct Row {

@@ -41,10 +41,10 @@ SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pil
 void SpanTable::add_all() {
     constexpr int kBox = kLargestCrack;
     add_fixed("odeint rk4, one by one", [](const Task& task, const Extent& extent, double) {
-        return odeint_scalar_rk4(task, extent, kBox, kBox + 1, false);
+        return vectorized::odeint_rk4(task, extent, kBox, kBox + 1, false);
     });
     add_fixed("odeint rk4, 8-wide value type", [](const Task& task, const Extent& extent, double) {
-        PeerRun run = odeint_wide_rk4(task, extent, false);
+        PeerRun run = vectorized::odeint_wide_rk4(task, extent, false);
         run.march_s /= kGearboxes;
         return run;
     });

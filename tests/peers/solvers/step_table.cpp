@@ -5,6 +5,11 @@
 #include "comparison.hpp"
 
 namespace gearpod::peers {
+namespace {
+
+constexpr int kBox = kLargestCrack;
+
+}  // namespace
 
 StepTable::StepTable(OwnMarch& own, const mc::Reference& reference)
     : own_(own), reference_(reference) {
@@ -12,10 +17,14 @@ StepTable::StepTable(OwnMarch& own, const mc::Reference& reference)
     for (const bool motion_only : {false, true}) {
         const std::string what = motion_only ? ", motion without sensor" : "";
         add("odeint rk4, one gearbox" + what, [=](const Task& task, const Extent& extent) {
-            return odeint_scalar_rk4(task, extent, kLargestCrack, kLargestCrack + 1, motion_only);
+            return vectorized::odeint_rk4(task, extent, kBox, kBox + 1, motion_only);
         });
+        add("odeint rk4, one gearbox, scalar code" + what,
+            [=](const Task& task, const Extent& extent) {
+                return scalar::odeint_rk4(task, extent, kBox, kBox + 1, motion_only);
+            });
         add("odeint rk4, 8-wide value type" + what, [=](const Task& task, const Extent& extent) {
-            PeerRun run = odeint_wide_rk4(task, extent, motion_only);
+            PeerRun run = vectorized::odeint_wide_rk4(task, extent, motion_only);
             run.march_s /= kGearboxes;
             return run;
         });
@@ -31,8 +40,7 @@ void StepTable::measure_errors() {
     const Extent pattern{2, own_.task().steps.meshes()};
     for (std::size_t i = 0; i < ways_.size(); ++i) {
         const PeerRun run = ways_[i](own_.task(), pattern);
-        rows_[i + 1].error = error_of(own_.scene(), run.records, kLargestCrack, kLargestCrack + 1,
-                                      reference_.record);
+        rows_[i + 1].error = error_of(own_.scene(), run.records, kBox, kBox + 1, reference_.record);
     }
 }
 
