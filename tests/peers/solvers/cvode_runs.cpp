@@ -1,9 +1,13 @@
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -33,7 +37,7 @@ class Cvode {
             NV_Ith_S(absolute_, i) = tolerance * task.scale[i];
         }
         copy_start(task, gearbox, NV_DATA_S(y_));
-        memory_ = CVodeCreate(method == Multistep::bdf ? CV_BDF : CV_ADAMS, context_);
+        memory_ = CVodeCreate(method == Multistep::adams ? CV_ADAMS : CV_BDF, context_);
         check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
         check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
         check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
@@ -42,8 +46,13 @@ class Cvode {
         if (method == Multistep::bdf) {
             matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
-            check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
-            check(CVodeSetJacFn(memory_, jacobian_at), "CVodeSetJacFn");
+            use_newton(dense_jacobian);
+        } else if (method == Multistep::sparse_bdf) {
+            find_pattern();
+            matrix_ = SUNSparseMatrix(kSensing, kSensing, static_cast<sunindextype>(row_.size()),
+                                      CSC_MAT, context_);
+            linear_ = SUNLinSol_KLU(y_, matrix_, context_);
+            use_newton(sparse_jacobian);
         } else {
             fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
             check(CVodeSetNonlinearSolver(memory_, fixed_point_), "CVodeSetNonlinearSolver");
@@ -93,6 +102,10 @@ class Cvode {
         const auto& steps = task_.fine.grid().steps;
         return step < static_cast<int>(steps.size()) ? steps[static_cast<std::size_t>(step)].phase
                                                      : 1.0;
+    }
+    void use_newton(CVLsJacFn jacobian) {
+        check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
+        check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
     }
     void count_steps() {
         long done = 0;
@@ -152,23 +165,68 @@ class Cvode {
         return 0;
     }
 
-    // The equations are linear: a column is y' of a unit state less y' of none.
-    static int jacobian_at(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
-                           N_Vector, N_Vector) {
-        const auto& own = *static_cast<const Cvode*>(self);
-        Meshes<double> m;
-        own.meshes_at(t, m);
-        Gearbox<double> box = own.box_;
+    using Column = std::array<double, kSensing>;
+
+    // The equations are linear: a column of the Jacobian is y' of a unit state less y' of none.
+    // take(i, column).
+    template <class Take>
+    void each_column(const Meshes<double>& m, Take take) const {
+        Gearbox<double> box = box_;
         box.pull = 0.0;
         for (double& force : box.force) {
             force = 0.0;
         }
         double unit[kSensing] = {};
+        Column column;
         for (int i = 0; i < kSensing; ++i) {
             unit[i] = 1.0;
-            rates<kSensing>(box, m, unit, SM_COLUMN_D(matrix, i));
+            rates<kSensing>(box, m, unit, column.data());
             unit[i] = 0.0;
+            take(i, column);
         }
+    }
+
+    // Where the Jacobian has entries, and its diagonal, column by column.
+    void find_pattern() {
+        Meshes<double> all;
+        std::fill_n(all.k, kPairs, 1.0);
+        std::fill_n(all.c, kPairs, 1.0);
+        begin_.push_back(0);
+        each_column(all, [&](int i, const Column& column) {
+            for (int d = 0; d < kSensing; ++d) {
+                if (d == i || column[static_cast<std::size_t>(d)] != 0.0) {
+                    row_.push_back(d);
+                }
+            }
+            begin_.push_back(static_cast<sunindextype>(row_.size()));
+        });
+    }
+
+    static int dense_jacobian(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                              N_Vector, N_Vector) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        own.each_column(m, [matrix](int i, const Column& column) {
+            std::copy(column.begin(), column.end(), SM_COLUMN_D(matrix, i));
+        });
+        return 0;
+    }
+
+    static int sparse_jacobian(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                               N_Vector, N_Vector) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        std::copy(own.begin_.begin(), own.begin_.end(), SM_INDEXPTRS_S(matrix));
+        std::copy(own.row_.begin(), own.row_.end(), SM_INDEXVALS_S(matrix));
+        double* value = SM_DATA_S(matrix);
+        own.each_column(m, [&](int i, const Column& column) {
+            const auto at = static_cast<std::size_t>(i);
+            for (auto n = own.begin_[at]; n < own.begin_[at + 1]; ++n) {
+                value[n] = column[static_cast<std::size_t>(own.row_[static_cast<std::size_t>(n)])];
+            }
+        });
         return 0;
     }
 
@@ -184,6 +242,7 @@ class Cvode {
     SUNMatrix matrix_ = nullptr;
     SUNLinearSolver linear_ = nullptr;
     SUNNonlinearSolver fixed_point_ = nullptr;
+    std::vector<sunindextype> begin_, row_;  // the sparse Jacobian's columns
 };
 
 }  // namespace

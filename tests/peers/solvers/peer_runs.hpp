@@ -57,9 +57,9 @@ PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, 
 PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int last, double tolerance,
                       bool stops);
 
-// CVODE with dense Newton iteration and the exact Jacobian (BDF), or with fixed-point iteration
-// (Adams).
-enum class Multistep { bdf, adams };
+// CVODE with Newton iteration and the exact Jacobian (BDF), dense or sparse (KLU), or with
+// fixed-point iteration (Adams).
+enum class Multistep { bdf, sparse_bdf, adams };
 PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multistep method,
               double tolerance, bool stops);
 

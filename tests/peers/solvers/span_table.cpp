@@ -53,11 +53,12 @@ void SpanTable::add_all() {
         add_adaptive("odeint dopri5" + how, [=](const Task& task, const Extent& extent, double e) {
             return odeint_dopri5(task, extent, kBox, kBox + 1, e, stops);
         });
-        for (const Multistep method : {Multistep::bdf, Multistep::adams}) {
-            add_adaptive((method == Multistep::bdf ? "CVODE BDF" : "CVODE Adams") + how,
-                         [=](const Task& task, const Extent& extent, double e) {
-                             return cvode(task, extent, kBox, kBox + 1, method, e, stops);
-                         });
+        for (const auto& [name, method] : {std::pair("CVODE BDF, dense", Multistep::bdf),
+                                           std::pair("CVODE BDF, sparse", Multistep::sparse_bdf),
+                                           std::pair("CVODE Adams", Multistep::adams)}) {
+            add_adaptive(name + how, [=](const Task& task, const Extent& extent, double e) {
+                return cvode(task, extent, kBox, kBox + 1, method, e, stops);
+            });
         }
     }
 }
