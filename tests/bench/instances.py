@@ -75,7 +75,9 @@ def main() -> None:
     parser.add_argument("--program", default="build/gearpod")
     options = parser.parse_args()
 
-    graded = [max(8, options.most >> k) for k in range(5, -1, -1)]
+    if options.rounds < 1 or options.most < 256:
+        parser.error("--rounds must be at least 1, --most at least 256")
+    graded = [options.most >> k for k in range(5, -1, -1)]
     runs: dict[int, list[dict[str, float]]] = {n: [] for n in graded}
     with tempfile.TemporaryDirectory() as folder:
         for i in range(options.rounds):

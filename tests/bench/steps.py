@@ -52,6 +52,8 @@ def main() -> None:
     parser.add_argument("--program", default="build/tests/bench/bench_step")
     parser.add_argument("--json")
     options = parser.parse_args()
+    if options.repetitions < 1:
+        parser.error("--repetitions must be at least 1")
     if options.json:
         with open(options.json, encoding="utf-8") as file:
             text = file.read()

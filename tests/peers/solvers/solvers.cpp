@@ -45,9 +45,12 @@ int main(int argc, char** argv) {
     gearpod::peers::Options options;
     CLI::App app("The same gearbox by gearpod and by other solvers: time and error side by side");
     app.add_option("study", options.study, "a planetary study with four planets and no scatter");
-    app.add_option("--rounds", options.rounds, "interleaved rounds of timing");
-    app.add_option("--error", options.error, "of the worst feature, relative");
-    app.add_option("--try-s", options.try_s, "processor time to give up a tolerance after, s");
+    app.add_option("--rounds", options.rounds, "interleaved rounds of timing")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--error", options.error, "of the worst feature, relative")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--try-s", options.try_s, "processor time to give up a tolerance after, s")
+        ->check(CLI::PositiveNumber);
     CLI::Option* csv = app.add_option("--csv", options.csv, "table for `gearpod accuracy --peers`");
     app.add_flag("--steps-only", options.steps_only, "only the steps of Runge-Kutta's method")
         ->excludes(csv);
