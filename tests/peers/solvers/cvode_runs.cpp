@@ -104,6 +104,7 @@ class Cvode {
                                                      : 1.0;
     }
     void use_newton(CVLsJacFn jacobian) {
+        compare_jacobian();
         check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
         check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
     }
@@ -183,6 +184,32 @@ class Cvode {
             rates<kSensing>(box, m, unit, column.data());
             unit[i] = 0.0;
             take(i, column);
+        }
+    }
+
+    // With the difference that a step of every state makes to y', in the middle of mesh 0.
+    void compare_jacobian() const {
+        Meshes<double> m;
+        task_.fine.at_phase(0, 0.5, 0, static_cast<int>(task_.fine.grid().steps.size()), gearbox_,
+                            m);
+        double y[kSensing], moved[kSensing];
+        Column before, after, change{}, size{};
+        copy_start(task_, gearbox_, y);
+        for (int i = 0; i < kSensing; ++i) {
+            moved[i] = y[i] + (i % 2 == 0 ? 1.0 : -0.5) * task_.scale[i];
+        }
+        rates<kSensing>(box_, m, y, before.data());
+        rates<kSensing>(box_, m, moved, after.data());
+        each_column(m, [&](int i, const Column& column) {
+            for (std::size_t d = 0; d < kSensing; ++d) {
+                change[d] += column[d] * (moved[i] - y[i]);
+                size[d] += std::abs(column[d]) * (std::abs(moved[i]) + std::abs(y[i]));
+            }
+        });
+        for (std::size_t d = 0; d < kSensing; ++d) {
+            if (std::abs(after[d] - before[d] - change[d]) > 1e-12 * size[d]) {
+                throw std::logic_error("the Jacobian is not that of the rates");
+            }
         }
     }
 
