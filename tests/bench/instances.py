@@ -6,14 +6,13 @@
 
 A round runs the study with 1/32, 1/16, ..., 1/1 of the most graded gearboxes, each with a quarter as
 many healthy ones for the thresholds, and then `report` on the results, which is the share of
-detection rates, curves and their intervals. Prints processor seconds (medians over rounds), the straight
-line of least relative deviations through those without detection, and the milliseconds of a gearbox's
-phases by the run's own clock.
+detection rates, curves and their intervals. Prints processor seconds (of the fastest round, which other
+programs disturbed least), the straight line of least relative deviations through those without
+detection, and what share each phase of a run has in them.
 """
 import argparse
 import re
 import resource
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -90,19 +89,18 @@ def main() -> None:
                     file=sys.stderr,
                 )
 
-    def middle(n: int, column: str) -> float:
-        return statistics.median(r[column] for r in runs[n])
-
+    best = [min(runs[n], key=lambda r: r["gearboxes"]) for n in graded]
     sizes = [n + n // 4 for n in graded]
-    seconds = [middle(n, "gearboxes") for n in graded]
+    seconds = [r["gearboxes"] for r in best]
     offset, slope = line_through(sizes, seconds)
     off = [s / (offset + slope * n) - 1 for n, s in zip(sizes, seconds)]
-    print("gearboxes  processor s  off the line  detection s  ms a gearbox: " + "  ".join(PHASES))
-    for n, size, s, deviation in zip(graded, sizes, seconds, off):
-        each = [f"{1e3 * middle(n, p) / size:{len(p)}.3f}" for p in PHASES]
+    print("gearboxes  processor s  off the line  detection s  % of the phases: " + "  ".join(PHASES))
+    for r, size, s, deviation in zip(best, sizes, seconds, off):
+        total = sum(r[phase] for phase in PHASES)
+        each = [f"{100 * r[phase] / total:{len(phase)}.1f}" for phase in PHASES]
         print(
-            f"{size:9d}  {s:11.2f}  {100 * deviation:+10.1f} %  {middle(n, 'detection'):11.2f}"
-            + " " * 17
+            f"{size:9d}  {s:11.2f}  {100 * deviation:+10.1f} %  {r['detection']:11.2f}"
+            + " " * 20
             + "  ".join(each)
         )
     print(
