@@ -6,7 +6,7 @@
 //     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
 //
 // independent between bins. So two random numbers a bin replace the Z_r noise samples, and one draw
-// serves all noise levels.
+// serves all noise levels (windowing.hpp).
 #pragma once
 
 #include <algorithm>
@@ -50,11 +50,6 @@ class SensorNoise {
     ChiSquaredTransform across_;
 };
 
-// noisy[b] = (sigma Z_b + sqrt folded_b)^2 + sigma^2 G_b; sigma in m/s^2. Contiguous bins of one
-// gearbox. sigma = 0 gives `folded` up to rounding. Throws std::invalid_argument on unequal sizes.
-void add_sensor_noise(std::span<const double> folded, const NoiseDraw& draw, double sigma,
-                      std::span<double> noisy);
-
 // The unit noise n (times sigma it is in m/s^2) that turns a bin's Z_r noise-free samples into
 // noisy ones whose squares sum to exactly the bin's F_noisy: Z along the samples, sqrt(G) in a
 // random direction across them. `normals` are Z_r further standard normals, which give that
@@ -63,7 +58,7 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise);
 
 // The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
-// sigma times it the signal folds to add_sensor_noise's values. Bins are visited in order b = 0, 1,
+// sigma times it the signal folds to F_noisy. Bins are visited in order b = 0, 1,
 // ...; the engine gives the directions.
 template <typename Engine>
 std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
