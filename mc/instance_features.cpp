@@ -1,12 +1,11 @@
 #include "mc/instance_features.hpp"
 
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <chrono>
 #include <stdexcept>
 
 #include "signals/encoder_noise.hpp"
-#include "signals/folded_signal.hpp"
+#include "signals/normals.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -75,10 +74,8 @@ std::vector<double> sample_noise(const Scene& scene, std::span<const double> cle
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
-    boost::random::normal_distribution<double> normal;
-    while (unit.size() < clean.size()) {
-        unit.push_back(normal(engine));
-    }
+    unit.resize(clean.size());
+    signals::draw_normals(engine, std::span(unit).subspan(span));
     return unit;
 }
 

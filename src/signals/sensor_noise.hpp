@@ -10,13 +10,13 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "signals/chi_squared.hpp"
+#include "signals/normals.hpp"
 
 namespace gearpod::signals {
 
@@ -34,15 +34,10 @@ class SensorNoise {
     // All Z first, then all G. Engine: a 64-bit uniform random bit generator.
     template <typename Engine>
     void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
-        boost::random::normal_distribution<double> normal;
         out.along.resize(bins);
         out.across.resize(bins);
-        for (double& z : out.along) {
-            z = normal(engine);
-        }
-        for (double& z : out.across) {
-            z = normal(engine);
-        }
+        draw_normals(engine, out.along);
+        draw_normals(engine, out.across);
         across_.from_normal(out.across);
     }
 
@@ -68,11 +63,10 @@ std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
         throw std::invalid_argument("unit noise: signal, bins and draw disagree in size");
     }
     const std::size_t turns = signal.size() / bins;
-    boost::random::normal_distribution<double> normal;
     std::vector<double> all(signal.size());
     // Eight bins, a cache line of the signal, at a time.
     constexpr std::size_t kBlock = 8;
-    std::vector<double> samples(kBlock * turns), normals(turns), noise(kBlock * turns);
+    std::vector<double> samples(kBlock * turns), normals(kBlock * turns), noise(kBlock * turns);
     for (std::size_t b = 0; b < bins; b += kBlock) {
         const std::size_t count = std::min(kBlock, bins - b);
         for (std::size_t i = 0; i < turns; ++i) {
@@ -80,12 +74,13 @@ std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
                 samples[c * turns + i] = signal[i * bins + b + c];
             }
         }
+        draw_normals(engine, normals);
         for (std::size_t c = 0; c < count; ++c) {
-            for (double& value : normals) {
-                value = normal(engine);
-            }
-            noise_of_bin(std::span(samples).subspan(c * turns, turns), draw.along[b + c],
-                         draw.across[b + c], normals, std::span(noise).subspan(c * turns, turns));
+            const auto of_bin = [&](std::vector<double>& values) {
+                return std::span(values).subspan(c * turns, turns);
+            };
+            noise_of_bin(of_bin(samples), draw.along[b + c], draw.across[b + c], of_bin(normals),
+                         of_bin(noise));
         }
         for (std::size_t i = 0; i < turns; ++i) {
             for (std::size_t c = 0; c < count; ++c) {
