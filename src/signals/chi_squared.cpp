@@ -24,13 +24,29 @@ double quantile_of_normal(const boost::math::chi_squared& chi, double z) {
                    : boost::math::quantile(boost::math::complement(chi, tail));
 }
 
+// [k][i]: the Chebyshev polynomial T_k at the i-th root of T_kPowers.
+template <int kPowers>
+const auto& polynomials_at_roots() {
+    static const auto values = [] {
+        std::array<std::array<double, kPowers>, kPowers> at{};
+        for (int k = 0; k < kPowers; ++k) {
+            for (int i = 0; i < kPowers; ++i) {
+                at[k][i] = std::cos(std::numbers::pi * k * (i + 0.5) / kPowers);
+            }
+        }
+        return at;
+    }();
+    return values;
+}
+
 // Chebyshev interpolation on [-1, 1] at the roots, rewritten in powers.
 template <int kPowers, typename Function>
 std::array<double, kPowers> interpolate(Function function) {
     using Powers = std::array<double, kPowers>;
+    const auto& at_root = polynomials_at_roots<kPowers>();
     Powers value{};
     for (int i = 0; i < kPowers; ++i) {
-        value[i] = function(std::cos(std::numbers::pi * (i + 0.5) / kPowers));
+        value[i] = function(at_root[1][i]);
     }
     Powers powers{};
     Powers previous{};  // T_{k-1}, T_k in powers of t
@@ -39,7 +55,7 @@ std::array<double, kPowers> interpolate(Function function) {
     for (int k = 0; k < kPowers; ++k) {
         double sum = 0.0;
         for (int i = 0; i < kPowers; ++i) {
-            sum += value[i] * std::cos(std::numbers::pi * k * (i + 0.5) / kPowers);
+            sum += value[i] * at_root[k][i];
         }
         const double chebyshev = (k == 0 ? 1.0 : 2.0) * sum / kPowers;
         Powers next{};

@@ -39,8 +39,8 @@ inline constexpr int kOutputsAtOnce = 8;
 
 void window_energy(const WindowEnergyArguments& a);
 
-// along[b] becomes along[b] sqrt(folded[b]), across[b] becomes along[b]^2 + across[b]; a multiple of
-// kSegments values.
+// along[b] becomes along[b] sqrt(folded[b]), across[b] becomes along[b]^2 + across[b]; a multiple
+// of kSegments values.
 void mix_noise(long values, const double* folded, double* along, double* across);
 
 // The windows' energies at one noise level, e = signal + 2 sigma cross + sigma^2 noise, at least 0;

@@ -126,7 +126,7 @@ TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is un
     constexpr std::size_t kCount = 20000;
     const auto normals = [](Philox stream) {
         std::vector<double> values(kCount);
-        signals::draw_normals(stream, values);
+        gearpod::signals::draw_normals(stream, values);
         return values;
     };
     const std::vector<std::vector<double>> noise{
