@@ -19,7 +19,8 @@ double balancing_power_of_two(std::span<const double> a, std::span<const double>
     const auto square = [](std::span<const double> x) {
         return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
     };
-    const double ratio = square(a) / square(b);
+    const double size = square(b);
+    const double ratio = size > 0.0 ? square(a) / size : 0.0;
     return ratio > 0.0 && std::isfinite(ratio) ? std::ldexp(1.0, std::ilogb(ratio) / 2) : 1.0;
 }
 
