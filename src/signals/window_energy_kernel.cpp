@@ -29,16 +29,20 @@ GEARPOD_INLINE void sum_blocks(const WindowEnergyArguments& a) {
     }
 }
 
+GEARPOD_INLINE void clear(double* __restrict sum) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        sum[l] = 0.0;
+    }
+}
+
 // The flat part of the window at bin `phase` of the mesh period that begins at `period`.
 GEARPOD_INLINE void sum_flat(const WindowEnergyArguments& a, long period, int phase,
                              double* __restrict sum) {
     const int from = phase + a.flat_first;
     const int stop = from + a.flat_count;
     if (a.flat_count == 0) {
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            sum[l] = 0.0;
-        }
+        clear(sum);
         return;
     }
     const double* __restrict down = a.downwards + (period + from) * W;
@@ -88,7 +92,11 @@ GEARPOD_INLINE void all_windows(const WindowEnergyArguments& a) {
     int phase = 0;
     for (long t = 0; t < a.outputs; t += kOutputsAtOnce) {
         double* energy = a.energy + t * W;
-        for (int i = 0; i < kOutputsAtOnce && t + i < a.outputs; ++i) {
+        for (int i = 0; i < kOutputsAtOnce; ++i) {
+            if (t + i >= a.outputs) {
+                clear(energy + i * W);
+                continue;
+            }
             sum_flat(a, period, phase, energy + i * W);
             if (++phase == a.phases) {
                 phase = 0;
