@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bench_scene.hpp"
@@ -91,11 +92,31 @@ std::function<double()> mesh_of(const mc::Scene& scene, int lanes) {
                         : std::function<double()>(mesh.operator()<1>());
 }
 
-Operations operations(const mc::Scene& scene, const Setting& setting) {
-    return setting.integrator == "rk4"
-               ? rk4_operations(scene.plan())
-               : generalized_alpha_operations(scene.plan(),
-                                              scene.inputs(mc::Sampler(scene.study()).nominal()));
+// Nothing of a method whose operations are not counted.
+std::optional<Operations> operations(const mc::Scene& scene, const Setting& setting) {
+    if (setting.integrator == "rk4") {
+        return rk4_operations(scene.plan());
+    }
+    if (setting.integrator == "central-difference") {
+        return central_difference_operations(scene.plan());
+    }
+    if (setting.integrator == "generalized-alpha") {
+        return generalized_alpha_operations(scene.plan(),
+                                            scene.inputs(mc::Sampler(scene.study()).nominal()));
+    }
+    return {};
+}
+
+void count_operations(const Operations& done, double step_s, double peak,
+                      benchmark::UserCounters& counters) {
+    const auto flop = static_cast<double>(done.flop());
+    counters["fma"] = static_cast<double>(done.fma);
+    counters["mul"] = static_cast<double>(done.multiply);
+    counters["add"] = static_cast<double>(done.add + done.divide);
+    counters["flop/s"] = flop / step_s;
+    if (peak > 0.0) {
+        counters["peak%"] = 100.0 * flop / step_s / (2.0 * peak);
+    }
 }
 
 void march(benchmark::State& state, const Setting& setting) {
@@ -114,16 +135,12 @@ void march(benchmark::State& state, const Setting& setting) {
     }
     const double step_s =
         median(times) / static_cast<double>(plan.grid.steps.size()) / setting.lanes;
-    const Operations done = operations(*scene, setting);
     auto& counters = state.counters;
+    counters["steps"] = static_cast<double>(plan.grid.steps.size());
     counters["steps/s"] = 1.0 / step_s;
     counters["ns/step"] = 1e9 * step_s;
-    counters["fma"] = static_cast<double>(done.fma);
-    counters["mul"] = static_cast<double>(done.multiply);
-    counters["add"] = static_cast<double>(done.add + done.divide);
-    counters["flop/s"] = static_cast<double>(done.flop()) / step_s;
-    if (const double peak = median(peaks); peak > 0.0) {
-        counters["peak%"] = 100.0 * static_cast<double>(done.flop()) / step_s / (2.0 * peak);
+    if (const std::optional<Operations> done = operations(*scene, setting)) {
+        count_operations(*done, step_s, median(peaks), counters);
     }
     counters["stream_B"] = bytes_streamed(plan, setting.lanes) / setting.lanes;
     counters["tile_B"] = bytes_of_tile(plan, setting.lanes, setting.single() ? 4 : 8);
@@ -151,13 +168,20 @@ void add_all() {
     for (const InstructionSet set : instruction_sets()) {
         for (const int planets : {3, 4, 6}) {
             for (const bool torsional : {false, true}) {
-                add({planets, torsional, "rk4", "double", 8, set});
-                add({planets, torsional, "rk4", "single", 16, set});
-                add({planets, torsional, "generalized-alpha", "double", 8, set});
+                for (const char* method : {"rk4", "central-difference"}) {
+                    add({planets, torsional, method, "double", 8, set});
+                    add({planets, torsional, method, "single", 16, set});
+                }
+                for (const char* method : {"generalized-alpha", "sdirk3"}) {
+                    add({planets, torsional, method, "double", 8, set});
+                }
             }
         }
         for (const int lanes : {1, 4}) {
             add({4, false, "rk4", "double", lanes, set});
+        }
+        for (const int lanes : {1, 4, 8}) {
+            add({4, false, "rk4", "single", lanes, set});
         }
     }
 }

@@ -1,5 +1,8 @@
-// Built with contraction: here the compiler is to fuse.
+// Built with contraction: here the compiler is to fuse. And without vectorization: chains of one
+// number are to stay what they are.
 #include "fma_peak.hpp"
+
+#include <cstring>
 
 #include "machine/dispatch.hpp"
 #include "mc/thread_clock.hpp"
@@ -12,9 +15,9 @@ namespace {
 constexpr int kChains = 12;
 constexpr long kRounds = 60'000;
 
-template <class Real, int kBytes>
+// Vector: a vector of so many Real, or one.
+template <class Real, class Vector>
 GEARPOD_INLINE Real chains() {
-    typedef Real Vector __attribute__((vector_size(kBytes)));
     Vector sum[kChains];
     Vector factor = Vector{} + Real(0.5), change = Vector{} + Real(0.25);
     asm("" : "+x"(factor), "+x"(change));  // no constants to the compiler
@@ -31,45 +34,65 @@ GEARPOD_INLINE Real chains() {
     for (const Vector& s : sum) {
         all += s;
     }
-    return all[0];
+    Real first;
+    std::memcpy(&first, &all, sizeof first);
+    return first;
 }
+
+template <class Real, int kBytes>
+struct VectorOf {
+    typedef Real Type __attribute__((vector_size(kBytes)));
+};
 
 #if defined(__x86_64__)
 template <class Real>
-__attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) Real chains_v4() {
-    return chains<Real, 64>();
+__attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) Real chains_512() {
+    return chains<Real, typename VectorOf<Real, 64>::Type>();
 }
 template <class Real>
-__attribute__((target("arch=x86-64-v3"))) Real chains_v3() {
-    return chains<Real, 32>();
+__attribute__((target("arch=x86-64-v3"))) Real chains_256() {
+    return chains<Real, typename VectorOf<Real, 32>::Type>();
 }
-#endif
+template <class Real>
+__attribute__((target("arch=x86-64-v3"))) Real chains_scalar() {
+    return chains<Real, Real>();
+}
 
 template <class Real>
-double fma_rate() {
-#if defined(__x86_64__)
+double rate_of(Real (*chains_of_width)(), double lanes) {
+    const double start = mc::thread_processor_s();
+    volatile Real result = chains_of_width();
+    static_cast<void>(result);
+    return lanes * kChains * kRounds / (mc::thread_processor_s() - start);
+}
+
+template <class Real>
+double fma_rate(Width width) {
     const auto set = machine::active_instruction_set();
-    if (set == machine::InstructionSet::baseline) {
+    const bool has_512 = set == machine::InstructionSet::x86_64_v4;
+    if (set == machine::InstructionSet::baseline || (width == Width::bits_512 && !has_512)) {
         return 0.0;
     }
-    const bool wide = set == machine::InstructionSet::x86_64_v4;
-    const double start = mc::thread_processor_s();
-    volatile Real result = wide ? chains_v4<Real>() : chains_v3<Real>();
-    static_cast<void>(result);
-    const double lanes = (wide ? 64.0 : 32.0) / sizeof(Real);
-    return lanes * kChains * kRounds / (mc::thread_processor_s() - start);
-#else
-    return 0.0;
-#endif
+    if (width == Width::scalar) {
+        return rate_of(chains_scalar<Real>, 1.0);
+    }
+    return width == Width::bits_256 || !has_512 ? rate_of(chains_256<Real>, 32.0 / sizeof(Real))
+                                                : rate_of(chains_512<Real>, 64.0 / sizeof(Real));
 }
+#else
+template <class Real>
+double fma_rate(Width) {
+    return 0.0;
+}
+#endif
 
 }  // namespace
 
-double fma_rate_double() {
-    return fma_rate<double>();
+double fma_rate_double(Width width) {
+    return fma_rate<double>(width);
 }
 double fma_rate_float() {
-    return fma_rate<float>();
+    return fma_rate<float>(Width::active);
 }
 
 }  // namespace gearpod::bench

@@ -3,10 +3,13 @@
 
 namespace gearpod::bench {
 
-// Fused multiply-adds a second of this thread's processor time with the active instruction set, on
-// doubles or on floats, each lane counted; from one burst of about a quarter of a millisecond. 0
-// for an instruction set without them.
-double fma_rate_double();
+// Registers that the chains work on; `active`: the widest of the active instruction set.
+enum class Width { scalar, bits_256, bits_512, active };
+
+// Fused multiply-adds a second of this thread's processor time, on doubles or on floats, each lane
+// counted; from one burst of about a quarter of a millisecond. 0 for a width that the processor or
+// the active instruction set does not have.
+double fma_rate_double(Width width = Width::active);
 double fma_rate_float();
 
 }  // namespace gearpod::bench

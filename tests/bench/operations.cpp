@@ -4,6 +4,7 @@
 
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
+#include "lockstep/central_difference.hpp"
 #include "lockstep/generalized_alpha.hpp"
 #include "lockstep/runge_kutta.hpp"
 
@@ -26,9 +27,9 @@ struct CountedState {
     return {};
 }
 
-// The values do not matter: no kernel branches on them.
-template <class Model>
-Operations operations_of(const lockstep::MarchPlan& plan, int planets) {
+// Of step `i`. The values do not matter: no kernel branches on them.
+template <class Integrator, class Model>
+Operations operations_of(const lockstep::MarchPlan& plan, int planets, int i) {
     typename Model::Lanes lanes{};
     lanes.planets = planets;
     const auto degrees = static_cast<std::size_t>(Model::degrees_of_freedom(lanes));
@@ -39,10 +40,23 @@ Operations operations_of(const lockstep::MarchPlan& plan, int planets) {
     state.filter.resize(channels * lockstep::kFilterStates);
     const machine::AlignedArray<Counted> filter(plan.grid.lengths.size() *
                                                 lockstep::kFilterCoefficients);
-    const auto stages = std::make_unique<lockstep::RungeKutta4::Stages<Model>>();
+    const auto stages = std::make_unique<typename Integrator::template Stages<Model>>();
     Operations::done() = {};
-    lockstep::RungeKutta4::step<Model>(plan, lanes, filter, {}, 0, state, *stages);
+    Integrator::template step<Model>(plan, lanes, filter, {}, i, state, *stages);
     return Operations::done();
+}
+
+template <class Integrator>
+Operations of_planetary(const lockstep::MarchPlan& plan, int i) {
+    using dynamics::LinearMesh;
+    const auto& layout = std::get<dynamics::PlanetaryLayout>(plan.layout);
+    if (layout.motion == dynamics::Motion::torsional) {
+        using Model = dynamics::TorsionalMotion<LinearMesh, 1, Counted>;
+        return operations_of<Integrator, Model>(plan, layout.planets, i);
+    }
+    using Model =
+        dynamics::TranslationalMotion<dynamics::WithInertialTerms, LinearMesh, 1, Counted>;
+    return operations_of<Integrator, Model>(plan, layout.planets, i);
 }
 
 // A filter's channel takes up two rows of two numbers, two rows of four, and three inputs each.
@@ -54,14 +68,17 @@ void add_filter(int channels, Operations& sum) {
 }  // namespace
 
 Operations rk4_operations(const lockstep::MarchPlan& plan) {
-    const auto& layout = std::get<dynamics::PlanetaryLayout>(plan.layout);
-    if (layout.motion == dynamics::Motion::torsional) {
-        return operations_of<dynamics::TorsionalMotion<dynamics::LinearMesh, 1, Counted>>(
-            plan, layout.planets);
+    return of_planetary<lockstep::RungeKutta4>(plan, 0);
+}
+
+Operations central_difference_operations(const lockstep::MarchPlan& plan) {
+    const auto& steps = plan.grid.steps;
+    int i = 1;
+    while (i + 1 < static_cast<int>(steps.size()) &&
+           steps[static_cast<std::size_t>(i)].sample >= 0) {
+        ++i;
     }
-    return operations_of<dynamics::TranslationalMotion<dynamics::WithInertialTerms,
-                                                       dynamics::LinearMesh, 1, Counted>>(
-        plan, layout.planets);
+    return of_planetary<lockstep::CentralDifference>(plan, i);
 }
 
 // In the order of lockstep/generalized_alpha.hpp and implicit_stage.hpp.

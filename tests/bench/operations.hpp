@@ -10,6 +10,8 @@ namespace gearpod::bench {
 // passage; counted by running the step's template on numbers that count. Of a planetary gearbox
 // with linear meshes; torsional, or with inertial terms.
 Operations rk4_operations(const lockstep::MarchPlan& plan);
+// Likewise of central differences, of a step that begins at no sample if there is one.
+Operations central_difference_operations(const lockstep::MarchPlan& plan);
 
 // The same of the generalized-alpha method, on a step at whose start no stiffness jumps; by the
 // lists of matrix entries that its kernel goes through.

@@ -1,9 +1,13 @@
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -20,6 +24,8 @@ void check(int code, const char* what) {
     }
 }
 
+struct Late {};
+
 class Cvode {
   public:
     Cvode(const Task& task, Multistep method, double tolerance, int gearbox)
@@ -31,16 +37,22 @@ class Cvode {
             NV_Ith_S(absolute_, i) = tolerance * task.scale[i];
         }
         copy_start(task, gearbox, NV_DATA_S(y_));
-        memory_ = CVodeCreate(method == Multistep::bdf ? CV_BDF : CV_ADAMS, context_);
+        memory_ = CVodeCreate(method == Multistep::adams ? CV_ADAMS : CV_BDF, context_);
         check(CVodeInit(memory_, rates_at, 0.0, y_), "CVodeInit");
         check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
         check(CVodeSVtolerances(memory_, 0.0, absolute_), "CVodeSVtolerances");
-        check(CVodeSetMaxNumSteps(memory_, -1), "CVodeSetMaxNumSteps");
+        check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // or every look is an error
+        check(CVodeSetMaxNumSteps(memory_, kStepsBetweenLooks), "CVodeSetMaxNumSteps");
         if (method == Multistep::bdf) {
             matrix_ = SUNDenseMatrix(kSensing, kSensing, context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
-            check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
-            check(CVodeSetJacFn(memory_, jacobian_at), "CVodeSetJacFn");
+            use_newton(dense_jacobian);
+        } else if (method == Multistep::sparse_bdf) {
+            find_pattern();
+            matrix_ = SUNSparseMatrix(kSensing, kSensing, static_cast<sunindextype>(row_.size()),
+                                      CSC_MAT, context_);
+            linear_ = SUNLinSol_KLU(y_, matrix_, context_);
+            use_newton(sparse_jacobian);
         } else {
             fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
             check(CVodeSetNonlinearSolver(memory_, fixed_point_), "CVodeSetNonlinearSolver");
@@ -68,6 +80,7 @@ class Cvode {
         const std::vector<int>& all = task_.fine.stretches();
         const std::vector<int> whole{all.front(), all.back()};
         stops_ = stops;
+        give_up_at_s_ = mc::thread_processor_s() + extent.most_s;
         restart(-extent.run_in);
         for (k_ = -extent.run_in; k_ < extent.recorded; ++k_) {
             lockstep::MeshRecord* record =
@@ -83,10 +96,17 @@ class Cvode {
     }
 
   private:
+    static constexpr long kStepsBetweenLooks = 2000;  // at the clock
+
     double phase_of(int step) const {
         const auto& steps = task_.fine.grid().steps;
         return step < static_cast<int>(steps.size()) ? steps[static_cast<std::size_t>(step)].phase
                                                      : 1.0;
+    }
+    void use_newton(CVLsJacFn jacobian) {
+        compare_jacobian();
+        check(CVodeSetLinearSolver(memory_, linear_, matrix_), "CVodeSetLinearSolver");
+        check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
     }
     void count_steps() {
         long done = 0;
@@ -99,7 +119,14 @@ class Cvode {
     }
     void solve_to(double t) {
         double reached = 0.0;
-        check(CVode(memory_, t, y_, &reached, CV_NORMAL), "CVode");
+        int code = CVode(memory_, t, y_, &reached, CV_NORMAL);
+        while (code == CV_TOO_MUCH_WORK) {
+            if (mc::thread_processor_s() > give_up_at_s_) {
+                throw Late{};
+            }
+            code = CVode(memory_, t, y_, &reached, CV_NORMAL);
+        }
+        check(code, "CVode");
     }
 
     void stretch(lockstep::MeshRecord* record) {
@@ -139,23 +166,94 @@ class Cvode {
         return 0;
     }
 
-    // The equations are linear: a column is y' of a unit state less y' of none.
-    static int jacobian_at(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
-                           N_Vector, N_Vector) {
-        const auto& own = *static_cast<const Cvode*>(self);
-        Meshes<double> m;
-        own.meshes_at(t, m);
-        Gearbox<double> box = own.box_;
+    using Column = std::array<double, kSensing>;
+
+    // The equations are linear: a column of the Jacobian is y' of a unit state less y' of none.
+    // take(i, column).
+    template <class Take>
+    void each_column(const Meshes<double>& m, Take take) const {
+        Gearbox<double> box = box_;
         box.pull = 0.0;
         for (double& force : box.force) {
             force = 0.0;
         }
         double unit[kSensing] = {};
+        Column column;
         for (int i = 0; i < kSensing; ++i) {
             unit[i] = 1.0;
-            rates<kSensing>(box, m, unit, SM_COLUMN_D(matrix, i));
+            rates<kSensing>(box, m, unit, column.data());
             unit[i] = 0.0;
+            take(i, column);
         }
+    }
+
+    // With the difference that a step of every state makes to y', in the middle of mesh 0.
+    void compare_jacobian() const {
+        Meshes<double> m;
+        task_.fine.at_phase(0, 0.5, 0, static_cast<int>(task_.fine.grid().steps.size()), gearbox_,
+                            m);
+        double y[kSensing], moved[kSensing];
+        Column before, after, change{}, size{};
+        copy_start(task_, gearbox_, y);
+        for (int i = 0; i < kSensing; ++i) {
+            moved[i] = y[i] + (i % 2 == 0 ? 1.0 : -0.5) * task_.scale[i];
+        }
+        rates<kSensing>(box_, m, y, before.data());
+        rates<kSensing>(box_, m, moved, after.data());
+        each_column(m, [&](int i, const Column& column) {
+            for (std::size_t d = 0; d < kSensing; ++d) {
+                change[d] += column[d] * (moved[i] - y[i]);
+                size[d] += std::abs(column[d]) * (std::abs(moved[i]) + std::abs(y[i]));
+            }
+        });
+        for (std::size_t d = 0; d < kSensing; ++d) {
+            if (std::abs(after[d] - before[d] - change[d]) > 1e-12 * size[d]) {
+                throw std::logic_error("the Jacobian is not that of the rates");
+            }
+        }
+    }
+
+    // Where the Jacobian has entries, and its diagonal, column by column.
+    void find_pattern() {
+        Meshes<double> all;
+        std::fill_n(all.k, kPairs, 1.0);
+        std::fill_n(all.c, kPairs, 1.0);
+        begin_.push_back(0);
+        each_column(all, [&](int i, const Column& column) {
+            for (int d = 0; d < kSensing; ++d) {
+                if (d == i || column[static_cast<std::size_t>(d)] != 0.0) {
+                    row_.push_back(d);
+                }
+            }
+            begin_.push_back(static_cast<sunindextype>(row_.size()));
+        });
+    }
+
+    static int dense_jacobian(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                              N_Vector, N_Vector) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        own.each_column(m, [matrix](int i, const Column& column) {
+            std::copy(column.begin(), column.end(), SM_COLUMN_D(matrix, i));
+        });
+        return 0;
+    }
+
+    static int sparse_jacobian(double t, N_Vector, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                               N_Vector, N_Vector) {
+        const auto& own = *static_cast<const Cvode*>(self);
+        Meshes<double> m;
+        own.meshes_at(t, m);
+        std::copy(own.begin_.begin(), own.begin_.end(), SM_INDEXPTRS_S(matrix));
+        std::copy(own.row_.begin(), own.row_.end(), SM_INDEXVALS_S(matrix));
+        double* value = SM_DATA_S(matrix);
+        own.each_column(m, [&](int i, const Column& column) {
+            const auto at = static_cast<std::size_t>(i);
+            for (auto n = own.begin_[at]; n < own.begin_[at + 1]; ++n) {
+                value[n] = column[static_cast<std::size_t>(own.row_[static_cast<std::size_t>(n)])];
+            }
+        });
         return 0;
     }
 
@@ -164,13 +262,14 @@ class Cvode {
     const Gearbox<double> box_;
     bool stops_ = false;
     int k_ = 0, first_ = 0, last_ = 0;
-    double steps_ = 0.0;
+    double steps_ = 0.0, give_up_at_s_ = 0.0;
     SUNContext context_ = nullptr;
     N_Vector y_ = nullptr, absolute_ = nullptr;
     void* memory_ = nullptr;
     SUNMatrix matrix_ = nullptr;
     SUNLinearSolver linear_ = nullptr;
     SUNNonlinearSolver fixed_point_ = nullptr;
+    std::vector<sunindextype> begin_, row_;  // the sparse Jacobian's columns
 };
 
 }  // namespace
@@ -183,6 +282,8 @@ PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multi
         const double began = mc::thread_processor_s();
         try {
             solver.march(extent, stops, run.records);
+        } catch (const Late&) {
+            run.late = true;
         } catch (const std::runtime_error&) {
             run.failed = true;
         }

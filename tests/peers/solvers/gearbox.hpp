@@ -44,6 +44,10 @@ struct Meshes {
     T k[kPairs], c[kPairs];
 };
 
+// The functions are of a build (CMakeLists.txt): no program may hold one of them twice, made with
+// different options.
+inline namespace GEARPOD_PEERS_BUILD {
+
 template <class T>
 inline void planet_rates(const Gearbox<T>& g, int n, const Meshes<T>& m, const T* q, const T* v,
                          T* load, T* a) {
@@ -132,5 +136,7 @@ inline void rates(const Gearbox<T>& g, const Meshes<T>& m, const T* y, T* dy) {
         }
     }
 }
+
+}  // namespace GEARPOD_PEERS_BUILD
 
 }  // namespace gearpod::peers

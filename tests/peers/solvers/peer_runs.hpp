@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "gearbox.hpp"
@@ -27,31 +28,38 @@ struct Task {
 // pattern on. The pattern repeats, so those before are its last.
 struct Extent {
     int run_in = 2, recorded = 1;
+    // Processor time after which a solver that chooses its steps gives up a gearbox.
+    double most_s = std::numeric_limits<double>::infinity();
 };
 
 struct PeerRun {
     std::vector<lockstep::MeshRecord> records;  // of eight lanes; only the marched ones are filled
     double march_s = 0.0;                       // of processor time, over all mesh periods marched
     double steps = 0.0;                         // a mesh period and gearbox
-    bool failed = false;
+    bool late = false, failed = false;          // gave up; or the solver did
 };
 
 // Gearboxes first to last - 1 march one by one, wide ones all eight together.
 
 // Classical Runge-Kutta on the steps of the task's grid. `motion_only`: without the sensor's
-// low-pass, which leaves the records' accelerations zero.
-PeerRun odeint_scalar_rk4(const Task& task, const Extent& extent, int first, int last,
-                          bool motion_only);
+// low-pass, which leaves the records' accelerations zero. Of a release build, whose compiler makes
+// vectors of one gearbox's states where it can; and without that.
+namespace vectorized {
+PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
 PeerRun odeint_wide_rk4(const Task& task, const Extent& extent, bool motion_only);
+}  // namespace vectorized
+namespace scalar {
+PeerRun odeint_rk4(const Task& task, const Extent& extent, int first, int last, bool motion_only);
+}  // namespace scalar
 
 // Dormand and Prince's pair with dense output. `stops`: starts anew at every transition of the
 // stiffness, instead of finding it by rejected steps.
 PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int last, double tolerance,
                       bool stops);
 
-// CVODE with dense Newton iteration and the exact Jacobian (BDF), or with fixed-point iteration
-// (Adams).
-enum class Multistep { bdf, adams };
+// CVODE with Newton iteration and the exact Jacobian (BDF), dense or sparse (KLU), or with
+// fixed-point iteration (Adams).
+enum class Multistep { bdf, sparse_bdf, adams };
 PeerRun cvode(const Task& task, const Extent& extent, int first, int last, Multistep method,
               double tolerance, bool stops);
 

@@ -11,9 +11,9 @@
 
 namespace gearpod::peers {
 
-inline constexpr int kGearboxes = 8;
+// Eight, of the scene's graded group; where they march one by one, the one with the largest crack.
+inline constexpr int kGearboxes = 8, kLargestCrack = 6;
 
-// Which gearboxes: eight, of the scene's graded group.
 struct Boxes {
     std::vector<mc::InstanceInputs> instances;
     std::vector<dynamics::GearboxInputs> inputs;
@@ -31,25 +31,21 @@ class StiffnessTables {
 
     // Stage node 0, 1 or 2 (start, middle, end) of a step of mesh k of the pattern.
     void at_node(int mesh, int step, int node, int gearbox, Meshes<double>& m) const;
-    // The same for all eight; T has x[8].
+    // The same for all eight, with T::load().
     template <class T>
     void at_node(int mesh, int step, int node, Meshes<T>& m) const {
         const std::size_t row = row_of(step, node);
+        const T factor[2] = {T::load(factor_[0]), T::load(factor_[1])};
         for (int pair = 0; pair < kPairs; ++pair) {
-            m.k[pair] = T(plan_.nodes.stiffness[row + static_cast<std::size_t>(pair)]);
-            const double shape = plan_.nodes.damping_shape[row + static_cast<std::size_t>(pair)];
-            for (int l = 0; l < kGearboxes; ++l) {
-                m.c[pair].x[l] = factor_[side(pair)][l] * shape;
-            }
+            const std::size_t at = row + static_cast<std::size_t>(pair);
+            m.k[pair] = plan_.nodes.stiffness[at];
+            m.c[pair] = plan_.nodes.damping_shape[at] * factor[side(pair)];
         }
         for (const lockstep::PairOverride& o : overrides_[static_cast<std::size_t>(mesh)]) {
             if (step >= o.first_step && step < o.last_step) {
                 const std::size_t at = lane_row(o, step, node);
-                for (int l = 0; l < kGearboxes; ++l) {
-                    const std::size_t lane = at + static_cast<std::size_t>(l);
-                    m.k[o.pair].x[l] = o.stiffness[lane];
-                    m.c[o.pair].x[l] = factor_[side(o.pair)][l] * o.damping_shape[lane];
-                }
+                m.k[o.pair] = T::load(&o.stiffness[at]);
+                m.c[o.pair] = factor[side(o.pair)] * T::load(&o.damping_shape[at]);
             }
         }
     }

@@ -1,6 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <boost/numeric/odeint.hpp>
+#include <cmath>
 
-#include "eight.hpp"
 #include "mc/thread_clock.hpp"
 #include "peer_runs.hpp"
 
@@ -9,117 +11,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-template <int Size, class T>
-using State = std::array<T, static_cast<std::size_t>(Size)>;
-
-// y' for a step of the grid: the method asks for it at the step's start, twice in its middle, and
-// at its end.
-template <int Size, class T, class MeshesAt>
-class StepRates {
-  public:
-    StepRates(const Gearbox<T>& gearbox, MeshesAt meshes_at)
-        : gearbox_(gearbox), meshes_at_(meshes_at) {}
-
-    void begin(int mesh, int step) {
-        mesh_ = mesh;
-        step_ = step;
-        stage_ = 0;
-    }
-    void operator()(const State<Size, T>& y, State<Size, T>& dy, double) {
-        if (stage_ != 2) {
-            meshes_at_(mesh_, step_, (stage_ + 1) / 2, meshes_);
-        }
-        ++stage_;
-        rates<Size>(gearbox_, meshes_, y.data(), dy.data());
-    }
-
-  private:
-    const Gearbox<T>& gearbox_;
-    MeshesAt meshes_at_;
-    Meshes<T> meshes_;
-    int mesh_ = 0, step_ = 0, stage_ = 0;
-};
-
-template <int Size, class T, class MeshesAt, class Record>
-void march_steps(const Task& task, const Extent& extent, const Gearbox<T>& gearbox,
-                 MeshesAt meshes_at, State<Size, T>& y, Record record) {
-    odeint::runge_kutta4<State<Size, T>, double, State<Size, T>, double, odeint::array_algebra>
-        stepper;
-    StepRates<Size, T, MeshesAt> rates_of(gearbox, meshes_at);
-    const auto& steps = task.steps.grid().steps;
-    for (int k = -extent.run_in; k < extent.recorded; ++k) {
-        const int mesh = pattern_mesh(task, k);
-        for (std::size_t i = 0; i < steps.size(); ++i) {
-            if (k >= 0 && steps[i].sample >= 0) {
-                record(k, steps[i].sample, y);
-            }
-            rates_of.begin(mesh, static_cast<int>(i));
-            stepper.do_step(std::ref(rates_of), y, 0.0, steps[i].length * task.mesh_period_s);
-        }
-    }
-}
-
-template <int Size>
-PeerRun scalar_rk4(const Task& task, const Extent& extent, int first, int last) {
-    PeerRun run{empty_records(task, extent.recorded), 0.0,
-                static_cast<double>(task.steps.grid().steps.size())};
-    for (int g = first; g < last; ++g) {
-        const Gearbox<double> gearbox = gearbox_of(task, g);
-        double start[kSensing];
-        copy_start(task, g, start);
-        State<Size, double> y;
-        std::copy_n(start, Size, y.begin());
-        const double began = mc::thread_processor_s();
-        march_steps<Size>(
-            task, extent, gearbox,
-            [&](int mesh, int step, int node, Meshes<double>& m) {
-                task.steps.at_node(mesh, step, node, g, m);
-            },
-            y,
-            [&](int k, int sample, const State<Size, double>& state) {
-                record_sample(task, state.data(), Size == kSensing, g, sample,
-                              run.records[static_cast<std::size_t>(k)]);
-            });
-        run.march_s += mc::thread_processor_s() - began;
-    }
-    return run;
-}
-
-template <int Size>
-PeerRun wide_rk4(const Task& task, const Extent& extent) {
-    PeerRun run{empty_records(task, extent.recorded), 0.0,
-                static_cast<double>(task.steps.grid().steps.size())};
-    const Gearbox<Eight> gearbox = all_gearboxes<Eight>(task);
-    State<Size, Eight> y;
-    for (int g = 0; g < kGearboxes; ++g) {
-        double start[kSensing];
-        copy_start(task, g, start);
-        for (std::size_t i = 0; i < y.size(); ++i) {
-            y[i].x[g] = start[i];
-        }
-    }
-    const double began = mc::thread_processor_s();
-    march_steps<Size>(
-        task, extent, gearbox,
-        [&](int mesh, int step, int node, Meshes<Eight>& m) {
-            task.steps.at_node(mesh, step, node, m);
-        },
-        y,
-        [&](int k, int sample, const State<Size, Eight>& state) {
-            double one[Size];
-            for (int g = 0; g < kGearboxes; ++g) {
-                for (std::size_t i = 0; i < state.size(); ++i) {
-                    one[i] = state[i].x[g];
-                }
-                record_sample(task, one, Size == kSensing, g, sample,
-                              run.records[static_cast<std::size_t>(k)]);
-            }
-        });
-    run.march_s = mc::thread_processor_s() - began;
-    return run;
-}
-
-using Sensing = State<kSensing, double>;
+using Sensing = std::array<double, static_cast<std::size_t>(kSensing)>;
 
 // The largest error over the states, each against its size.
 class ErrorAgainstSize {
@@ -153,7 +45,9 @@ class Dopri5 {
 
     double steps() const { return steps_; }
 
-    void march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+    // Whether it came to the end in time.
+    bool march(const Extent& extent, bool stops, std::vector<lockstep::MeshRecord>& records) {
+        const double give_up_at_s = mc::thread_processor_s() + extent.most_s;
         Sensing y;
         copy_start(task_, gearbox_, y.data());
         const std::vector<int>& all = task_.fine.stretches();
@@ -165,7 +59,11 @@ class Dopri5 {
             for (std::size_t i = 0; i + 1 < stretches.size(); ++i) {
                 stretch(k, stretches[i], stretches[i + 1], stops, record);
             }
+            if (mc::thread_processor_s() > give_up_at_s) {
+                return false;
+            }
         }
+        return true;
     }
 
   private:
@@ -233,23 +131,13 @@ class Dopri5 {
 
 }  // namespace
 
-PeerRun odeint_scalar_rk4(const Task& task, const Extent& extent, int first, int last,
-                          bool motion_only) {
-    return motion_only ? scalar_rk4<kMoving>(task, extent, first, last)
-                       : scalar_rk4<kSensing>(task, extent, first, last);
-}
-
-PeerRun odeint_wide_rk4(const Task& task, const Extent& extent, bool motion_only) {
-    return motion_only ? wide_rk4<kMoving>(task, extent) : wide_rk4<kSensing>(task, extent);
-}
-
 PeerRun odeint_dopri5(const Task& task, const Extent& extent, int first, int last, double tolerance,
                       bool stops) {
     PeerRun run{empty_records(task, extent.recorded)};
     for (int g = first; g < last; ++g) {
         Dopri5 solver(task, tolerance, g);
         const double began = mc::thread_processor_s();
-        solver.march(extent, stops, run.records);
+        run.late |= !solver.march(extent, stops, run.records);
         run.march_s += mc::thread_processor_s() - began;
         run.steps += solver.steps() / (extent.run_in + extent.recorded) / (last - first);
     }

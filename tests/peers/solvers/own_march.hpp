@@ -1,0 +1,36 @@
+// The study's gearboxes on gearpod's own march, and all that the other solvers need of them.
+#pragma once
+
+#include <memory>
+
+#include "lockstep/mesh_march.hpp"
+#include "lockstep/rigid_rotation.hpp"
+#include "peer_runs.hpp"
+#include "rows.hpp"
+
+namespace gearpod::peers {
+
+class OwnMarch {
+  public:
+    explicit OwnMarch(const Options& options);
+
+    const Task& task() const { return task_; }
+    const mc::Scene& scene() const { return *scene_; }
+
+    // Processor seconds that a mesh period of the tile takes, in doubles by the scene's rk4.
+    double tile_mesh_s();
+
+  private:
+    void start();
+    double start_value(int i) const;
+
+    std::unique_ptr<mc::Scene> scene_, fine_;
+    Boxes boxes_;
+    StiffnessTables tables_, fine_tables_;
+    Task task_;
+    std::unique_ptr<const lockstep::MeshMarch<kGearboxes>> march_;
+    std::unique_ptr<const lockstep::RigidRotation> rotation_;
+    lockstep::TileState state_;
+};
+
+}  // namespace gearpod::peers

@@ -1,0 +1,43 @@
+#include "rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gearpod::peers {
+
+namespace {
+
+// The basic ones but window_z, which without noise divides by the differences of teeth that are
+// alike: a solver whose steps differ from mesh period to mesh period has another value of it until
+// its error is far below the differences that any sensor sees.
+constexpr const char* kFeatures =
+    R"(features.use=["te_rms","te_kurtosis","te_fc","te_fm0","sensor_rms","window_ratio"])";
+
+}  // namespace
+
+std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides) {
+    overrides.emplace_back(kFeatures);
+    const mc::StudyReading reading = mc::read_study(options.study, overrides);
+    if (!reading.study) {
+        throw std::runtime_error(mc::format(reading.problems));
+    }
+    return std::make_unique<mc::Scene>(*reading.study);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+std::string ratio_text(const Row& row, const Row& to, double scale) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < row.times.size(); ++i) {
+        all.push_back(scale * row.times[i] / to.times[i]);
+    }
+    std::sort(all.begin(), all.end());
+    return fmt::format("{:>9.3g} ({:.3g}..{:.3g})", median(all), all.front(), all.back());
+}
+
+}  // namespace gearpod::peers

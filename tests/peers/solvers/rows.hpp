@@ -1,0 +1,41 @@
+// What the tables share: a way to march, its times by round, and their ratios.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/accuracy_pilot.hpp"
+#include "mc/scene.hpp"
+
+namespace gearpod::peers {
+
+struct Options {
+    std::string study = GEARPOD_SOURCE_DIR "/studies/liang-fig-5-8.toml";
+    std::string csv;
+    int rounds = 5;
+    double error = 1e-3;  // of the worst feature
+    double try_s = 120.0;
+    bool steps_only = false;
+};
+
+// The study with the features that are compared. Throws std::runtime_error with its problems.
+std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides);
+
+// A way to march. `times`: seconds a gearbox, over the span or a step, by round.
+struct Row {
+    std::string name;
+    std::vector<double> times;
+    double meshes = 0.0;  // that those times are of; 0: a step
+    std::optional<mc::PilotError> error;
+    double tolerance = 0.0, steps = 0.0;
+    bool within = true;  // the error asked for
+};
+
+double median(std::vector<double> values);
+
+// Median and range of a row's times over another's, round by round.
+std::string ratio_text(const Row& row, const Row& to, double scale = 1.0);
+
+}  // namespace gearpod::peers

@@ -1,0 +1,164 @@
+#include "span_table.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "comparison.hpp"
+#include "mc/numerics_choice.hpp"
+
+namespace gearpod::peers {
+namespace {
+
+constexpr int kRunIn = 2;
+// Rounds that a solver takes part in whose round takes longer than kSlow_s.
+constexpr std::size_t kSlowRounds = 3;
+constexpr double kSlow_s = 1.0;
+
+}  // namespace
+
+SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pilot,
+                     const mc::Reference& reference)
+    : options_(options), own_(own), pilot_(pilot), reference_(reference) {
+    chosen_ = scene_of(options, {fmt::format("numerics.tolerance={}", options.error)});
+    span_ = kRunIn + own.scene().span_meshes();
+    const mc::PilotRecord record = pilot.run(*chosen_);
+    rows_.push_back({"gearpod, " + chosen_->numerics_choice()->rung.text(),
+                     {},
+                     record.meshes_per_tile(),
+                     mc::pilot_error(record, reference.record),
+                     0.0,
+                     static_cast<double>(record.steps)});
+    rows_.push_back({"gearpod, rk4 in doubles, every mesh marched",
+                     {},
+                     span_,
+                     {},
+                     0.0,
+                     static_cast<double>(own.task().steps.grid().steps.size())});
+}
+
+void SpanTable::add_all() {
+    constexpr int kBox = kLargestCrack;
+    add_fixed("odeint rk4, one by one", [](const Task& task, const Extent& extent, double) {
+        return vectorized::odeint_rk4(task, extent, kBox, kBox + 1, false);
+    });
+    add_fixed("odeint rk4, 8-wide value type", [](const Task& task, const Extent& extent, double) {
+        PeerRun run = vectorized::odeint_wide_rk4(task, extent, false);
+        run.march_s /= kGearboxes;
+        return run;
+    });
+    for (const bool stops : {false, true}) {
+        const std::string how = stops ? ", restarted at transitions" : "";
+        add_adaptive("odeint dopri5" + how, [=](const Task& task, const Extent& extent, double e) {
+            return odeint_dopri5(task, extent, kBox, kBox + 1, e, stops);
+        });
+        for (const auto& [name, method] : {std::pair("CVODE BDF, dense", Multistep::bdf),
+                                           std::pair("CVODE BDF, sparse", Multistep::sparse_bdf),
+                                           std::pair("CVODE Adams", Multistep::adams)}) {
+            add_adaptive(name + how, [=](const Task& task, const Extent& extent, double e) {
+                return cvode(task, extent, kBox, kBox + 1, method, e, stops);
+            });
+        }
+    }
+}
+
+std::optional<Attempt> SpanTable::attempt(const std::string& name, const Way& way,
+                                          double tolerance) const {
+    const PeerRun run =
+        way(own_.task(), {kRunIn, own_.task().steps.meshes(), options_.try_s}, tolerance);
+    fmt::print(stderr, "{}, {:.1e}: ", name, tolerance);
+    if (run.late || run.failed) {
+        fmt::print(stderr, "{} after {:.1f} s\n", run.late ? "given up" : "failed", run.march_s);
+        return {};
+    }
+    Attempt done{
+        tolerance, run.steps,
+        error_of(own_.scene(), run.records, kLargestCrack, kLargestCrack + 1, reference_.record)};
+    done.within = done.error.largest_feature() <= options_.error;
+    fmt::print(stderr,
+               "worst feature {:.1e}, sensor {:.1e}, {:.0f} steps a mesh period, {:.1f} s\n",
+               done.error.largest_feature(), done.error.sensor, run.steps, run.march_s);
+    return done;
+}
+
+void SpanTable::add_fixed(const std::string& name, Way way) {
+    const std::optional<Attempt> done = attempt(name, way, 0.0);
+    rows_.push_back({name, {}, span_, done->error, 0.0, done->steps, done->within});
+    ways_.push_back(std::move(way));
+}
+
+void SpanTable::add_adaptive(const std::string& name, Way way) {
+    const std::optional<Attempt> best =
+        loosest_tolerance([&](double tolerance) { return attempt(name, way, tolerance); });
+    if (!best) {
+        fmt::print(stderr, "{}: no tolerance tried came to the end\n", name);
+        return;
+    }
+    rows_.push_back({name, {}, span_, best->error, best->tolerance, best->steps, best->within});
+    ways_.push_back(std::move(way));
+}
+
+void SpanTable::round() {
+    rows_[0].times.push_back(pilot_.run(*chosen_).march_s);
+    rows_[1].times.push_back(own_.tile_mesh_s() / kGearboxes * span_);
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+        Row& row = rows_[i + 2];
+        const bool slow = !row.times.empty() && row.times.front() > kSlow_s / 2.0 * span_;
+        if (slow && row.times.size() >= kSlowRounds) {
+            continue;
+        }
+        const PeerRun run = ways_[i](own_.task(), {1, 1}, row.tolerance);
+        row.times.push_back(run.march_s / 2.0 * span_);
+    }
+}
+
+std::string SpanTable::line(const Row& row) const {
+    const Row& own = rows_[0];
+    const auto number = [](double value) { return fmt::format("{:.1e}", value); };
+    const bool known = row.error.has_value();
+    return fmt::format("{:<44} {:>9} {:>10.0f} {:>10.3g} {:>26} {:>24} {:>10} {:>9} {:>9}\n",
+                       row.name, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
+                       row.steps, median(row.times), ratio_text(row, own),
+                       ratio_text(row, own, own.meshes / row.meshes),
+                       known ? number(row.error->largest_feature()) + (row.within ? "" : "!") : "",
+                       known ? number(row.error->sensor) : "", known ? number(row.error->te) : "");
+}
+
+void SpanTable::print() const {
+    fmt::print(
+        "\na gearbox over {} + {} mesh periods with the worst feature within {:g} (!: it is not), "
+        "one thread\n(others: from two measured mesh periods a round; errors over the fault's "
+        "pattern, {} mesh periods)\n{:<44} {:>9} {:>10} {:>10} {:>26} {:>24} {:>10} {:>9} {:>9}\n",
+        kRunIn, own_.scene().span_meshes(), options_.error, kRunIn + own_.task().steps.meshes(), "",
+        "tolerance", "steps/mesh", "s", "over gearpod", "a mesh over gearpod's", "feature",
+        "sensor", "TE");
+    for (const Row& row : rows_) {
+        fmt::print("{}", line(row));
+    }
+}
+
+void SpanTable::write(const std::string& path) const {
+    std::ofstream file(path);
+    file << "name,command,march_s,mesh_s,sensor,te";
+    for (const std::string& feature : own_.scene().study().features.use) {
+        file << ',' << feature;
+    }
+    file << '\n';
+    const int levels = static_cast<int>(own_.scene().study().sensor.noise_levels.size());
+    for (std::size_t i = 2; i < rows_.size(); ++i) {
+        const Row& row = rows_[i];
+        const double march_s = median(row.times);
+        file << fmt::format("\"{}\",peer_solvers,{:.6g},{:.6g},{:.6g},{:.6g}", row.name, march_s,
+                            march_s / row.meshes, row.error->sensor, row.error->te);
+        for (std::size_t f = 0; f < own_.scene().study().features.use.size(); ++f) {
+            file << fmt::format(",{:.6g}", row.error->feature(static_cast<int>(f), levels));
+        }
+        file << '\n';
+    }
+    if (!file.flush()) {
+        throw std::runtime_error(path + ": cannot be written");
+    }
+}
+
+}  // namespace gearpod::peers

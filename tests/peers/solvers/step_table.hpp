@@ -1,0 +1,43 @@
+// A step of the classical Runge-Kutta method, by gearpod and by Boost.odeint, on the same grid; and
+// what share of the fused multiply-adds that this core does at most each of them makes of it.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "mc/accuracy_reference.hpp"
+#include "own_march.hpp"
+#include "tests/bench/fma_peak.hpp"
+
+namespace gearpod::peers {
+
+class StepTable {
+  public:
+    StepTable(OwnMarch& own, const mc::Reference& reference);
+
+    void measure_errors();
+    void round();
+    void print() const;
+
+  private:
+    using Way = std::function<PeerRun(const Task&, const Extent&)>;
+    // Operations of a step, and the registers that its code works in.
+    struct Work {
+        double flop = 0.0;
+        bench::Width width = bench::Width::bits_512;
+        bool no_sensor = false;
+    };
+    void add(const std::string& name, Work work, Way way);
+    double peak(bench::Width width) const;  // fused multiply-adds a second
+    double share(std::size_t row) const;    // of the peak
+    void print_limit() const;
+
+    OwnMarch& own_;
+    const mc::Reference& reference_;
+    std::vector<Row> rows_;
+    std::vector<Work> work_;  // of the rows
+    std::vector<Way> ways_;   // of the rows but the first
+    std::map<bench::Width, std::vector<double>> peaks_;
+};
+
+}  // namespace gearpod::peers
