@@ -44,13 +44,6 @@ void add_graded(const Study& study, const Flight& flight, double least_cost,
 
 }  // namespace
 
-Rung own_rung(const Study& study) {
-    return {std::string(choice_text(study, "numerics", "integrator")),
-            study.numerics.steps_per_mesh,
-            study.numerics.settle_tolerance,
-            {}};
-}
-
 Study without_steps(const Study& study) {
     Study free = study;
     free.numerics.integrator = Integrator::automatic;

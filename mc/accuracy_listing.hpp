@@ -13,9 +13,6 @@ struct ListedRung {
     std::string refusal;  // why it is not marched
 };
 
-// What the study marches by without a tolerance.
-Rung own_rung(const Study& study);
-
 // The study with integrator and steps left to the program.
 Study without_steps(const Study& study);
 

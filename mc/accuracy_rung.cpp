@@ -24,6 +24,13 @@ std::string Rung::text() const {
     return text;
 }
 
+Rung own_rung(const Study& study) {
+    return {std::string(choice_text(study, "numerics", "integrator")),
+            study.numerics.steps_per_mesh,
+            study.numerics.settle_tolerance,
+            {}};
+}
+
 Study with_rung(const Study& study, const Rung& rung) {
     Study plain = study;
     plain.numerics.tolerance = 0.0;

@@ -21,6 +21,9 @@ struct Rung {
     std::string text() const;  // "sdirk3, 864 steps, settled to 1e-06"
 };
 
+// What the study marches by without a tolerance.
+Rung own_rung(const Study& study);
+
 // The study with a rung's keys, and no tolerance of its own. Throws SceneError where the rung has
 // no place in the study.
 Study with_rung(const Study& study, const Rung& rung);

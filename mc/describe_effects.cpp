@@ -22,15 +22,6 @@ bool random(const Study& study, const char* key) {
     return study.find_random(key) != nullptr;
 }
 
-bool pitch_errors(const Study& study) {
-    return study.errors.pitch_error_m > 0.0 || random(study, "gearbox.pitch_error_um");
-}
-
-bool static_errors(const Study& study) {
-    const MeshErrors& e = study.errors;
-    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
-}
-
 void print_motion(const Study& study) {
     const Effects& e = study.effects;
     std::string text = e.torsional() ? "rotations only (rigid bearings)" : "x, y and rotation";
@@ -86,10 +77,10 @@ void print_meshes(const Study& study) {
                         : fmt::format("two-sided, backlash {:g} mm",
                                       1e3 * study.gearbox.backlash_m.value_or(0.0)));
     }
-    if (static_errors(study)) {
+    if (has_static_errors(study)) {
         print_entry("transmission error", "harmonics of the mesh period");
     }
-    if (pitch_errors(study)) {
+    if (has_pitch_errors(study)) {
         print_entry("pitch errors", fmt::format("{:g} um rms a tooth, every mesh marched",
                                                 1e6 * study.errors.pitch_error_m));
     }
@@ -222,7 +213,7 @@ void print_left_out(const Scene& scene) {
     if (!std::isfinite(scene.decay_meshes())) {
         fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
     }
-    if (!static_errors(study) && !pitch_errors(study)) {
+    if (!has_static_errors(study) && !has_pitch_errors(study)) {
         print_entry("transmission error", "perfect flanks");
     }
     if (e.separation == Separation::none) {

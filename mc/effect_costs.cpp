@@ -1,6 +1,7 @@
 #include "mc/effect_costs.hpp"
 
 #include "mc/study_fluctuations.hpp"
+#include "mc/study_gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -14,10 +15,7 @@ bool separates(const Study& s) {
 }
 // A mesh that separates takes its errors along.
 bool has_errors(const Study& s) {
-    const MeshErrors& e = s.errors;
-    const bool any = !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty() ||
-                     e.pitch_error_m > 0.0 || s.find_random("gearbox.pitch_error_um") != nullptr;
-    return any && !separates(s);
+    return (has_static_errors(s) || has_pitch_errors(s)) && !separates(s);
 }
 bool weighs(const Study& s) {
     return s.effects.gravity;

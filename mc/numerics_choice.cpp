@@ -30,20 +30,12 @@ struct Trial {
     bool marched = false;      // or could not win, or has no place in the study
 };
 
-// What the study marches by without a tolerance.
-Rung own_rule(const Study& study) {
-    return {std::string(choice_text(study, "numerics", "integrator")),
-            study.numerics.steps_per_mesh,
-            study.numerics.settle_tolerance,
-            {}};
-}
-
 class Search {
   public:
     explicit Search(const Study& study)
         : study_(study),
           tolerance_(study.numerics.tolerance),
-          scene_(rung_scene(study, own_rule(study))),
+          scene_(rung_scene(study, own_rung(study))),
           pilot_(*scene_) {
         ReferenceRequest request;
         request.agreement = kReferenceShare * tolerance_;
@@ -193,7 +185,7 @@ class Search {
 
     bool may_cost(const Flight& flight, std::size_t steps) {
         if (least_meshes_ == 0.0) {
-            Rung rung = own_rule(study_);
+            Rung rung = own_rung(study_);
             rung.settle_tolerance = settle_tolerances().back();
             const Numerics now = scene_->study().numerics;
             scene_->use(with_rung(study_, rung).numerics);

@@ -124,7 +124,7 @@ void Scene::build_plan() {
     plan_.te_weight = drive_->te_weight(plan_.layout);
     if (study_.effects.separation != Separation::none) {
         plan_.mesh_law = dynamics::MeshLaw::separating;
-    } else if (pitch_errors() || !first_errors().amplitude_m.empty() ||
+    } else if (has_pitch_errors(study_) || !first_errors().amplitude_m.empty() ||
                !second_errors().amplitude_m.empty()) {
         plan_.mesh_law = dynamics::MeshLaw::with_error;
     }
@@ -133,7 +133,7 @@ void Scene::build_plan() {
     calibration_ = chosen.calibration;
     plan_ = plan_of(std::move(chosen.grid));
     check_driving(study_, *drive_, plan_);
-    if (pitch_errors()) {
+    if (has_pitch_errors(study_)) {
         load_shares_ = std::make_unique<const lockstep::LoadShares>(pairs_, plan_.grid);
     }
 }
@@ -149,11 +149,6 @@ lockstep::MarchPlan Scene::plan_of(lockstep::PhaseGrid grid) const {
         lockstep::add_errors(pairs_, plan.grid, errors, plan.nodes);
     }
     return plan;
-}
-
-bool Scene::pitch_errors() const {
-    return study_.errors.pitch_error_m > 0.0 ||
-           study_.find_random("gearbox.pitch_error_um") != nullptr;
 }
 
 // Errors of one kind of mesh are alike for all planets, shifted with their mesh phases.

@@ -97,7 +97,6 @@ class Scene {
     // The plan with its steps: stiffness and transmission errors at their nodes.
     lockstep::MarchPlan plan_of(lockstep::PhaseGrid grid) const;
     lockstep::Pilot pilot() const;
-    bool pitch_errors() const;
     // Static transmission errors of the kinds of mesh.
     lockstep::MeshError first_errors() const;
     lockstep::MeshError second_errors() const;

@@ -80,6 +80,16 @@ std::optional<int> teeth_of(const Study& study, Member member) {
     return std::nullopt;
 }
 
+bool has_static_errors(const Study& study) {
+    const MeshErrors& e = study.errors;
+    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
+}
+
+bool has_pitch_errors(const Study& study) {
+    return study.errors.pitch_error_m > 0.0 ||
+           study.find_random("gearbox.pitch_error_um") != nullptr;
+}
+
 bool stiffness_given(const Study& study) {
     return study.gearbox.tooth_profile == ToothProfile::constant ||
            study.gearbox.tooth_profile == ToothProfile::square_wave;

@@ -34,6 +34,11 @@ std::optional<int> teeth_of(const Study& study, Member member);
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);
 
+// Whether any mesh has a static transmission error, whether the teeth of any gearbox have pitch
+// errors.
+bool has_static_errors(const Study& study);
+bool has_pitch_errors(const Study& study);
+
 // Whether all tooth numbers and the module are given.
 bool has_gears(const Study& study);
 

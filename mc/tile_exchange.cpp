@@ -14,10 +14,31 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// How long the main thread sleeps between two looks for messages, or for signals only.
-std::chrono::milliseconds nap(const Ranks& ranks) {
-    return std::chrono::milliseconds(ranks.size() > 1 ? 1 : 50);
-}
+// How long a main thread sleeps between two looks for messages. Every look takes a processor, and
+// its caches, from a thread that computes; so it is rare while the threads have tiles ahead: within
+// a tile's time, a finished tile is seen and the next one fetched. A process alone looks for
+// signals only.
+class Naps {
+  public:
+    explicit Naps(const Ranks& ranks) : alone_(ranks.size() == 1) {}
+    void finished(const FinishedTile& tile) { shortest_s_ = std::min(shortest_s_, tile.seconds); }
+    std::chrono::milliseconds next(bool tiles_ahead) const {
+        if (alone_) {
+            return kLongest;
+        }
+        return tiles_ahead ? std::clamp(milliseconds(0.25 * shortest_s_), kShortest, kLongest)
+                           : kShortest;
+    }
+
+  private:
+    static constexpr std::chrono::milliseconds kShortest{1}, kLongest{50};
+    static std::chrono::milliseconds milliseconds(double seconds) {
+        return std::chrono::milliseconds(static_cast<long>(1e3 * seconds));
+    }
+
+    const bool alone_;
+    double shortest_s_ = 1.0;
+};
 
 void say(const Ranks& ranks, int to, Say what, const std::vector<std::byte>& bytes = {}) {
     ranks.send(to, static_cast<int>(what), bytes);
@@ -26,7 +47,11 @@ void say(const Ranks& ranks, int to, Say what, const std::vector<std::byte>& byt
 class Leader {
   public:
     Leader(TileCrew& crew, const TilePlan& plan, const EnsembleRun& run)
-        : crew_(crew), plan_(plan), run_(run), dealt_(static_cast<std::size_t>(run.ranks.size())) {
+        : crew_(crew),
+          plan_(plan),
+          run_(run),
+          naps_(run.ranks),
+          dealt_(static_cast<std::size_t>(run.ranks.size())) {
         for (const std::string& threads : run.ranks.gather(std::to_string(crew.threads()))) {
             threads_.push_back(static_cast<std::size_t>(std::stoul(threads)));
         }
@@ -43,7 +68,7 @@ class Leader {
             if (outstanding_ == 0) {
                 break;
             }
-            crew_.wait(nap(run_.ranks));
+            crew_.wait(naps_.next(tiles_ahead()));
             receive();
             consider_stopping();
             checkpoint();
@@ -60,9 +85,9 @@ class Leader {
     // Tiles that a rank should have: one for each thread and one ahead, so that none waits for a
     // message; none ahead near the end, where a tile queued at one rank would keep another idle.
     std::size_t share(std::size_t rank) const {
-        const std::size_t left = plan_.tiles() - next_;
-        return left > 4 * all_threads_ ? 2 * threads_[rank] : threads_[rank];
+        return tiles_ahead() ? 2 * threads_[rank] : threads_[rank];
     }
+    bool tiles_ahead() const { return plan_.tiles() - next_ > 4 * all_threads_; }
 
     bool next_missing() {
         while (next_ < plan_.tiles() && run_.store.has(next_)) {
@@ -127,6 +152,7 @@ class Leader {
     void accept(std::size_t rank, const FinishedTile& finished) {
         settle(rank, 1);
         longest_tile_s_ = std::max(longest_tile_s_, finished.seconds);
+        naps_.finished(finished);
         if (!finished.failure.empty()) {
             fail(finished.failure);
             return;
@@ -215,7 +241,7 @@ class Leader {
         }
         outcome_.crews[0] = crew_.close();
         while (closed_ + 1 < run_.ranks.size()) {
-            std::this_thread::sleep_for(nap(run_.ranks));
+            std::this_thread::sleep_for(naps_.next(false));
             receive();
         }
         store([&] { run_.store.sync(); });
@@ -232,6 +258,7 @@ class Leader {
     TileCrew& crew_;
     const TilePlan plan_;
     const EnsembleRun& run_;
+    Naps naps_;
     std::vector<std::size_t> dealt_, threads_;  // by rank
     std::size_t all_threads_ = 0;
     std::size_t outstanding_ = 0;
@@ -245,14 +272,20 @@ class Leader {
 
 class Follower {
   public:
-    Follower(TileCrew& crew, const EnsembleRun& run) : crew_(crew), run_(run) {
+    Follower(TileCrew& crew, const EnsembleRun& run)
+        : crew_(crew),
+          run_(run),
+          naps_(run.ranks),
+          threads_(static_cast<std::size_t>(crew.threads())) {
         run.ranks.gather(std::to_string(crew.threads()));
     }
 
     void run() {
         while (!closed_) {
-            crew_.wait(nap(run_.ranks));
+            crew_.wait(naps_.next(tiles_ > threads_));
             while (auto finished = crew_.take()) {
+                --tiles_;
+                naps_.finished(*finished);
                 if (!finished->failure.empty()) {
                     finished->failure = rank_name(run_.ranks) + ": " + finished->failure;
                 }
@@ -281,9 +314,10 @@ class Follower {
             switch (static_cast<Say>(message->kind)) {
                 case Say::compute:
                     crew_.give(number_of(message->bytes));
+                    ++tiles_;
                     break;
                 case Say::drop:
-                    say(run_.ranks, 0, Say::dropped, bytes_of_number(crew_.drop()));
+                    drop();
                     break;
                 case Say::close:
                     closed_ = true;
@@ -294,8 +328,17 @@ class Follower {
         }
     }
 
+    void drop() {
+        const std::size_t dropped = crew_.drop();
+        tiles_ -= dropped;
+        say(run_.ranks, 0, Say::dropped, bytes_of_number(dropped));
+    }
+
     TileCrew& crew_;
     const EnsembleRun& run_;
+    Naps naps_;
+    const std::size_t threads_;
+    std::size_t tiles_ = 0;  // given and not yet handed in
     bool closed_ = false, told_ = false;
 };
 

@@ -44,6 +44,14 @@ double mesh_period_s(const GearboxInputs& inputs) {
     return std::visit([](const auto& kind) { return kind.mesh_period_s; }, inputs);
 }
 
+std::vector<double> mesh_periods_s(std::span<const GearboxInputs> inputs) {
+    std::vector<double> periods;
+    for (const GearboxInputs& in : inputs) {
+        periods.push_back(mesh_period_s(in));
+    }
+    return periods;
+}
+
 double backlash_m(const GearboxInputs& inputs) {
     return std::visit([](const auto& kind) { return kind.backlash_m; }, inputs);
 }

@@ -1,6 +1,7 @@
 // A gearbox of any kind: what the march and the program ask of a kind, kind by kind.
 #pragma once
 
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,6 +21,7 @@ int pairs(const GearboxLayout& layout);
 int sources(const GearboxLayout& layout);
 MeshDamping mesh_damping(const GearboxLayout& layout);
 double mesh_period_s(const GearboxInputs& inputs);
+std::vector<double> mesh_periods_s(std::span<const GearboxInputs> inputs);
 double backlash_m(const GearboxInputs& inputs);
 // Speed of the frame that x and y turn with: the carrier's, or 0.
 double frame_speed_rad_s(const GearboxInputs& inputs);

@@ -95,15 +95,12 @@ template <int W, class ModelLanes>
 std::unique_ptr<DrivenMarch<W>> make_march(const Parts& parts, const ModelLanes& model_lanes,
                                            Kernel<DrivenLanes<ModelLanes, W>> kernel) {
     const auto& [plan, excitation, inputs] = parts;
-    std::vector<double> periods;
-    for (const auto& in : inputs) {
-        periods.push_back(dynamics::mesh_period_s(in));
-    }
     const DrivenLanes<ModelLanes, W> lanes{
         model_lanes, make_driven_forces<W>(plan, excitation, inputs, is_explicit(plan.integrator))};
     return std::make_unique<DrivenKernelMarch<W, DrivenLanes<ModelLanes, W>>>(
         plan, lanes,
-        filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods),
+        filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths,
+                            dynamics::mesh_periods_s(inputs)),
         kernel, ExcitationRows(plan, excitation, inputs));
 }
 

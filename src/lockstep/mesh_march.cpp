@@ -154,12 +154,8 @@ template <int W>
 std::unique_ptr<const MeshMarch<W>> make_mesh_march(
     const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
     assert(inputs.size() == W);
-    std::vector<double> periods;
-    for (const auto& in : inputs) {
-        periods.push_back(dynamics::mesh_period_s(in));
-    }
-    machine::AlignedVector filter =
-        filter_coefficients(plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, periods);
+    machine::AlignedVector filter = filter_coefficients(
+        plan.integrator, plan.low_pass_rad_s, plan.grid.lengths, dynamics::mesh_periods_s(inputs));
     if (plan.precision == Precision::single_precision) {
         if (marches_singles(plan.integrator)) {
             return make_explicit<W, float>(plan, inputs, std::move(filter));

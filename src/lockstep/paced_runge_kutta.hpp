@@ -4,19 +4,16 @@
 // a filter in time; so it is integrated beside the motion and has no coefficients of its own.
 #pragma once
 
-#include "lockstep/march_steps.hpp"
+#include "lockstep/explicit_stage.hpp"
 #include "lockstep/paced_motion.hpp"
 
 namespace gearpod::lockstep {
 
 struct PacedRungeKutta4 {
     template <class Model, int W = Model::kWidth>
-    struct alignas(64) Stages {
-        double q[Model::kMaxDegrees * W], v[Model::kMaxDegrees * W];
-        double a1[Model::kMaxDegrees * W], a2[Model::kMaxDegrees * W], a3[Model::kMaxDegrees * W];
-        typename Model::Pairs pairs;
-        double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the step's nodes
-        double h[3][W];  // seconds of the step at the speeds of its nodes
+    struct alignas(64) Stages : ExplicitStages<Model, 3> {
+        // Seconds of the step at the speeds of its nodes, and halves of the first two.
+        alignas(64) double h[3][W], half[2][W];
     };
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
@@ -34,24 +31,16 @@ struct PacedRungeKutta4 {
         load_node<Model>(plan, lanes, overrides, i, 0, s);
         load_length<Model>(plan, lanes, i, 1, s);
         load_length<Model>(plan, lanes, i, 2, s);
-        accelerate<Model>(lanes, q, v, s, s.a1, s.input[0]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(0.5 * h0[l], v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(0.5 * h0[l], s.a1[j + l], v[j + l]);
-            }
+        for (int l = 0; l < W; ++l) {
+            s.half[0][l] = 0.5 * h0[l];
+            s.half[1][l] = 0.5 * hm[l];
         }
+        accelerate<Model>(lanes, q, v, s, s.a[0], s.input[0]);
+        move<W>(size, s.half[0], q, v, v, s.a[0], s.q, s.v);
         load_node<Model>(plan, lanes, overrides, i, 1, s);
-        accelerate<Model>(lanes, s.q, s.v, s, s.a2, s.input[1]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                s.q[j + l] = std::fma(0.5 * hm[l], s.v[j + l], q[j + l]);
-                s.v[j + l] = std::fma(0.5 * hm[l], s.a2[j + l], v[j + l]);
-            }
-        }
-        accelerate<Model>(lanes, s.q, s.v, s, s.a3, s.input[2]);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[1], s.input[1]);
+        move<W>(size, s.half[1], q, s.v, v, s.a[1], s.q, s.v);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[2], s.input[2]);
         for (int j = 0; j < channels * W; ++j) {
             s.input[1][j] = 0.5 * (s.input[1][j] + s.input[2][j]);
         }
@@ -61,25 +50,25 @@ struct PacedRungeKutta4 {
                 // The rates of the position at the four stages are v, v + h0 a1 / 2,
                 // v + hm a2 / 2 and v + hm a3.
                 const double all = (h0[l] + 4.0 * hm[l] + h1[l]) / 6.0;
-                const double change =
-                    std::fma(hm[l] * h0[l], s.a1[j + l],
-                             std::fma(hm[l] * hm[l], s.a2[j + l], hm[l] * h1[l] * s.a3[j + l])) /
-                    6.0;
+                const double change = std::fma(hm[l] * h0[l], s.a[0][j + l],
+                                               std::fma(hm[l] * hm[l], s.a[1][j + l],
+                                                        hm[l] * h1[l] * s.a[2][j + l])) /
+                                      6.0;
                 const double later = std::fma(hm[l], s.v[j + l], q[j + l]);
                 const double start = v[j + l];
                 s.q[j + l] = later;
-                s.v[j + l] = std::fma(hm[l], s.a3[j + l], start);
+                s.v[j + l] = std::fma(hm[l], s.a[2][j + l], start);
                 q[j + l] = std::fma(all, start, q[j + l] + change);
-                v[j + l] = std::fma(h0[l] / 6.0, s.a1[j + l],
-                                    std::fma(hm[l] / 3.0, s.a2[j + l] + s.a3[j + l], start));
+                v[j + l] = std::fma(h0[l] / 6.0, s.a[0][j + l],
+                                    std::fma(hm[l] / 3.0, s.a[1][j + l] + s.a[2][j + l], start));
             }
         }
         load_node<Model>(plan, lanes, overrides, i, 2, s);
-        accelerate<Model>(lanes, s.q, s.v, s, s.a1, s.input[2]);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[0], s.input[2]);
         for (int j = 0; j < size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                v[j + l] = std::fma(h1[l] / 6.0, s.a1[j + l], v[j + l]);
+                v[j + l] = std::fma(h1[l] / 6.0, s.a[0][j + l], v[j + l]);
             }
         }
         for (int channel = 0; channel < channels; ++channel) {

@@ -3,15 +3,14 @@
 // eight abreast. `a_step` is what README.md tabulates and mc/effect_costs.cpp holds.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench_scene.hpp"
 #include "lockstep/driven_march.hpp"
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/rigid_rotation.hpp"
-#include "mc/scene.hpp"
 #include "mc/tile_draws.hpp"
 
 namespace {
@@ -67,15 +66,10 @@ std::vector<std::string> joined(std::vector<std::string> first,
 class Tile {
   public:
     Tile(const std::string& study, const std::vector<std::string>& overrides)
-        : reading_(mc::read_study(study, overrides)) {
-        if (!reading_.study) {
-            std::fputs(mc::format(reading_.problems.front()).c_str(), stderr);
-            std::exit(2);
-        }
-        scene_ = std::make_unique<mc::Scene>(*reading_.study);
+        : scene_(bench::study_scene(study, overrides)) {
         const std::vector<mc::GearboxId> ids{{mc::Group::graded, 0}};
         const std::vector<mc::InstanceInputs> instances(kLanes,
-                                                        mc::Sampler(*reading_.study).nominal());
+                                                        mc::Sampler(scene_->study()).nominal());
         for (const mc::InstanceInputs& instance : instances) {
             inputs_.push_back(scene_->inputs(instance));
         }
@@ -101,8 +95,7 @@ class Tile {
     }
 
   private:
-    mc::StudyReading reading_;
-    std::unique_ptr<mc::Scene> scene_;
+    const std::unique_ptr<mc::Scene> scene_;
     std::vector<dynamics::GearboxInputs> inputs_;
     std::optional<lockstep::Excitation> excitation_;
     std::unique_ptr<lockstep::DrivenMarch<kLanes>> driven_;
@@ -148,24 +141,21 @@ void add(const std::string& scene, const std::string& study, const std::vector<s
 
 }  // namespace
 
-// The top folder is the only argument of its own.
 int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
-    if (argc != 2) {
-        std::fputs("usage: bench_effects TOP-FOLDER [--benchmark_...]\n", stderr);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
         return 2;
     }
-    const std::string studies = std::string(argv[1]) + "/studies/";
-    add("translational", studies + "liang-fig-5-8.toml", kTrain, {"gearbox.mesh_error"});
-    add("rotations", studies + "liang-fig-5-8.toml", joined(kTrain, {"effects.motion=torsional"}),
+    add("translational", "liang-fig-5-8.toml", kTrain, {"gearbox.mesh_error"});
+    add("rotations", "liang-fig-5-8.toml", joined(kTrain, {"effects.motion=torsional"}),
         {"effects.gravity", "effects.inertial", "gearbox.mesh_error"});
     // Rotations feel weight only where the planets do not balance each other.
-    add("rotations-unbalanced", studies + "liang-fig-5-8.toml",
+    add("rotations-unbalanced", "liang-fig-5-8.toml",
         joined(kTrain, {"effects.motion=torsional", "gearbox.planets=3",
                         "gearbox.planet_positions_deg=[0,90,180]"}),
         {"effects.inertial", "effects.separation", "gearbox.sun_planet_error", "gearbox.mesh_error",
          "operation."});
-    add("fixed-shaft", studies + "tian-fig-4-9.toml", kStage,
+    add("fixed-shaft", "tian-fig-4-9.toml", kStage,
         {"effects.inertial", "gearbox.sun_planet_error"});
     benchmark::RunSpecifiedBenchmarks();
     return 0;

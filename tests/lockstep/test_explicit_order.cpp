@@ -7,13 +7,15 @@
 #include "liang_train.hpp"
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/rigid_rotation.hpp"
+#include "order.hpp"
 #include "pair_of_masses.hpp"
-#include "tian_gearbox.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
+using test::largest_difference;
 using test::LiangTrain;
-using test::TianGearbox;
+using test::march;
+using test::Marched;
 
 namespace {
 
@@ -22,29 +24,6 @@ constexpr Integrator kExplicit[] = {Integrator::rk4, Integrator::bs3,
 
 double order_of(Integrator integrator) {
     return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::bs3 ? 3.0 : 2.0;
-}
-
-struct Marched {
-    TileState state;
-    MeshRecord record;
-};
-
-Marched march(const MarchPlan& plan, const dynamics::GearboxInputs& in, TileState state,
-              int meshes) {
-    Marched m{std::move(state), make_record(plan, 1, false)};
-    const auto step = make_mesh_march<1>(plan, std::span(&in, 1));
-    for (int mesh = 0; mesh < meshes; ++mesh) {
-        (*step)({}, m.state, m.record);
-    }
-    return m;
-}
-
-double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-    }
-    return largest;
 }
 
 double largest(const machine::AlignedVector& a) {
@@ -83,28 +62,8 @@ MarchPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions
 }  // namespace
 
 TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
-    const auto& gearbox = TianGearbox::instance();
-    dynamics::FixedShaftInputs in = gearbox.inputs();
-    for (const auto g : {dynamics::pinion, dynamics::gear}) {  // nothing stiff
-        in.coupling_damping_N_m_s_rad[g] = 5.0;
-        in.bearing_damping_N_s_m[g] = 1.8e3;
-    }
-    const auto plan_of = [&](int steps, Integrator integrator) {
-        MarchPlan plan = gearbox.plan(20, steps, integrator);
-        plan.grid = make_phase_grid(20, steps, {});
-        plan.grid.stage_nodes = stage_nodes(integrator);
-        plan.nodes.stiffness.clear();
-        for (const Step& step : plan.grid.steps) {
-            for (const double node : plan.grid.stage_nodes) {
-                const double phase = step.phase + node * step.length;
-                plan.nodes.stiffness.push_back(
-                    8e8 * (1.0 + 0.3 * std::sin(2 * std::numbers::pi * phase)));
-            }
-        }
-        plan.nodes.damping_shape = plan.nodes.stiffness;
-        return plan;
-    };
-    const MarchPlan fine = plan_of(12800, Integrator::rk4);
+    const dynamics::FixedShaftInputs in = test::soft_tian();
+    const MarchPlan fine = test::smooth_plan(12800, Integrator::rk4);
     const dynamics::GearboxInputs inputs = in;
     TileState away = rest_state(fine, std::span(&inputs, 1));
     away.q[dynamics::u_1] += 2e-6;
@@ -112,7 +71,7 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
     for (const Integrator integrator : kExplicit) {
         std::vector<double> motions, sensors;
         for (const int steps : {400, 800, 1600}) {
-            const Marched m = march(plan_of(steps, integrator), in, away, 2);
+            const Marched m = march(test::smooth_plan(steps, integrator), in, away, 2);
             motions.push_back(largest_difference(m.state.q, exact.state.q));
             sensors.push_back(largest_difference(m.record.acceleration, exact.record.acceleration));
         }

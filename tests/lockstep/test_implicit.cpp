@@ -7,11 +7,14 @@
 #include "lockstep/mesh_march.hpp"
 #include "lockstep/sensor_filter.hpp"
 #include "machine/dispatch.hpp"
-#include "tian_gearbox.hpp"
+#include "order.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
+using test::largest_difference;
 using test::LiangTrain;
+using test::march;
+using test::Marched;
 using test::TianGearbox;
 
 namespace {
@@ -38,30 +41,6 @@ TileState state_at(const MarchPlan& plan, const Eigen::VectorXd& q) {
     state.v.assign(state.q.size(), 0.0);
     state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
     return state;
-}
-
-struct Marched {
-    TileState state;
-    MeshRecord record;
-};
-
-// `meshes` mesh periods from `start`.
-Marched march(const MarchPlan& plan, const dynamics::GearboxInputs& in, TileState start,
-              int meshes) {
-    const auto marching = make_mesh_march<1>(plan, std::span(&in, 1));
-    Marched m{std::move(start), make_record(plan, 1, false)};
-    for (int i = 0; i < meshes; ++i) {
-        (*marching)({}, m.state, m.record);
-    }
-    return m;
-}
-
-double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-    }
-    return largest;
 }
 
 // One lane's values.
@@ -152,36 +131,15 @@ TEST_CASE("Without nodes on the contact transitions every integrator falls to or
 }
 
 TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
-    // One pair whose stiffness swings as a sine: no transition anywhere.
-    const auto& gearbox = TianGearbox::instance();
-    dynamics::FixedShaftInputs in = gearbox.inputs();
-    for (const auto g : {dynamics::pinion, dynamics::gear}) {  // nothing stiff
-        in.coupling_damping_N_m_s_rad[g] = 5.0;
-        in.bearing_damping_N_s_m[g] = 1.8e3;
-    }
-    const auto plan_of = [&](int steps, Integrator integrator) {
-        MarchPlan plan = gearbox.plan(20, steps, integrator);
-        plan.grid = make_phase_grid(20, steps, {});
-        plan.grid.stage_nodes = stage_nodes(integrator);
-        plan.nodes.stiffness.clear();
-        for (const Step& step : plan.grid.steps) {
-            for (const double node : plan.grid.stage_nodes) {
-                const double phase = step.phase + node * step.length;
-                plan.nodes.stiffness.push_back(
-                    8e8 * (1.0 + 0.3 * std::sin(2 * std::numbers::pi * phase)));
-            }
-        }
-        plan.nodes.damping_shape = plan.nodes.stiffness;
-        return plan;
-    };
-    const MarchPlan fine = plan_of(3200, Integrator::rk4);
+    const dynamics::FixedShaftInputs in = test::soft_tian();
+    const MarchPlan fine = test::smooth_plan(3200, Integrator::rk4);
     Eigen::VectorXd away = dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, {8e8}));
     away(dynamics::u_1) += 2e-6;
     const Marched exact = march(fine, in, state_at(fine, away), 3);
     for (const Integrator integrator : kImplicit) {
         std::vector<double> errors;
         for (const int steps : {200, 400, 800}) {
-            const MarchPlan plan = plan_of(steps, integrator);
+            const MarchPlan plan = test::smooth_plan(steps, integrator);
             errors.push_back(largest_difference(march(plan, in, state_at(plan, away), 3).state.q,
                                                 exact.state.q));
         }

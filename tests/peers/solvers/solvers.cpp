@@ -150,8 +150,7 @@ class StepTable {
         const Extent pattern{2, bench_.task().steps.meshes()};
         for (std::size_t i = 0; i < ways_.size(); ++i) {
             const PeerRun run = ways_[i](bench_.task(), pattern);
-            rows_[i + 1].error =
-                error_of(bench_.scene(), bench_.task().boxes, run.records, 6, 7, reference_.record);
+            rows_[i + 1].error = error_of(bench_.scene(), run.records, 6, 7, reference_.record);
         }
     }
 
@@ -304,8 +303,8 @@ class SpanTable {
         for (double exponent = 1.0; exponent < 10.0; exponent += 0.5) {
             const double tolerance = std::pow(10.0, -exponent);
             const PeerRun run = way(bench_.task(), pattern, tolerance);
-            const mc::PilotError error = error_of(bench_.scene(), bench_.task().boxes, run.records,
-                                                  kBox, kBox + 1, reference_.record);
+            const mc::PilotError error =
+                error_of(bench_.scene(), run.records, kBox, kBox + 1, reference_.record);
             const bool fixed =
                 run.steps == static_cast<double>(bench_.task().steps.grid().steps.size());
             fmt::print(stderr, "{}: {:.1e}: worst feature {:.1e}\n", name, tolerance,
