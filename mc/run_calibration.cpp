@@ -89,7 +89,7 @@ class Threads {
     const Tile* next(int had) {
         const std::scoped_lock lock(mutex_);
         const double over = seconds_since(start_) / budget_s_;
-        const bool more = had == 0 || over < 1.0 || (had == 1 && over < 2.0);
+        const bool more = had == 0 || over < 1.0 || (had == 1 && over < 1.2);
         return more && next_ < batches_.size() ? &batches_[next_++] : nullptr;
     }
 
@@ -262,6 +262,7 @@ RunCalibration calibrate_run(Scene& scene, const TilePlan& plan, int threads, do
     result.recorded = choose_recorded(scene, mesh_s, 0.5 * budget_s);
     const double all_records = motion_bytes(scene), whole_march_s = mesh_s * marched_meshes(scene);
     scene.record_at_most(result.recorded);
+    result.memory.before = peak_memory_bytes();
     if (mesh_s * marched_meshes(scene) > std::max(kLongestBatch_s, budget_s)) {
         result.march_alone = true;
         for (GroupCost& group : result.cost) {

@@ -28,7 +28,8 @@ struct GroupCost {
 
 // Process memory, bytes.
 struct MemoryUse {
-    double peak = 0.0;     // so far
+    double before = 0.0;   // the most before any gearbox was computed
+    double peak = 0.0;     // and after
     double records = 0.0;  // that a run has beside it: motion that was not recorded
     double kept = 0.0;     // likewise: motions kept for later batches
 };

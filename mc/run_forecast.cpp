@@ -10,6 +10,10 @@
 namespace gearpod::mc {
 namespace {
 
+// What describing a study leaves out: a checkpoint and a results file are made and written, with
+// the HDF5 library at work. From runs of two gearboxes; a slow disk's syncing comes on top.
+constexpr double kFiles_s = 0.02, kFileBytes = 4.5e6;
+
 // Hands out the batches of a group: those that march before those that need not.
 class Batches {
   public:
@@ -87,6 +91,15 @@ double verification_s(const Scene& scene, const RunCalibration& calibration) {
     return setup.count() + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
 }
 
+double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double motion_bytes,
+                    double analysis_bytes) {
+    const double kept =
+        std::max(0.0, memory.kept + static_cast<double>(marches.kept) * motion_bytes);
+    // The analysis has what the gearboxes leave.
+    return std::max(memory.peak + memory.records + kept,
+                    memory.before + analysis_bytes + kFileBytes);
+}
+
 RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,
                          double setup_s) {
@@ -94,14 +107,11 @@ RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
     const double motion = motion_bytes(scene);
     const MarchCounts marches = count_marches(scene, plan, motion);
     RunForecast forecast;
-    forecast.setup_s = setup_s + calibration.task_s;
+    forecast.setup_s = setup_s + calibration.task_s + kFiles_s;
     forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, marches);
     forecast.work = all_work(calibration, plan, lanes, marches);
     forecast.detection_s = analysis.total_s + verification_s(scene, calibration);
-    forecast.memory_bytes =
-        calibration.memory.peak + calibration.memory.records +
-        std::max(0.0, calibration.memory.kept + static_cast<double>(marches.kept) * motion) +
-        analysis.bytes;
+    forecast.memory_bytes = memory_bytes(calibration.memory, marches, motion, analysis.bytes);
     return forecast;
 }
 

@@ -23,10 +23,14 @@ struct RunForecast {
 double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
                    const MarchCounts& marches);
 
+// The most memory at a time: of the gearboxes with the motions kept, or of the analysis after them.
+double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double motion_bytes,
+                    double analysis_bytes);
+
 // How long a run that verifies its numerics marches some gearboxes again; 0 if it does not.
 double verification_s(const Scene& scene, const RunCalibration& calibration);
 
-// `setup_s`: of the scene. The most it takes: ensemble.until may end it before.
+// `setup_s`: of the program and the scene. The most it takes: ensemble.until may end it before.
 RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,
                          double setup_s);
