@@ -19,6 +19,60 @@ namespace {
 // 420,000 values.
 constexpr double kBytesOfValue = 60.0;
 
+double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Least-squares parabola through values over sizes, of whose terms (orthogonal over the sizes) only
+// those stay that are three standard errors or more: what the few computed gearboxes leave open
+// must not look like a finding among many.
+class Trend {
+  public:
+    Trend(const std::vector<double>& sizes, const std::vector<double>& values) {
+        const auto n = static_cast<double>(sizes.size());
+        if (n < 4.0) {
+            return;
+        }
+        mean_ = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
+        std::vector<double> linear, square;
+        for (const double size : sizes) {
+            linear.push_back(size - mean_);
+            square.push_back((size - mean_) * (size - mean_));
+        }
+        const double x2 = sum_of_products(linear, linear);
+        if (!(x2 > 0.0)) {
+            return;
+        }
+        square_mean_ = x2 / n;
+        square_slope_ = sum_of_products(linear, square) / x2;
+        for (std::size_t i = 0; i < square.size(); ++i) {
+            square[i] -= square_mean_ + square_slope_ * linear[i];
+        }
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+        const double p2 = sum_of_products(square, square);
+        const double b1 = sum_of_products(linear, values) / x2;
+        const double b2 = p2 > 0.0 ? sum_of_products(square, values) / p2 : 0.0;
+        double residual = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double rest = values[i] - mean - b1 * linear[i] - b2 * square[i];
+            residual += rest * rest;
+        }
+        const double least = 9.0 * residual / (n - 3.0);
+        linear_ = b1 * b1 * x2 >= least ? b1 : 0.0;
+        square_ = b2 * b2 * p2 >= least ? b2 : 0.0;
+    }
+
+    // But for a constant.
+    double at(double size) const {
+        const double x = size - mean_;
+        return linear_ * x + square_ * (x * x - square_mean_ - square_slope_ * x);
+    }
+
+  private:
+    double mean_ = 0.0, square_mean_ = 0.0, square_slope_ = 0.0;
+    double linear_ = 0.0, square_ = 0.0;
+};
+
 // The computed gearboxes of one group, by fault size.
 class Pool {
   public:
@@ -35,20 +89,31 @@ class Pool {
 
     bool empty() const { return order_.empty(); }
 
-    // A gearbox of that size or, with no such, one of the next to it.
+    // A gearbox of that size or, with no such, any.
     std::size_t draw(double wanted, Philox& engine) const {
-        constexpr std::ptrdiff_t kNeighbours = 2;
         auto [low, high] =
             std::pair(std::partition_point(order_.begin(), order_.end(),
                                            [&](std::size_t row) { return size(row) < wanted; }),
                       std::partition_point(order_.begin(), order_.end(),
                                            [&](std::size_t row) { return size(row) <= wanted; }));
         if (low == high) {
-            low -= std::min(kNeighbours, low - order_.begin());
-            high += std::min(kNeighbours, order_.end() - high);
+            low = order_.begin();
+            high = order_.end();
         }
         return *(low + boost::random::uniform_int_distribution<std::ptrdiff_t>(
                            0, high - low - 1)(engine));
+    }
+
+    // How a feature follows the size.
+    Trend trend(std::size_t feature, std::size_t level) const {
+        std::vector<double> sizes, values;
+        for (const std::size_t row : order_) {
+            if (const double one = value(row, feature, level); std::isfinite(one)) {
+                sizes.push_back(size(row));
+                values.push_back(one);
+            }
+        }
+        return {sizes, values};
     }
 
     double value(std::size_t row, std::size_t feature, std::size_t level) const {
@@ -69,12 +134,12 @@ class Pool {
         return std::sqrt(std::max(0.0, variance)) * std::pow(std::max(1.0, n), -0.2);
     }
 
-  private:
     // The last parameter.
     double size(std::size_t row) const {
         return rows_.values[row * shape_.values() + shape_.parameters - 1];
     }
 
+  private:
     const TileRows& rows_;
     const RowShape shape_;
     std::vector<std::size_t> order_;
@@ -119,9 +184,13 @@ Results made_up_results(const Study& study, const RunCalibration& calibration, c
     // Healthy gearboxes scatter as those of the threshold sample do, or as all do if none is there.
     const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
     std::vector<double> smoothing;
+    std::array<std::vector<Trend>, 2> trends;
     for (std::size_t f = 0; f < shape.features; ++f) {
         for (const std::size_t level : levels) {
             smoothing.push_back(scatter.smoothing(f, level));
+            for (std::size_t g = 0; g < pools.size(); ++g) {
+                trends[g].push_back((pools[g].empty() ? scatter : pools[g]).trend(f, level));
+            }
         }
     }
     for (std::size_t i = 0; i < rows; ++i) {
@@ -140,9 +209,11 @@ Results made_up_results(const Study& study, const RunCalibration& calibration, c
         }
         for (std::size_t f = 0; f < shape.features; ++f) {
             for (std::size_t l = 0; l < levels.size(); ++l) {
-                results.features[f].values.push_back(pool.value(like, f, levels[l]) +
-                                                     smoothing[f * levels.size() + l] *
-                                                         normal(engine));
+                const std::size_t at = f * levels.size() + l;
+                const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
+                results.features[f].values.push_back(
+                    pool.value(like, f, levels[l]) + trend.at(parameters.back()) -
+                    trend.at(pool.size(like)) + smoothing[at] * normal(engine));
             }
         }
     }

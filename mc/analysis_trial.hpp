@@ -16,8 +16,9 @@ struct AnalysisTrial {
 };
 
 // Results of `rows` gearboxes, evenly from the whole ensemble, at the noise levels `levels` (places
-// in the study's): their inputs are those of the run, their features those of a computed gearbox of
-// the same group and the nearest fault size, moved by what a smoothed bootstrap moves them
+// in the study's). Their inputs are those of the run. Their features are those of a computed
+// gearbox of the same group and fault size or, where sizes are continuous, of any of the group,
+// moved along the feature's trend over the sizes; and moved by what a smoothed bootstrap moves them
 // (B. W. Silverman, G. A. Young, Biometrika 74 (1987), 469-479), so that no two are tied that would
 // not be in a run. Detection is left to the caller.
 Results made_up_results(const Study& study, const RunCalibration& calibration, const TilePlan& plan,
