@@ -103,9 +103,10 @@ class MeasuredInput {
                                      meshes(scene_.span().planet_teeth));
         signals::Windowing windowing(scene_.span(), phases, scene_.study().features.tukey_taper);
         tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
-        const int offset = windowing.search(folded, tooth_rms_);
+        windowing.load(folded);
+        const int offset = windowing.search(0.0, tooth_rms_);
         input.tooth_rms = tooth_rms_;
-        input.sensor_mean_square = signals::mean_square(folded, scene_.span());
+        input.sensor_mean_square = windowing.mean_square(0.0);
         analysis_.sensor(signal.sensor, offset, input);
     }
 

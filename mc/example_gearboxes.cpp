@@ -217,8 +217,9 @@ class Examples {
         json["spectrum"] =
             spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
         std::vector<double> clean_rms(noisy_rms.size());
-        signals::Windowing(layout, samples, scene_.study().features.tukey_taper)
-            .search(tile.folded, clean_rms);
+        signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
+        windowing.load(tile.folded);
+        windowing.search(0.0, clean_rms);
         json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
     }
 

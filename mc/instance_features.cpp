@@ -1,12 +1,11 @@
 #include "mc/instance_features.hpp"
 
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <chrono>
 #include <stdexcept>
 
 #include "signals/encoder_noise.hpp"
-#include "signals/folded_signal.hpp"
+#include "signals/normals.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -75,10 +74,8 @@ std::vector<double> sample_noise(const Scene& scene, std::span<const double> cle
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
-    boost::random::normal_distribution<double> normal;
-    while (unit.size() < clean.size()) {
-        unit.push_back(normal(engine));
-    }
+    unit.resize(clean.size());
+    signals::draw_normals(engine, std::span(unit).subspan(span));
     return unit;
 }
 
@@ -95,35 +92,59 @@ InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       analysis_(scene, needs),
       needs_samples_(needs_samples(needs)),
+      highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
-void InstanceSignals::draw_noise(const LaneSignals& gearbox, const GearboxId& id) {
+void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                 const GearboxId& id) {
     const Stopwatch watch(noise_s_);
-    if (!gearbox.folded.empty()) {
+    const std::size_t bins = gearbox.folded.size();
+    if (bins > 0 && highest_level_ * inputs.noise_m_s2 > 0.0) {
         Philox sensor = sensor_noise_stream(scene_.study(), id.group, id.index);
-        sensor_noise_.draw(sensor, gearbox.folded.size(), noise_.sensor);
+        sensor_noise_.draw(sensor, bins, noise_.sensor);
+        if (!gearbox.sensor.empty()) {
+            unit_noise_ = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
+        }
+    } else {
+        noise_.sensor.along.assign(bins, 0.0);
+        noise_.sensor.across.assign(bins, 0.0);
+        unit_noise_.assign(gearbox.sensor.size(), 0.0);
     }
-    Philox encoder = encoder_noise_stream(scene_.study(), id.group, id.index);
-    noise_.encoder.resize(gearbox.te_turn.size());
-    signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
-    if (!gearbox.sensor.empty()) {
-        unit_noise_ = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
+    noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
+    if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
+        Philox encoder = encoder_noise_stream(scene_.study(), id.group, id.index);
+        signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
     }
 }
 
-void InstanceSignals::add_level(const LaneSignals& gearbox, double sensor_noise, double te_noise) {
-    const Stopwatch watch(noise_s_);
-    folded_.resize(gearbox.folded.size());
-    if (!folded_.empty()) {
-        signals::add_sensor_noise(gearbox.folded, noise_.sensor, sensor_noise, folded_);
+void InstanceSignals::load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs) {
+    if (highest_level_ * inputs.noise_m_s2 > 0.0) {
+        windowing_.load(gearbox.folded, noise_.sensor);
+    } else {
+        windowing_.load(gearbox.folded);
     }
+}
+
+void InstanceSignals::sensor_features(const LaneSignals& gearbox, double noise,
+                                      features::FeatureInput& input) {
+    const int offset = windowing_.search(noise, tooth_rms_);
+    input.sensor_mean_square = windowing_.mean_square(noise);
+    if (needs_samples_) {
+        samples_ = gearbox.sensor;
+        add_noise(unit_noise_, noise, samples_);
+        analysis_.sensor(samples_, offset, input);
+    }
+}
+
+void InstanceSignals::te_features(const LaneSignals& gearbox, double noise,
+                                  features::FeatureInput& input) {
     te_.resize(gearbox.te_turn.size());
     for (std::size_t i = 0; i < te_.size(); ++i) {
-        te_[i] = gearbox.te_turn[i] + te_noise * noise_.encoder[i];
+        te_[i] = gearbox.te_turn[i] + noise * noise_.encoder[i];
     }
-    samples_ = gearbox.sensor;
-    mc::add_noise(unit_noise_, sensor_noise, samples_);
+    spectrum_.amplitudes(noise, amplitude_);
+    analysis_.te(te_, input);
 }
 
 void InstanceSignals::each_level(
@@ -131,21 +152,17 @@ void InstanceSignals::each_level(
     const std::function<void(std::size_t, const features::FeatureInput&)>& visit) {
     const auto& levels = scene_.study().sensor.noise_levels;
     const bool sensed = !gearbox.folded.empty();  // a quasi-static gearbox has no sensor
-    draw_noise(gearbox, id);
+    draw_noise(gearbox, inputs, id);
+    if (sensed) {
+        load_windows(gearbox, inputs);
+    }
     spectrum_.load(gearbox.te_turn, noise_.encoder);
     for (std::size_t level = 0; level < levels.size(); ++level) {
-        const double te_noise = levels[level] * inputs.encoder_noise_rad;
-        add_level(gearbox, levels[level] * inputs.noise_m_s2, te_noise);
-        spectrum_.amplitudes(te_noise, amplitude_);
         features::FeatureInput input;
         if (sensed) {
-            const int offset = windowing_.search(folded_, tooth_rms_);
-            input.sensor_mean_square = signals::mean_square(folded_, span_layout(scene_));
-            if (needs_samples_) {
-                analysis_.sensor(samples_, offset, input);
-            }
+            sensor_features(gearbox, levels[level] * inputs.noise_m_s2, input);
         }
-        analysis_.te(te_, input);
+        te_features(gearbox, levels[level] * inputs.encoder_noise_rad, input);
         input.te_turn = te_;
         input.te_amplitude = amplitude_;
         input.planet_teeth = scene_.span().planet_teeth;

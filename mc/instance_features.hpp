@@ -65,13 +65,16 @@ class InstanceSignals {
 
     // The noise that each_level() used last.
     const NoiseOfInstance& noise() const { return noise_; }
-    // Seconds that drawing and adding noise has taken so far.
+    // Seconds that drawing noise has taken so far.
     double noise_s() const { return noise_s_; }
 
   private:
-    void draw_noise(const LaneSignals& gearbox, const GearboxId& id);
-    // Into folded_, te_ and samples_; rms in m/s^2 and rad.
-    void add_level(const LaneSignals& gearbox, double sensor_noise, double te_noise);
+    // Zeros for what no level adds.
+    void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs);
+    // At one noise level, rms in m/s^2 and rad.
+    void sensor_features(const LaneSignals& gearbox, double noise, features::FeatureInput& input);
+    void te_features(const LaneSignals& gearbox, double noise, features::FeatureInput& input);
 
     const Scene& scene_;
     signals::SensorNoise sensor_noise_;
@@ -79,9 +82,10 @@ class InstanceSignals {
     signals::OrderSpectrum spectrum_;
     SpanAnalysis analysis_;
     bool needs_samples_;
+    const double highest_level_;
     NoiseOfInstance noise_;
     std::vector<double> unit_noise_;  // of every sample
-    std::vector<double> folded_, te_, samples_, amplitude_, tooth_rms_;
+    std::vector<double> te_, samples_, amplitude_, tooth_rms_;
     double noise_s_ = 0.0;
 };
 

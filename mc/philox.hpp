@@ -7,9 +7,12 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "mc/fnv.hpp"
 
@@ -42,6 +45,21 @@ class Philox {
             refill();
         }
         return buffer_[used_++];
+    }
+
+    // The next words of the stream.
+    void fill(std::span<std::uint64_t> words) {
+        std::size_t next = 0;
+        while (next < words.size()) {
+            if (used_ == buffer_.size() && words.size() - next >= buffer_.size()) {
+                const Engine::ctr_type block = Engine{}(counter_, key_);
+                ++counter_[0];
+                std::copy(block.begin(), block.end(), words.begin() + next);
+                next += block.size();
+            } else {
+                words[next++] = (*this)();
+            }
+        }
     }
 
   private:

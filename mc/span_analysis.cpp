@@ -126,8 +126,8 @@ features::ToothSignals SpanAnalysis::central_teeth(std::span<const double> sampl
     signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),
                                  scene_.study().features.tukey_taper);
     std::vector<double> rms(static_cast<std::size_t>(teeth));
-    const int offset = windowing.search(
-        signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases), rms);
+    windowing.load(signals::fold_of_squares(span, static_cast<std::size_t>(teeth) * phases));
+    const int offset = windowing.search(0.0, rms);
     if (moments) {
         statistics = signals::tooth_statistics(span, gear, window_, offset);
     }

@@ -7,15 +7,16 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "signals/chi_squared_table.hpp"
+
 namespace gearpod::signals {
 namespace {
 
-constexpr double kRange = 8.3;
-constexpr int kPieces = 128;
-constexpr int kCoefficients = 10;
-constexpr double kHalfWidth = kRange / kPieces;
-
-using Coefficients = std::array<double, kCoefficients>;
+// The function itself costs microseconds: it is asked for few, wide pieces of high degree, and
+// these for the narrow ones.
+constexpr int kWidePieces = 128;
+constexpr int kWidePowers = 10;
+constexpr int kNarrowInWide = kChiPieces / kWidePieces;
 
 double quantile_of_normal(const boost::math::chi_squared& chi, double z) {
     const double tail = 0.5 * std::erfc(std::abs(z) / std::numbers::sqrt2);
@@ -23,31 +24,48 @@ double quantile_of_normal(const boost::math::chi_squared& chi, double z) {
                    : boost::math::quantile(boost::math::complement(chi, tail));
 }
 
-// Chebyshev interpolation at the roots, rewritten in powers of t.
-Coefficients interpolate(const boost::math::chi_squared& chi, double centre) {
-    Coefficients value{};
-    for (int i = 0; i < kCoefficients; ++i) {
-        const double t = std::cos(std::numbers::pi * (i + 0.5) / kCoefficients);
-        value[i] = quantile_of_normal(chi, centre + kHalfWidth * t);
-    }
-    Coefficients powers{};
-    Coefficients previous{};  // T_{k-1}, T_k in powers of t
-    Coefficients current{};
-    current[0] = 1.0;
-    for (int k = 0; k < kCoefficients; ++k) {
-        double sum = 0.0;
-        for (int i = 0; i < kCoefficients; ++i) {
-            sum += value[i] * std::cos(std::numbers::pi * k * (i + 0.5) / kCoefficients);
+// [k][i]: the Chebyshev polynomial T_k at the i-th root of T_kPowers.
+template <int kPowers>
+const auto& polynomials_at_roots() {
+    static const auto values = [] {
+        std::array<std::array<double, kPowers>, kPowers> at{};
+        for (int k = 0; k < kPowers; ++k) {
+            for (int i = 0; i < kPowers; ++i) {
+                at[k][i] = std::cos(std::numbers::pi * k * (i + 0.5) / kPowers);
+            }
         }
-        const double chebyshev = (k == 0 ? 1.0 : 2.0) * sum / kCoefficients;
-        Coefficients next{};
-        for (int power = 0; power < kCoefficients; ++power) {
+        return at;
+    }();
+    return values;
+}
+
+// Chebyshev interpolation on [-1, 1] at the roots, rewritten in powers.
+template <int kPowers, typename Function>
+std::array<double, kPowers> interpolate(Function function) {
+    using Powers = std::array<double, kPowers>;
+    const auto& at_root = polynomials_at_roots<kPowers>();
+    Powers value{};
+    for (int i = 0; i < kPowers; ++i) {
+        value[i] = function(at_root[1][i]);
+    }
+    Powers powers{};
+    Powers previous{};  // T_{k-1}, T_k in powers of t
+    Powers current{};
+    current[0] = 1.0;
+    for (int k = 0; k < kPowers; ++k) {
+        double sum = 0.0;
+        for (int i = 0; i < kPowers; ++i) {
+            sum += value[i] * at_root[k][i];
+        }
+        const double chebyshev = (k == 0 ? 1.0 : 2.0) * sum / kPowers;
+        Powers next{};
+        for (int power = 0; power < kPowers; ++power) {
             powers[power] += chebyshev * current[power];
-            if (power + 1 < kCoefficients) {
+            if (power + 1 < kPowers) {
                 next[power + 1] = (k == 0 ? 1.0 : 2.0) * current[power];
             }
         }
-        for (int power = 0; power < kCoefficients; ++power) {
+        for (int power = 0; power < kPowers; ++power) {
             next[power] -= previous[power];
         }
         previous = current;
@@ -56,35 +74,40 @@ Coefficients interpolate(const boost::math::chi_squared& chi, double centre) {
     return powers;
 }
 
-}  // namespace
-
-ChiSquaredTransform::ChiSquaredTransform(int degrees) {
-    if (degrees < 2) {
-        throw std::invalid_argument("chi-squared transform: needs two or more degrees of freedom");
-    }
-    const boost::math::chi_squared chi(degrees);
-    for (int piece = 0; piece < kPieces; ++piece) {
-        const Coefficients c = interpolate(chi, -kRange + (2 * piece + 1) * kHalfWidth);
-        coefficients_.insert(coefficients_.end(), c.begin(), c.end());
-    }
-}
-
-double ChiSquaredTransform::operator()(double z) const {
-    const double place = (std::clamp(z, -kRange, kRange) + kRange) / (2.0 * kHalfWidth);
-    const int piece = std::min(static_cast<int>(place), kPieces - 1);
-    const double t = 2.0 * (place - piece) - 1.0;
-    const double* c = coefficients_.data() + static_cast<std::ptrdiff_t>(piece) * kCoefficients;
-    double sum = c[kCoefficients - 1];
-    for (int power = kCoefficients - 2; power >= 0; --power) {
-        sum = sum * t + c[power];
+template <std::size_t kPowers>
+double evaluate(const std::array<double, kPowers>& powers, double t) {
+    double sum = 0.0;
+    for (std::size_t power = kPowers; power-- > 0;) {
+        sum = sum * t + powers[power];
     }
     return sum;
 }
 
-void ChiSquaredTransform::from_normal(std::span<double> values) const {
-    for (double& value : values) {
-        value = (*this)(value);
+}  // namespace
+
+ChiSquaredTransform::ChiSquaredTransform(int degrees)
+    : pieces_(static_cast<std::size_t>(kChiPieces) * kChiStride) {
+    if (degrees < 2) {
+        throw std::invalid_argument("chi-squared transform: needs two or more degrees of freedom");
     }
+    const boost::math::chi_squared chi(degrees);
+    constexpr double kHalfWidth = kChiRange / kWidePieces;
+    double* piece = pieces_.data();
+    for (int wide = 0; wide < kWidePieces; ++wide) {
+        const double centre = -kChiRange + (2 * wide + 1) * kHalfWidth;
+        const auto powers = interpolate<kWidePowers>(
+            [&](double t) { return quantile_of_normal(chi, centre + kHalfWidth * t); });
+        for (int narrow = 0; narrow < kNarrowInWide; ++narrow, piece += kChiStride) {
+            const auto own = interpolate<kChiPowers>([&](double t) {
+                return evaluate(powers, (2 * narrow + 1 + t) / kNarrowInWide - 1.0);
+            });
+            std::copy(own.begin(), own.end(), piece);
+        }
+    }
+}
+
+void ChiSquaredTransform::from_normal(std::span<double> values) const {
+    chi_squared_values(static_cast<long>(values.size()), pieces_.data(), values.data());
 }
 
 }  // namespace gearpod::signals

@@ -5,9 +5,10 @@
 // normal per averaged sample, and serves all noise levels by scaling.
 #pragma once
 
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <span>
+
+#include "signals/normals.hpp"
 
 namespace gearpod::signals {
 
@@ -15,10 +16,11 @@ namespace gearpod::signals {
 // signal's. Engine: a 64-bit uniform random bit generator.
 template <typename Engine>
 void draw_encoder_noise(Engine& engine, int ring_teeth, std::span<double> noise) {
-    boost::random::normal_distribution<double> normal(0.0, 1.0 / std::sqrt(ring_teeth));
+    draw_normals(engine, noise);
+    const double scale = 1.0 / std::sqrt(ring_teeth);
     double sum = 0.0;
     for (double& value : noise) {
-        value = normal(engine);
+        value *= scale;
         sum += value;
     }
     const double mean = noise.empty() ? 0.0 : sum / static_cast<double>(noise.size());

@@ -74,12 +74,4 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
     }
 }
 
-double mean_square(std::span<const double> folded, const SpanLayout& layout) {
-    double sum = 0.0;
-    for (const double bin : folded) {
-        sum += bin;
-    }
-    return sum / (static_cast<double>(folded.size()) * layout.ring_teeth);
-}
-
 }  // namespace gearpod::signals

@@ -67,7 +67,4 @@ void fold_squares(const TileSignals& tile, const FoldPlan& plan, const PathGrid&
                   std::span<const double> path_exponent, const Tones& tones,
                   machine::AlignedVector& folded);
 
-// Mean square of the signal over the span, (m/s^2)^2, from the folded squares of one gearbox.
-double mean_square(std::span<const double> folded, const SpanLayout& layout);
-
 }  // namespace gearpod::signals

@@ -6,19 +6,19 @@
 namespace gearpod::signals {
 namespace {
 
-std::size_t checked(int points, int teeth) {
+int checked(int points, int teeth) {
     if (teeth < 3 || points < 4 * teeth) {
         throw std::invalid_argument(
             "mesh separation: needs three or more teeth and four samples a tooth");
     }
-    return static_cast<std::size_t>(points);
+    return points;
 }
 
 }  // namespace
 
 MeshSeparation::MeshSeparation(int points, int teeth)
-    : forward_(checked(points, teeth), false),
-      backward_(static_cast<std::size_t>(points), true),
+    : forward_(checked(points, teeth)),
+      backward_(points, FourierTransform::Way::back),
       kind_(static_cast<std::size_t>(points) / 2 + 1, Kind::other),
       teeth_(teeth) {
     const auto n = static_cast<std::size_t>(points);
@@ -47,7 +47,7 @@ void MeshSeparation::load(std::span<const double> turn) {
     for (std::size_t i = 0; i < n; ++i) {
         part_[i] = turn[i];
     }
-    forward_.transform(part_.data(), spectrum_.data());
+    forward_.transform(part_, spectrum_);
     const double scale = 1.0 / static_cast<double>(n);
     for (std::size_t k = 0; k < kind_.size(); ++k) {
         const bool paired = k != 0 && 2 * k != n;
@@ -62,7 +62,7 @@ void MeshSeparation::load(std::span<const double> turn) {
                    : kind == Kind::sideband ? i_unit * spectrum_[k]
                                             : 0.0;
     }
-    backward_.transform(part_.data(), back_.data());
+    backward_.transform(part_, back_);
     const double mean = scale * spectrum_[0].real();
     for (std::size_t i = 0; i < n; ++i) {
         const double harmonics = scale * back_[i].real();
@@ -77,7 +77,7 @@ void MeshSeparation::load(std::span<const double> turn) {
     for (int k = teeth_ - half; k <= teeth_ + half && 2 * k < points(); ++k) {
         part_[static_cast<std::size_t>(k)] = 2.0 * scale * spectrum_[static_cast<std::size_t>(k)];
     }
-    backward_.transform(part_.data(), back_.data());
+    backward_.transform(part_, back_);
     for (std::size_t i = 0; i < n; ++i) {
         envelope_[i] = std::abs(back_[i]);
     }

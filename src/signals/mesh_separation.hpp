@@ -15,9 +15,10 @@
 #pragma once
 
 #include <complex>
-#include <kissfft/kissfft.hh>
 #include <span>
 #include <vector>
+
+#include "signals/fourier_transform.hpp"
 
 namespace gearpod::signals {
 
@@ -43,7 +44,7 @@ class MeshSeparation {
   private:
     enum class Kind : unsigned char { other, sideband, harmonic };
 
-    kissfft<double> forward_, backward_;
+    FourierTransform forward_, backward_;
     std::vector<Kind> kind_;  // of every order from 0 to the Nyquist order; the mean is `other`
     int teeth_;
     std::vector<std::complex<double>> spectrum_, part_, back_;

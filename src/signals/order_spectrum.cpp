@@ -7,7 +7,7 @@
 namespace gearpod::signals {
 namespace {
 
-std::size_t checked(int points) {
+int checked(int points) {
     if (points < 2) {
         throw std::invalid_argument("order spectrum: needs two or more points");
     }
@@ -19,14 +19,15 @@ double balancing_power_of_two(std::span<const double> a, std::span<const double>
     const auto square = [](std::span<const double> x) {
         return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
     };
-    const double ratio = square(a) / square(b);
+    const double size = square(b);
+    const double ratio = size > 0.0 ? square(a) / size : 0.0;
     return ratio > 0.0 && std::isfinite(ratio) ? std::ldexp(1.0, std::ilogb(ratio) / 2) : 1.0;
 }
 
 }  // namespace
 
 OrderSpectrum::OrderSpectrum(int points)
-    : fft_(checked(points), false), buffer_(points), transform_(points) {
+    : fft_(checked(points)), buffer_(points), transform_(points) {
     signal_.resize(orders());
     noise_.resize(orders());
 }
@@ -40,7 +41,7 @@ void OrderSpectrum::load(std::span<const double> signal, std::span<const double>
     for (std::size_t i = 0; i < n; ++i) {
         buffer_[i] = {signal[i], noise.empty() ? 0.0 : balance * noise[i]};
     }
-    fft_.transform(buffer_.data(), transform_.data());
+    fft_.transform(buffer_, transform_);
     for (std::size_t k = 0; k < signal_.size(); ++k) {
         // Z_k = A_k + i B_k with A, B Hermitian: A = (Z_k + conj Z_{n-k})/2, B = (Z_k - ...)/2i.
         const std::complex<double> z = transform_[k];

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <complex>
-#include <kissfft/kissfft.hh>
 #include <span>
 #include <vector>
+
+#include "signals/fourier_transform.hpp"
 
 namespace gearpod::signals {
 
@@ -29,7 +30,7 @@ class OrderSpectrum {
     void amplitudes(double noise_factor, std::span<double> amplitudes) const;
 
   private:
-    kissfft<double> fft_;
+    FourierTransform fft_;
     std::vector<std::complex<double>> buffer_;
     std::vector<std::complex<double>> transform_;
     std::vector<std::complex<double>> signal_;  // orders(), scaled to one-sided amplitudes

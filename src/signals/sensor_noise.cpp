@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "signals/noisy_bins.hpp"
-
 namespace gearpod::signals {
 namespace {
 
@@ -13,16 +11,6 @@ double dot(std::span<const double> a, std::span<const double> b) {
 }
 
 }  // namespace
-
-void add_sensor_noise(std::span<const double> folded, const NoiseDraw& draw, double sigma,
-                      std::span<double> noisy) {
-    if (draw.along.size() != folded.size() || draw.across.size() != folded.size() ||
-        noisy.size() != folded.size()) {
-        throw std::invalid_argument("sensor noise: bins and draws disagree in number");
-    }
-    noisy_bins(static_cast<long>(folded.size()), folded.data(), draw.along.data(),
-               draw.across.data(), sigma, noisy.data());
-}
 
 void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise) {

@@ -6,17 +6,17 @@
 //     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
 //
 // independent between bins. So two random numbers a bin replace the Z_r noise samples, and one draw
-// serves all noise levels.
+// serves all noise levels (windowing.hpp).
 #pragma once
 
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "signals/chi_squared.hpp"
+#include "signals/normals.hpp"
 
 namespace gearpod::signals {
 
@@ -34,26 +34,16 @@ class SensorNoise {
     // All Z first, then all G. Engine: a 64-bit uniform random bit generator.
     template <typename Engine>
     void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
-        boost::random::normal_distribution<double> normal;
         out.along.resize(bins);
         out.across.resize(bins);
-        for (double& z : out.along) {
-            z = normal(engine);
-        }
-        for (double& z : out.across) {
-            z = normal(engine);
-        }
+        draw_normals(engine, out.along);
+        draw_normals(engine, out.across);
         across_.from_normal(out.across);
     }
 
   private:
     ChiSquaredTransform across_;
 };
-
-// noisy[b] = (sigma Z_b + sqrt folded_b)^2 + sigma^2 G_b; sigma in m/s^2. Contiguous bins of one
-// gearbox. sigma = 0 gives `folded` up to rounding. Throws std::invalid_argument on unequal sizes.
-void add_sensor_noise(std::span<const double> folded, const NoiseDraw& draw, double sigma,
-                      std::span<double> noisy);
 
 // The unit noise n (times sigma it is in m/s^2) that turns a bin's Z_r noise-free samples into
 // noisy ones whose squares sum to exactly the bin's F_noisy: Z along the samples, sqrt(G) in a
@@ -63,7 +53,7 @@ void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise);
 
 // The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
-// sigma times it the signal folds to add_sensor_noise's values. Bins are visited in order b = 0, 1,
+// sigma times it the signal folds to F_noisy. Bins are visited in order b = 0, 1,
 // ...; the engine gives the directions.
 template <typename Engine>
 std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
@@ -73,11 +63,10 @@ std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
         throw std::invalid_argument("unit noise: signal, bins and draw disagree in size");
     }
     const std::size_t turns = signal.size() / bins;
-    boost::random::normal_distribution<double> normal;
     std::vector<double> all(signal.size());
     // Eight bins, a cache line of the signal, at a time.
     constexpr std::size_t kBlock = 8;
-    std::vector<double> samples(kBlock * turns), normals(turns), noise(kBlock * turns);
+    std::vector<double> samples(kBlock * turns), normals(kBlock * turns), noise(kBlock * turns);
     for (std::size_t b = 0; b < bins; b += kBlock) {
         const std::size_t count = std::min(kBlock, bins - b);
         for (std::size_t i = 0; i < turns; ++i) {
@@ -85,12 +74,13 @@ std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
                 samples[c * turns + i] = signal[i * bins + b + c];
             }
         }
+        draw_normals(engine, normals);
         for (std::size_t c = 0; c < count; ++c) {
-            for (double& value : normals) {
-                value = normal(engine);
-            }
-            noise_of_bin(std::span(samples).subspan(c * turns, turns), draw.along[b + c],
-                         draw.across[b + c], normals, std::span(noise).subspan(c * turns, turns));
+            const auto of_bin = [&](std::vector<double>& values) {
+                return std::span(values).subspan(c * turns, turns);
+            };
+            noise_of_bin(of_bin(samples), draw.along[b + c], draw.across[b + c], of_bin(normals),
+                         of_bin(noise));
         }
         for (std::size_t i = 0; i < turns; ++i) {
             for (std::size_t c = 0; c < count; ++c) {

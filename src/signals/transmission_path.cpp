@@ -1,12 +1,15 @@
 #include "signals/transmission_path.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 namespace gearpod::signals {
 
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 gears::PlanetPlaces equally_spaced(int planets) {
     return gears::planet_places({.planets = planets});
@@ -37,6 +40,19 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
         const long place = planets.place[static_cast<std::size_t>(n)];
         return turn / places * (mirrored ? (places - place) % places : place);
     };
+    // Planets a whole number of samples apart share their angles.
+    std::vector<double> known(static_cast<std::size_t>(turn / places), kUnknown);
+    const auto weight = [&](long planet) {
+        const double angle = step * static_cast<double>(planet);
+        if (planet % places != 0) {
+            return window.weight(angle);
+        }
+        double& value = known[static_cast<std::size_t>(planet / places)];
+        if (std::isnan(value)) {
+            value = window.weight(angle);
+        }
+        return value;
+    };
     for (int p = 0; p < phases_; ++p) {
         for (int c = 0; c < positions_; ++c) {
             const long carrier = turns ? (static_cast<long>(c) * phases_ + p) * places : 0;
@@ -45,7 +61,7 @@ PathGrid::PathGrid(const PathWindow& window, const gears::PlanetPlaces& planets,
             cosine_.push_back(std::cos(step * static_cast<double>(carrier)));
             for (int n = 0; n < planets_; ++n) {
                 const long planet = (carrier + position(n)) % turn;
-                window_.push_back(window.weight(step * static_cast<double>(planet)));
+                window_.push_back(weight(planet));
             }
         }
         for (int n = 0; n < planets_; ++n) {

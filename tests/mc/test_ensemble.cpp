@@ -54,12 +54,14 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
     REQUIRE(exact.features.size() == reference.features.size());
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
-        // window_z without noise divides by the scatter of teeth that are alike but for rounding.
+        // window_z divides by the teeth's scatter: with little noise a few thousandths of their
+        // RMS, without noise rounding.
         const bool rounding = exact.features[f].name == "window_z";
+        const double tolerance = rounding ? 5e-3 : 1e-3;
         for (std::size_t i = 0; i < exact.features[f].values.size(); ++i) {
             if (!(rounding && i % exact.noise_levels.size() == 0)) {
                 CHECK(reference.features[f].values[i] ==
-                      Approx(exact.features[f].values[i]).epsilon(1e-3));
+                      Approx(exact.features[f].values[i]).epsilon(tolerance));
             }
         }
     }

@@ -12,6 +12,7 @@
 #include "mc/sampling.hpp"
 #include "mc/study_document.hpp"
 #include "scene_examples.hpp"
+#include "signals/normals.hpp"
 #include "study_example.hpp"
 
 using namespace gearpod::mc;
@@ -106,6 +107,39 @@ TEST_CASE("A stream is the blocks of its counter in order") {
     const auto block = r123::Philox4x64{}(r123::Philox4x64::ctr_type{{0, 6, 7, 0}},
                                           r123::Philox4x64::key_type{{5, 1}});
     CHECK(other() == block[0]);
+}
+
+TEST_CASE("Words of a stream come alike one by one and many at once") {
+    Philox single(5, Group::graded, 6, 7);
+    Philox many(5, Group::graded, 6, 7);
+    for (const std::size_t count : {1, 2, 9, 4, 0, 3, 16, 5}) {
+        std::vector<std::uint64_t> words(count);
+        many.fill(words);
+        for (const std::uint64_t word : words) {
+            CHECK(word == single());
+        }
+        CHECK(many() == single());
+    }
+}
+
+TEST_CASE("Normal noise of different gearboxes, groups, purposes and seeds is uncorrelated") {
+    constexpr std::size_t kCount = 20000;
+    const auto normals = [](Philox stream) {
+        std::vector<double> values(kCount);
+        gearpod::signals::draw_normals(stream, values);
+        return values;
+    };
+    const std::vector<std::vector<double>> noise{
+        normals({7, Group::graded, 3, 11}), normals({7, Group::graded, 4, 11}),
+        normals({7, Group::graded, 3, 12}), normals({7, Group::threshold, 3, 11}),
+        normals({8, Group::graded, 3, 11})};
+    for (std::size_t a = 0; a < noise.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            const double product =
+                std::inner_product(noise[a].begin(), noise[a].end(), noise[b].begin(), 0.0);
+            CHECK(std::abs(product) < 4.0 * std::sqrt(static_cast<double>(kCount)));
+        }
+    }
 }
 
 TEST_CASE("Parameter numbers are FNV-1a with 64 bits") {

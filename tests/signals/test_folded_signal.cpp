@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "direct_signal.hpp"
 #include "machine/dispatch.hpp"
@@ -124,8 +125,7 @@ TEST_CASE("The synthesized time signal is the path equation's and folds to the f
     for (const double y : signal) {
         sum += y * y;
     }
-    CHECK(mean_square(bins, layout) ==
-          Approx(sum / static_cast<double>(signal.size())).epsilon(1e-12));
+    CHECK(std::accumulate(bins.begin(), bins.end(), 0.0) == Approx(sum).epsilon(1e-12));
 }
 
 TEST_CASE("A planet crack costs one sum per distinct mesh, a ring crack shows in no tooth alone") {

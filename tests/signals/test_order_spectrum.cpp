@@ -76,6 +76,20 @@ TEST_CASE("A sine of one order shows its amplitude at that order alone") {
     CHECK(*std::max_element(amplitudes.begin(), amplitudes.end()) < 1e-13);
 }
 
+TEST_CASE("Noise that is zero throughout leaves the signal's spectrum as it is") {
+    std::vector<double> signal(62);
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        signal[i] = std::cos(0.3 * static_cast<double>(i * i));
+    }
+    OrderSpectrum spectrum(62);
+    std::vector<double> alone(spectrum.orders()), beside(spectrum.orders());
+    spectrum.load(signal);
+    spectrum.amplitudes(1.0, alone);
+    spectrum.load(signal, std::vector<double>(62, 0.0));
+    spectrum.amplitudes(1.0, beside);
+    CHECK(alone == beside);
+}
+
 TEST_CASE("A spectrum refuses signals that are not one turn") {
     OrderSpectrum spectrum(10);
     CHECK_THROWS_AS(spectrum.load(std::vector<double>(9)), std::invalid_argument);

@@ -41,7 +41,8 @@ TEST_CASE("A tooth's RMS is that of the folded squares") {
     const auto span = std::span(samples).first(gear.meshes() * phases);
     Windowing windowing(gear.layout(), phases, 0.3);
     std::vector<double> rms(7);
-    const int offset = windowing.search(fold_of_squares(span, 7 * phases), rms);
+    windowing.load(fold_of_squares(span, 7 * phases));
+    const int offset = windowing.search(0.0, rms);
     const auto teeth = tooth_statistics(samples, gear, tukey_window(phases, 0.3), offset);
     for (std::size_t j = 0; j < 7; ++j) {
         CHECK(teeth.rms[j] == Approx(rms[j]).epsilon(1e-13));
