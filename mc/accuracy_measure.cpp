@@ -9,7 +9,7 @@
 #include "mc/accuracy_ladder.hpp"
 #include "mc/accuracy_listing.hpp"
 #include "mc/accuracy_report.hpp"
-#include "mc/explicit_step_time.hpp"
+#include "mc/mesh_time.hpp"
 #include "mc/numerics_choice.hpp"
 #include "mc/rung_scenes.hpp"
 

@@ -1,15 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <ctime>
 
-#include "machine/dispatch.hpp"
 #include "mc/command_support.hpp"
 #include "mc/describe_effects.hpp"
+#include "mc/describe_forecast.hpp"
 #include "mc/effect_costs.hpp"
-#include "mc/ensemble.hpp"
-#include "mc/instance_features.hpp"
 #include "mc/march_cache.hpp"
+#include "mc/mesh_time.hpp"
 #include "mc/numerics_choice.hpp"
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
@@ -67,26 +69,6 @@ void print_gearbox(const Scene& scene) {
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
 }
 
-// Mesh periods a tile marches: the approach to the orbit and the passages of the fault.
-double marched_meshes(const Scene& scene) {
-    const Study& study = scene.study();
-    if (study.numerics.horizon == Horizon::march) {
-        return scene.signal_meshes() + run_in_meshes(scene);
-    }
-    if (study.effects.quasi_static()) {
-        return 1.0 + 3.0 * static_cast<double>(scene.pattern().passages.size());
-    }
-    const double settle = std::min(1.0 + scene.decay_meshes() * -std::log(settle_tolerance(study)),
-                                   static_cast<double>(scene.max_meshes()));
-    if (scene.faulty_pair() < 0) {
-        return settle;
-    }
-    const double passage =
-        std::ceil(scene.pairs().curve(scene.faulty_pair()).contact_ratio()) + settle;
-    return settle + std::min(passage * static_cast<double>(scene.pattern().passages.size()),
-                             static_cast<double>(scene.pattern().length));
-}
-
 // Lengths of the steps, and where the short ones lie.
 void print_steps(const Scene& scene) {
     const lockstep::PhaseGrid& grid = scene.plan().grid;
@@ -122,35 +104,12 @@ void print_steps(const Scene& scene) {
                             since[since.size() / 2]));
 }
 
-// Samples of the time signals that features look at, of one gearbox and noise level.
-double time_samples(const Scene& scene) {
-    return needs_samples(needs_of(used_features(scene.study())))
-               ? static_cast<double>(scene.signal_meshes()) * scene.samples_per_mesh()
-               : 0.0;
-}
-
-// Seconds a gearbox for those signals, from their share of a run beside the march.
-double time_signal_s(const Scene& scene) {
-    constexpr double kGearbox_s = 7e-9, kLevel_s = 3e-9;  // a sample
-    const auto levels = static_cast<double>(scene.study().sensor.noise_levels.size());
-    return time_samples(scene) * (kGearbox_s + kLevel_s * levels);
-}
-
 // Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
 void print_effect_costs(const Study& study) {
     for (const EffectCost& cost : effect_costs(study)) {
         print_entry(("cost of " + cost.effect).c_str(),
                     fmt::format("{:.0f} % of a plain step of rk4", 100.0 * cost.share));
     }
-}
-
-// A step over one without any effect.
-double step_with_effects(const Study& study) {
-    double whole = 1.0;
-    for (const EffectCost& cost : effect_costs(study)) {
-        whole += cost.share;
-    }
-    return whole;
 }
 
 void print_cost(const Scene& scene) {
@@ -186,50 +145,23 @@ void print_cost(const Scene& scene) {
     }
     print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
                                                     marched_meshes(scene), scene.span_meshes()));
-    const long rows = study.ensemble.instances + study.ensemble.threshold_instances;
     print_entry("gearboxes",
                 fmt::format("{} graded and {} for the thresholds, {} noise levels",
                             study.ensemble.instances, study.ensemble.threshold_instances,
                             study.sensor.noise_levels.size()));
     const std::optional<std::size_t> distinct = distinct_marches(scene);
-    const auto marched_rows = distinct
-                                  ? std::min(static_cast<double>(rows),
-                                             static_cast<double>(*distinct) * study.numerics.lanes)
-                                  : static_cast<double>(rows);
     print_entry("distinct motions",
                 distinct ? fmt::format("{}; gearboxes that differ in path exponent and noise alone "
                                        "share one march",
                                        *distinct)
                          : "every gearbox moves differently");
-    // Per step and gearbox in a full tile, measured with an AVX-512 core near 3 GHz for N = 4;
-    // proportional to the degrees of freedom. One lane costs as much as eight.
-    const double step_s =
-        0.65e-6 * dynamics::degrees_of_freedom(plan.layout) / 21.0 / study.numerics.lanes;
-    const double march_s = marched_meshes(scene) * static_cast<double>(plan.grid.steps.size()) *
-                           step_s * step_with_effects(study) * 1.3;
-    const double seconds =
-        (marched_rows * march_s + static_cast<double>(rows) * time_signal_s(scene)) /
-        thread_count(study);
-    print_entry(
-        "estimated time",
-        fmt::format("{:.0f} s on {} threads of an AVX-512 machine (now: {})", std::ceil(seconds),
-                    thread_count(study), machine::name(machine::active_instruction_set())));
-    const double mesh_bytes = 8.0 * scene.samples_per_mesh() * study.numerics.lanes *
-                              (2.0 * dynamics::sources(plan.layout) + 1.0);
-    // The rows go to the disk; what detection needs of them at a time is a feature's values.
-    const double rows_bytes =
-        8.0 * static_cast<double>(rows) * static_cast<double>(study.sensor.noise_levels.size() + 4);
-    print_entry("estimated memory", fmt::format("{:.0f} MB", ((mesh_bytes * marched_meshes(scene) +
-                                                               8.0 * 4.0 * time_samples(scene)) *
-                                                                  thread_count(study) +
-                                                              rows_bytes) /
-                                                                     1e6 +
-                                                                 10.0));
 }
 
 }  // namespace
 
 int describe_command(const DescribeOptions& options) {
+    // Processor time so far: loading the program.
+    const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     if (options.keys) {
         fmt::print("{}", schema_help());
         return kDone;
@@ -243,13 +175,17 @@ int describe_command(const DescribeOptions& options) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
+    const auto start = std::chrono::steady_clock::now();
     const auto scene = load_scene(options.study);
     if (!scene) {
         return kBadInput;
     }
+    const std::chrono::duration<double> setup = std::chrono::steady_clock::now() - start;
     print_gearbox(*scene);
     print_effects(*scene);
     print_cost(*scene);
+    std::fflush(stdout);
+    print_forecast(*scene, begun_s + setup.count());
     return kDone;
 }
 

@@ -31,7 +31,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
     lockstep::TileSettings settings;
     settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
-    settings.march_meshes = n.horizon == Horizon::march ? scene.signal_meshes() : 0;
+    settings.march_meshes = n.horizon == Horizon::march ? scene.recorded_meshes() : 0;
     settings.run_in_meshes = run_in_meshes(scene);
     settings.with_motion = with_motion;
     return settings;
@@ -66,6 +66,7 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
         tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
     }
     tile.march_s = lap(start);
+    tile.meshes = tile.march.marched;
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 

@@ -27,6 +27,7 @@ struct GearboxTile {
     machine::AlignedVector te_turn;  // [sample][lane], rad
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    int meshes = 0;            // mesh periods marched for it, 0 if `march` was there before
     double march_cpu_s = 0.0;  // the march's share of this thread's processor time
 };
 

@@ -90,8 +90,10 @@ int run_program(int argc, char** argv) {
     report_app->callback([&] { code = report_command(report); });
 
     DescribeOptions describe;
-    auto* describe_app =
-        app.add_subcommand("describe", "what a study would simulate and cost; nothing runs");
+    auto* describe_app = app.add_subcommand(
+        "describe",
+        "what a study would simulate, and what a run would take: computes some gearboxes "
+        "for a few seconds, writes nothing");
     add_study(*describe_app, describe.study)->required(false);
     describe_app->add_flag("--keys", describe.keys, "all keys of study files, without a study");
     describe_app->callback([&] {

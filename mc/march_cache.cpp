@@ -1,6 +1,7 @@
 #include "mc/march_cache.hpp"
 
 #include <algorithm>
+#include <set>
 #include <type_traits>
 
 #include "mc/study_fluctuations.hpp"
@@ -55,6 +56,50 @@ std::optional<std::size_t> distinct_marches(const Scene& scene) {
             static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
     }
     return count;
+}
+
+MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motion_bytes) {
+    // More distinct ones than that do not come again before they are many.
+    constexpr std::size_t kMostDistinct = 2000;
+    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const std::array<std::size_t, 2> rows{plan.threshold_rows(), plan.graded_rows()};
+    const std::size_t distinct = distinct_marches(scene).value_or(kMostDistinct + 1);
+    MarchCounts counts;
+    std::set<std::string> keys;
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+        const std::size_t batches = (rows[g] + lanes - 1) / lanes;
+        counts.marched[g] = batches;
+        if (distinct > kMostDistinct) {
+            continue;
+        }
+        const Sampler sampler(scene.study());
+        const std::size_t before = keys.size();
+        // n distinct gearboxes in turn fill at most n different batches; the last may not be full.
+        for (std::size_t b = 0; b < batches;
+             b = b + 1 < distinct ? b + 1 : std::max(b + 1, batches - 1)) {
+            std::vector<InstanceInputs> inputs;
+            for (std::size_t i = b * lanes; i < std::min(rows[g], (b + 1) * lanes); ++i) {
+                inputs.push_back(sampler.sample(static_cast<Group>(g), i));
+            }
+            inputs.resize(lanes, inputs.back());
+            keys.insert(key_of(inputs));
+        }
+        counts.marched[g] = keys.size() - before;
+    }
+    if (distinct > kMostDistinct) {
+        return counts;
+    }
+    const auto room = static_cast<std::size_t>(kMostBytes / std::max(1.0, motion_bytes));
+    counts.kept = std::min(room, keys.size());
+    // What found no room is marched again whenever it comes.
+    const double lost = 1.0 - static_cast<double>(counts.kept) /
+                                  static_cast<double>(std::max<std::size_t>(1, keys.size()));
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+        const std::size_t batches = (rows[g] + lanes - 1) / lanes;
+        counts.marched[g] +=
+            static_cast<std::size_t>(lost * static_cast<double>(batches - counts.marched[g]));
+    }
+    return counts;
 }
 
 std::shared_ptr<const lockstep::TileResult> MarchCache::find(

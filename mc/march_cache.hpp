@@ -2,6 +2,7 @@
 // study whose other inputs take few values marches the same eight gearboxes again and again.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -13,12 +14,21 @@
 #include "lockstep/tile.hpp"
 #include "mc/sampling.hpp"
 #include "mc/scene.hpp"
+#include "mc/tile_rows.hpp"
 
 namespace gearpod::mc {
 
 // How many gearboxes of the study differ in what their march depends on; none if all of them do: an
 // input of the march has a continuous distribution, or every tooth its own pitch error.
 std::optional<std::size_t> distinct_marches(const Scene& scene);
+
+// How often a run of the plan marches, by group: batches (of as many gearboxes as there are lanes)
+// whose motion no batch before them has left behind. `motion_bytes`: of a batch's records.
+struct MarchCounts {
+    std::array<std::size_t, 2> marched{};
+    std::size_t kept = 0;  // motions in the cache at the end
+};
+MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motion_bytes);
 
 // Results of marched tiles by the inputs of their gearboxes, 256 MB of them at most; what finds no
 // room is marched again. A result that is used again has the bits of its march. All threads may use

@@ -142,30 +142,33 @@ void share_of_size(const analysis::HitMissPod& pod, NumericalShare& share) {
 
 }  // namespace
 
-std::optional<NumericalError> find_numerical_error(const Scene& scene) {
+FinerScene finer_scene(const Scene& scene) {
     const Study& study = scene.study();
+    FinerScene finer;
     if (study.effects.quasi_static() ||
         (study.numerics.tolerance == 0.0 && !study.numerics.verify)) {
-        return std::nullopt;
+        return finer;
     }
-    const Pilot pilot(scene, spread_gearboxes(study));
-    const Rung rung = rung_of(scene);
-    Rung finer;
-    std::unique_ptr<Scene> fine;
-    for (int factor = kFiner; fine == nullptr && factor > 1; factor /= 2) {
-        finer = finer_than(scene, rung, factor);
+    for (int factor = kFiner; finer.scene == nullptr && factor > 1; factor /= 2) {
+        finer.rung = finer_than(scene, rung_of(scene), factor);
         try {
-            fine = rung_scene(study, finer);
+            finer.scene = rung_scene(study, finer.rung);
         } catch (const SceneError&) {  // more steps than the program takes
             continue;
         }
     }
-    if (fine == nullptr) {
+    return finer;
+}
+
+std::optional<NumericalError> find_numerical_error(const Scene& scene) {
+    const FinerScene finer = finer_scene(scene);
+    if (finer.scene == nullptr) {
         return std::nullopt;
     }
-    const PilotError error = pilot_error(pilot.run(scene), pilot.run(*fine));
-    return NumericalError{rung.text(), finer.text(), static_cast<int>(pilot.size()), error.rms,
-                          error.largest};
+    const Pilot pilot(scene, spread_gearboxes(scene.study()));
+    const PilotError error = pilot_error(pilot.run(scene), pilot.run(*finer.scene));
+    return NumericalError{rung_of(scene).text(), finer.rung.text(), static_cast<int>(pilot.size()),
+                          error.rms, error.largest};
 }
 
 std::vector<NumericalShare> numerical_shares(

@@ -2,21 +2,30 @@
 // against what the number of gearboxes leaves uncertain.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/reliability.hpp"
+#include "mc/accuracy_rung.hpp"
 #include "mc/results_file.hpp"
 #include "mc/row_source.hpp"
 #include "mc/scene.hpp"
 
 namespace gearpod::mc {
 
-// Eight graded gearboxes, spread over the ensemble, marched as the run did and again with four
-// times the steps (or what the integrator allows) and settled to 1e-10: what that changes is the
-// error of the run's own steps but for a sixteenth or less, at order 2 and above. Nothing unless
-// the study has numerics.tolerance or numerics.verify.
+// The scene with four times the steps (or what the integrator allows), settled to 1e-10. None
+// unless the study has numerics.tolerance or numerics.verify, and something is marched.
+struct FinerScene {
+    Rung rung;
+    std::unique_ptr<Scene> scene;
+};
+FinerScene finer_scene(const Scene& scene);
+
+// Eight graded gearboxes, spread over the ensemble, marched as the run did and again by
+// finer_scene(): what that changes is the error of the run's own steps but for a sixteenth or less,
+// at order 2 and above. Nothing where there is no finer scene.
 std::optional<NumericalError> find_numerical_error(const Scene& scene);
 
 // One feature at one noise level.

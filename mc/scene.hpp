@@ -2,6 +2,8 @@
 // grid.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,6 +58,12 @@ class Scene {
     // Meshes of sensor signal that the study's features look at: the span, or more if the teeth of
     // the sun or the ring need it.
     int signal_meshes() const { return signal_meshes_; }
+    // Meshes that are recorded one by one where every mesh is marched: those of the signal, but for
+    // record_at_most().
+    int recorded_meshes() const { return std::min(signal_meshes_, most_recorded_); }
+    // Records no more than so many of them from now on; the signal repeats them. For measuring what
+    // a march costs.
+    void record_at_most(int meshes) { most_recorded_ = meshes; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
@@ -108,6 +116,7 @@ class Scene {
     std::optional<Calibration> calibration_;
     int te_samples_ = 0;
     int signal_meshes_ = 0;
+    int most_recorded_ = std::numeric_limits<int>::max();
     int max_meshes_ = 1;
     double nominal_mesh_frequency_Hz_ = 0.0;
 };

@@ -15,6 +15,7 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     signals += other.signals;
     noise += other.noise;
     features += other.features;
+    meshes += other.meshes;
     return *this;
 }
 
@@ -53,8 +54,8 @@ void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Second
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     const double noise = features_.noise_s() - noise_before;
     seconds +=
-        {computed.sampling_s,  computed.stiffness_s, computed.march_s, computed.signals_s, noise,
-         spent.count() - noise};
+        {computed.sampling_s,   computed.stiffness_s, computed.march_s, computed.signals_s, noise,
+         spent.count() - noise, computed.meshes};
 }
 
 void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,

@@ -16,6 +16,7 @@ namespace gearpod::mc {
 // Seconds of one thread, by what it did.
 struct Seconds {
     double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
+    long meshes = 0;  // no time: mesh periods marched, each of as many gearboxes as there are lanes
 
     Seconds& operator+=(const Seconds& other);
     double sum() const { return sampling + stiffness + march + signals + noise + features; }

@@ -143,6 +143,7 @@ class QuasiStatic {
             }
         }
         result_.records.push_back(std::move(record));
+        ++result_.marched;
         return static_cast<int>(result_.records.size()) - 1;
     }
 

@@ -35,7 +35,7 @@ struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()
     std::vector<LaneStatus> status;  // per lane
-    int marched = 0;                 // mesh periods that the tile marched in all
+    int marched = 0;                 // mesh periods that the tile marched or solved in all
 };
 
 // `inputs` and each of `faults.curve` hold W lanes; unused lanes of the last tile repeat its last
