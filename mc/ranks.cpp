@@ -27,18 +27,23 @@ bool launched() {
     return false;
 }
 
-// From rank 0 to all. Ranks that wait leave their processors to others: what rank 0 still has to do
-// may take them.
-void broadcast(void* data, int count, MPI_Datatype type) {
-    MPI_Request request;
-    MPI_Ibcast(data, count, type, 0, MPI_COMM_WORLD, &request);
-    for (int arrived = 0;;) {
-        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-        if (arrived != 0) {
+// MPI's own waiting keeps a processor busy. Ranks that wait here leave theirs to others: to their
+// threads, and to what rank 0 still has to do.
+void wait_for(MPI_Request& request) {
+    for (int done = 0;;) {
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done != 0) {
             return;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+}
+
+// From rank 0 to all.
+void broadcast(void* data, int count, MPI_Datatype type) {
+    MPI_Request request;
+    MPI_Ibcast(data, count, type, 0, MPI_COMM_WORLD, &request);
+    wait_for(request);
 }
 
 }  // namespace
@@ -105,7 +110,10 @@ std::string Ranks::from_leader(const std::string& text) const {
 }
 
 void Ranks::send(int to, int kind, std::span<const std::byte> bytes) const {
-    MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, kind, MPI_COMM_WORLD);
+    MPI_Request request;
+    MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, kind, MPI_COMM_WORLD,
+              &request);
+    wait_for(request);
 }
 
 std::optional<Ranks::Message> Ranks::receive() const {
@@ -122,8 +130,10 @@ std::optional<Ranks::Message> Ranks::receive() const {
     MPI_Get_count(&status, MPI_BYTE, &count);
     Message message{status.MPI_SOURCE, status.MPI_TAG,
                     std::vector<std::byte>(static_cast<std::size_t>(count))};
-    MPI_Recv(message.bytes.data(), count, MPI_BYTE, message.from, message.kind, MPI_COMM_WORLD,
-             MPI_STATUS_IGNORE);
+    MPI_Request request;
+    MPI_Irecv(message.bytes.data(), count, MPI_BYTE, message.from, message.kind, MPI_COMM_WORLD,
+              &request);
+    wait_for(request);
     return message;
 }
 
