@@ -12,7 +12,7 @@ namespace {
 
 // What describing a study leaves out: a checkpoint and a results file are made and written, with
 // the HDF5 library at work. From runs of two gearboxes; a slow disk's syncing comes on top.
-constexpr double kFiles_s = 0.03, kFileBytes = 4.5e6;
+constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
 
 // Hands out the batches of a group: those that march before those that need not.
 class Batches {
