@@ -138,7 +138,11 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
             return form.floor + (1.0 - form.floor) * link_probability(form.link, zeta);
         };
         PodPoint point{size, curve.pod(size), form.floor, 1.0};
-        const double zeta = link_quantile(form.link, (point.pod - form.floor) / (1.0 - form.floor));
+        // Where the curve is at its floor, or at 1, to the last digit, zeta is infinite: the search
+        // for a bound sets out from next to that end.
+        const double end = link_quantile(form.link, 1.0 - kAtEnd);
+        const double share = std::clamp((point.pod - form.floor) / (1.0 - form.floor), 0.0, 1.0);
+        const double zeta = std::clamp(link_quantile(form.link, share), -end, end);
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
         // No longer where the likelihood is flat: the bound lies before the end of the rates.

@@ -191,6 +191,31 @@ TEST_CASE("The band of a rate that hardly rises is that of a search over all cur
     CHECK(band[1].upper < 0.1);
 }
 
+TEST_CASE("The band keeps to the floor where the best curve is at it to the last digit") {
+    // Alarms of 500 gearboxes each: only the largest fault is heard at all.
+    const double tested[] = {0.0005, 0.001, 0.0015, 0.002, 0.003, 0.00428};
+    const double hits[] = {25, 18, 37, 25, 25, 122};
+    HitMissTable table;
+    for (std::size_t i = 0; i < 6; ++i) {
+        table.push_back({tested[i], hits[i], 500});
+    }
+    const PodForm form{GENERATE(Link::logit, Link::probit), GENERATE(false, true), 3.0 / 61.0,
+                       false};
+    INFO(link_name(form.link) << (form.log_size ? " of log size" : " of size"));
+    const PodLikelihood likelihood(table, form);
+    std::vector<double> sizes;
+    for (int i = 0; i <= 40; ++i) {
+        sizes.push_back(0.0005 + 0.00378 * i / 40);
+    }
+    for (const PodPoint& point : pod_band(likelihood, likelihood.maximise(), sizes, 0.95)) {
+        INFO(point.size);
+        CHECK(point.lower >= form.floor);
+        CHECK(point.upper >= point.pod);
+        // No rate that any size had, but the largest fault's.
+        CHECK(point.upper < (point.size < 0.003 ? 37.0 / 500.0 : 0.3));
+    }
+}
+
 TEST_CASE("The curve of least AIC keeps the floor and the ceiling that made the data") {
     const HitMissPod pod = hit_miss_pod(levels(), {0.05, 0.95, 9});
     CHECK(pod.refusal == "");
