@@ -1,7 +1,7 @@
 #include "cache_peak.hpp"
 
-#include "machine/lanes.hpp"
 #include "machine/dispatch.hpp"
+#include "machine/lanes.hpp"
 #include "mc/thread_clock.hpp"
 
 namespace gearpod::bench {
