@@ -89,7 +89,7 @@ class Threads {
     const Tile* next(int had) {
         const std::scoped_lock lock(mutex_);
         const double over = seconds_since(start_) / budget_s_;
-        const bool more = had == 0 || over < 1.0 || (had == 1 && over < 1.6);
+        const bool more = had == 0 || over < 1.0 || (had == 1 && over < 2.0);
         return more && next_ < batches_.size() ? &batches_[next_++] : nullptr;
     }
 
