@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_int_distribution.hpp>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "mc/ensemble.hpp"
 #include "mc/reliability_of_results.hpp"
 #include "mc/simulation.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -158,12 +158,12 @@ std::vector<std::size_t> level_order(std::size_t levels) {
 }
 
 double seconds_of_analysis(Results results, int threads, bool assessed) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     results.detection = detect_all(results);
     if (assessed) {
         reliability_of(results, ColumnRows(results), "", threads);
     }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 }  // namespace
@@ -232,7 +232,7 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
     }
     trial.rows = std::min(plan.rows(), kTrialRows);
     const std::vector<std::size_t> order = level_order(levels);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
         const auto first = order.begin() + static_cast<std::ptrdiff_t>(trial.levels);
         const auto count =
@@ -242,8 +242,7 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
         trial.total_s += seconds_of_analysis(
             made_up_results(study, calibration, plan, trial.rows, now), threads, assessed);
         trial.levels += count;
-        trial.trial_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        trial.trial_s = seconds_since(start);
     }
     trial.total_s *= static_cast<double>(levels) / static_cast<double>(trial.levels) *
                      static_cast<double>(plan.rows()) / static_cast<double>(trial.rows);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -16,6 +15,7 @@
 #include "mc/schema.hpp"
 #include "mc/study_gears.hpp"
 #include "mc/tile_draws.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -175,17 +175,17 @@ int describe_command(const DescribeOptions& options) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     const auto scene = load_scene(options.study);
     if (!scene) {
         return kBadInput;
     }
-    const std::chrono::duration<double> setup = std::chrono::steady_clock::now() - start;
+    const double setup_s = seconds_since(start);
     print_gearbox(*scene);
     print_effects(*scene);
     print_cost(*scene);
     std::fflush(stdout);
-    print_forecast(*scene, begun_s + setup.count());
+    print_forecast(*scene, begun_s + setup_s);
     return kDone;
 }
 

@@ -17,15 +17,10 @@
 #include "mc/run_report.hpp"
 #include "mc/run_store.hpp"
 #include "mc/simulation.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string results_path(const RunOptions& options) {
     return options.out.empty() ? std::filesystem::path(options.study.path).stem().string() + ".h5"
@@ -144,18 +139,18 @@ class Run {
         if (snapshot_s_ > kShare * seconds_since(last_snapshot_)) {
             return;
         }
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         while (complete_ < plan_.tiles() && checkpoint_->has(complete_)) {
             ++complete_;
         }
         const StoredRows rows(*checkpoint_, plan_, complete_);
         write_results(results_path(options_), frame(rows, "running"), rows);
-        last_snapshot_ = Clock::now();
+        last_snapshot_ = WallClock::now();
         snapshot_s_ = seconds_since(start);
     }
 
     int conclude(const EnsembleOutcome& outcome) {
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         for (const CrewTimes& crew : outcome.crews) {
             threads_ += crew.threads;
@@ -249,7 +244,7 @@ class Run {
     int threads_ = 0;
     std::size_t complete_ = 0;
     double snapshot_s_ = 0.0;
-    Clock::time_point last_snapshot_ = Clock::now();
+    WallClock::time_point last_snapshot_ = WallClock::now();
 };
 
 // The other ranks' run: computing tiles.
@@ -266,7 +261,7 @@ void help(const Scene& scene, const Ranks& ranks, const Interruption& interrupti
 }  // namespace
 
 int run_command(const RunOptions& options) {
-    const auto start = Clock::now();
+    const auto start = WallClock::now();
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);

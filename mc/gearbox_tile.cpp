@@ -1,13 +1,12 @@
 #include "mc/gearbox_tile.hpp"
 
-#include <chrono>
-
 #include "lockstep/instability.hpp"
 #include "lockstep/quasi_static.hpp"
 #include "mc/march_cache.hpp"
 #include "mc/schema.hpp"
 #include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
+#include "mc/wall_clock.hpp"
 #include "signals/averaged_te.hpp"
 #include "signals/folded_signal.hpp"
 #include "signals/path_window.hpp"
@@ -16,11 +15,9 @@
 namespace gearpod::mc {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Seconds since `start`, which moves on to now.
-double lap(Clock::time_point& start) {
-    const auto now = Clock::now();
+double lap(WallClock::time_point& start) {
+    const auto now = WallClock::now();
     const double seconds = std::chrono::duration<double>(now - start).count();
     start = now;
     return seconds;
@@ -40,7 +37,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
 template <int W>
 void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
            GearboxTile& tile) {
-    auto start = Clock::now();
+    auto start = WallClock::now();
     std::vector<dynamics::GearboxInputs> inputs;
     lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
     faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
@@ -127,7 +124,7 @@ signals::PathGrid path_grid(const Scene& scene) {
 namespace {
 
 GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
-    auto start = Clock::now();
+    auto start = WallClock::now();
     GearboxTile tile;
     for (const GearboxId& id : ids) {
         tile.inputs.push_back(sampler.sample(id.group, id.index));
@@ -143,7 +140,7 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
-    auto start = Clock::now();
+    auto start = WallClock::now();
     tile.views = {static_cast<int>(tile.inputs.size()),
                   dynamics::sources(scene.plan().layout),
                   scene.samples_per_mesh(),
@@ -175,7 +172,7 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           const MarchCache* marches) {
     GearboxTile tile = sampled_tile(sampler, ids, lanes);
     const MarchCache* const kept = with_motion ? nullptr : marches;
-    auto start = Clock::now();
+    auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
         tile.march = *before;
         tile.march_s = lap(start);

@@ -1,9 +1,9 @@
 #include "mc/instance_features.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
+#include "mc/wall_clock.hpp"
 #include "signals/encoder_noise.hpp"
 #include "signals/normals.hpp"
 
@@ -16,13 +16,11 @@ class Stopwatch {
     explicit Stopwatch(double& sum) : sum_(sum) {}
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
-    ~Stopwatch() {
-        sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
+    ~Stopwatch() { sum_ += seconds_since(start_); }
 
   private:
     double& sum_;
-    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    const WallClock::time_point start_ = WallClock::now();
 };
 
 Philox stream(const Study& study, Group group, std::uint64_t instance, std::string_view purpose) {
@@ -96,11 +94,15 @@ InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}
 
+bool InstanceSignals::senses_noise(const InstanceInputs& inputs) const {
+    return highest_level_ * inputs.noise_m_s2 > 0.0;
+}
+
 void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
                                  const GearboxId& id) {
     const Stopwatch watch(noise_s_);
     const std::size_t bins = gearbox.folded.size();
-    if (bins > 0 && highest_level_ * inputs.noise_m_s2 > 0.0) {
+    if (bins > 0 && senses_noise(inputs)) {
         Philox sensor = sensor_noise_stream(scene_.study(), id.group, id.index);
         sensor_noise_.draw(sensor, bins, noise_.sensor);
         if (!gearbox.sensor.empty()) {
@@ -119,7 +121,7 @@ void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInput
 }
 
 void InstanceSignals::load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs) {
-    if (highest_level_ * inputs.noise_m_s2 > 0.0) {
+    if (senses_noise(inputs)) {
         windowing_.load(gearbox.folded, noise_.sensor);
     } else {
         windowing_.load(gearbox.folded);

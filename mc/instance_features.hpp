@@ -69,6 +69,8 @@ class InstanceSignals {
     double noise_s() const { return noise_s_; }
 
   private:
+    // Whether any level adds noise to the sensor.
+    bool senses_noise(const InstanceInputs& inputs) const;
     // Zeros for what no level adds.
     void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
     void load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs);

@@ -2,27 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 
 #include "lockstep/driven_march.hpp"
 #include "lockstep/mesh_march.hpp"
-#include "lockstep/sensor_filter.hpp"
+#include "lockstep/rigid_rotation.hpp"
 #include "lockstep/step_pilot.hpp"
 #include "mc/thread_clock.hpp"
 #include "mc/tile_draws.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-lockstep::TileState at_rest(const lockstep::MarchPlan& plan, std::size_t lanes) {
-    const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
-    lockstep::TileState state;
-    state.q.assign(degrees * lanes, 0.0);
-    state.v.assign(degrees * lanes, 0.0);
-    state.filter.assign(static_cast<std::size_t>(plan.channels()) * lockstep::kFilterStates * lanes,
-                        0.0);
-    return state;
-}
 
 // One thread's seconds for a healthy mesh period of W nominal gearboxes, the least of some marches
 // from rest, in which the motion may well grow without bound; that costs the same.
@@ -31,23 +23,29 @@ double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as
                     int marches) {
     const std::vector<InstanceInputs> instances(W, Sampler(scene.study()).nominal());
     const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(instances[0]));
-    const auto march = lockstep::make_mesh_march<W>(plan, inputs);
     const std::vector<GearboxId> ids(W);
     const auto excitation = as_driven ? draw_excitation(scene, ids, instances) : std::nullopt;
     lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
+    std::function<void(lockstep::TileState&)> march;
+    if constexpr (W <= 8) {  // sixteen abreast nothing drives unevenly
+        if (excitation) {
+            march = [&, driven = std::shared_ptr<lockstep::DrivenMarch<W>>(
+                            lockstep::make_driven_march<W>(plan, *excitation, inputs))](
+                        lockstep::TileState& state) { (*driven)(0, {}, state, record); };
+        }
+    }
+    if (!march) {
+        march = [&, steady = std::shared_ptr<const lockstep::MeshMarch<W>>(
+                        lockstep::make_mesh_march<W>(plan, inputs))](lockstep::TileState& state) {
+            (*steady)({}, state, record);
+        };
+    }
+    const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < marches; ++i) {
-        lockstep::TileState state = at_rest(plan, W);
+        lockstep::TileState state = lockstep::still_state(degrees, plan.channels(), W);
         const double start = thread_processor_s();
-        if constexpr (W <= 8) {
-            if (excitation) {
-                (*lockstep::make_driven_march<W>(plan, *excitation, inputs))(0, {}, state, record);
-            } else {
-                (*march)({}, state, record);
-            }
-        } else {
-            (*march)({}, state, record);
-        }
+        march(state);
         least = std::min(least, thread_processor_s() - start);
     }
     return least;

@@ -149,8 +149,9 @@ FinerScene finer_scene(const Scene& scene) {
         (study.numerics.tolerance == 0.0 && !study.numerics.verify)) {
         return finer;
     }
+    const Rung rung = rung_of(scene);
     for (int factor = kFiner; finer.scene == nullptr && factor > 1; factor /= 2) {
-        finer.rung = finer_than(scene, rung_of(scene), factor);
+        finer.rung = finer_than(scene, rung, factor);
         try {
             finer.scene = rung_scene(study, finer.rung);
         } catch (const SceneError&) {  // more steps than the program takes

@@ -1,7 +1,6 @@
 #include "mc/run_calibration.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -11,15 +10,10 @@
 #include "mc/march_cache.hpp"
 #include "mc/mesh_time.hpp"
 #include "mc/peak_memory.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::size_t at(Group group) {
     return static_cast<std::size_t>(group);
@@ -72,7 +66,7 @@ class Threads {
         : task_(task), batches_(std::move(batches)), reusable_(reusable), budget_s_(budget_s) {}
 
     std::vector<MeasuredBatch> run(int threads) {
-        start_ = Clock::now();
+        start_ = WallClock::now();
         {
             std::vector<std::jthread> all;
             for (int i = 0; i < threads; ++i) {
@@ -95,15 +89,15 @@ class Threads {
 
     void work() {
         try {
-            auto start = Clock::now();
+            auto start = WallClock::now();
             TileWorker worker(task_);
             for (int had = 0; const Tile* batch = next(had); ++had) {
                 const bool first = had == 0;
                 compute(worker, {.batch = *batch, .first = first}, start);
                 if (reusable_) {
-                    compute(worker, {.batch = *batch, .again = true}, Clock::now());
+                    compute(worker, {.batch = *batch, .again = true}, WallClock::now());
                 }
-                start = Clock::now();
+                start = WallClock::now();
             }
         } catch (...) {
             const std::scoped_lock lock(mutex_);
@@ -111,7 +105,7 @@ class Threads {
         }
     }
 
-    void compute(TileWorker& worker, MeasuredBatch measured, Clock::time_point start) {
+    void compute(TileWorker& worker, MeasuredBatch measured, WallClock::time_point start) {
         measured.rows = worker.compute(measured.batch, measured.work);
         measured.wall_s = seconds_since(start);
         measured.reused = measured.work.meshes == 0;
@@ -123,7 +117,7 @@ class Threads {
     const std::vector<Tile> batches_;
     const bool reusable_;
     const double budget_s_;
-    Clock::time_point start_;
+    WallClock::time_point start_;
     std::mutex mutex_;
     std::size_t next_ = 0;
     std::vector<MeasuredBatch> measured_;
@@ -212,11 +206,11 @@ int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
 }
 
 void measure(Scene& scene, const TilePlan& plan, double budget_s, RunCalibration& result) {
-    auto start = Clock::now();
+    auto start = WallClock::now();
     const TileTask task(scene);
     result.task_s = seconds_since(start);
     const bool reusable = distinct_marches(scene).has_value();
-    start = Clock::now();
+    start = WallClock::now();
     Threads threads(task,
                     spread_batches(plan, static_cast<std::size_t>(scene.study().numerics.lanes)),
                     reusable, budget_s);

@@ -1,11 +1,11 @@
 #include "mc/run_forecast.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "mc/mesh_time.hpp"
 #include "mc/numerical_error.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -79,16 +79,16 @@ double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std:
 }
 
 double verification_s(const Scene& scene, const RunCalibration& calibration) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     const FinerScene finer = finer_scene(scene);
     if (finer.scene == nullptr) {
         return 0.0;
     }
-    const std::chrono::duration<double> setup = std::chrono::steady_clock::now() - start;
+    const double setup_s = seconds_since(start);
     const BatchCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].fresh;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double march_s = mesh_period_s(*finer.scene) * marched_meshes(*finer.scene);
-    return setup.count() + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
+    return setup_s + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
 }
 
 double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double motion_bytes,

@@ -3,17 +3,9 @@
 #include <algorithm>
 #include <exception>
 
+#include "mc/wall_clock.hpp"
+
 namespace gearpod::mc {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 TileCrew::TileCrew(const TileTask& task, const TilePlan& plan, int threads) {
     for (int i = 0; i < threads; ++i) {
         threads_.emplace_back([this, &task, plan] { work(task, plan); });
@@ -91,13 +83,13 @@ void TileCrew::hand_in(FinishedTile finished) {
 
 // A thread's life. Nothing may leave it by an exception.
 void TileCrew::work(const TileTask& task, const TilePlan& plan) {
-    const auto birth = Clock::now();
+    const auto birth = WallClock::now();
     std::optional<TileWorker> worker;
     Seconds seconds;
     while (const auto tile = next_tile()) {
         FinishedTile finished;
         finished.tile = *tile;
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         try {
             if (!worker) {
                 worker.emplace(task);

@@ -4,15 +4,10 @@
 #include <numeric>
 
 #include "mc/tile_messages.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // How long a main thread sleeps between two looks for messages. Every look takes a processor, and
 // its caches, from a thread that computes; so it is rare while the threads have tiles ahead: within
@@ -60,7 +55,7 @@ class Leader {
     }
 
     EnsembleOutcome run() {
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         last_sync_ = start;
         look();
         while (true) {
@@ -168,7 +163,7 @@ class Leader {
         if (unwritable_) {
             return;
         }
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         try {
             action();
         } catch (const std::exception& error) {
@@ -193,12 +188,12 @@ class Leader {
         if (seconds_since(last_sync_) < run_.checkpoint_s) {
             return;
         }
-        const auto start = Clock::now();
+        const auto start = WallClock::now();
         store([&] {
             run_.store.sync();
             run_.checkpointed();
         });
-        last_sync_ = Clock::now();
+        last_sync_ = WallClock::now();
         saving_s_ = seconds_since(start);
     }
 
@@ -266,7 +261,7 @@ class Leader {
     int closed_ = 0;
     bool stopping_ = false, unwritable_ = false;
     double longest_tile_s_ = 0.0, saving_s_ = 0.0;
-    Clock::time_point last_sync_;
+    WallClock::time_point last_sync_;
     EnsembleOutcome outcome_;
 };
 

@@ -1,10 +1,10 @@
 #include "mc/tile_worker.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "mc/results_file.hpp"
+#include "mc/wall_clock.hpp"
 
 namespace gearpod::mc {
 
@@ -46,16 +46,16 @@ void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Second
     const GearboxTile computed =
         run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
                       task_.scene.study().numerics.lanes, false, &task_.marches);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         add_row(ids[lane], computed, static_cast<int>(lane), rows);
     }
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const double spent_s = seconds_since(start);
     const double noise = features_.noise_s() - noise_before;
     seconds +=
-        {computed.sampling_s,   computed.stiffness_s, computed.march_s, computed.signals_s, noise,
-         spent.count() - noise, computed.meshes};
+        {computed.sampling_s, computed.stiffness_s, computed.march_s, computed.signals_s, noise,
+         spent_s - noise,     computed.meshes};
 }
 
 void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,

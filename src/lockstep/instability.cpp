@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lockstep/mesh_march.hpp"
-#include "lockstep/sensor_filter.hpp"
+#include "lockstep/rigid_rotation.hpp"
 #include "lockstep/step_limit.hpp"
 
 namespace gearpod::lockstep {
@@ -61,11 +61,8 @@ double velocity_scale(const dynamics::GearboxMatrices& m) {
 // State of kLanes gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1 and
 // those past the last: not at all.
 TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
-    TileState state;
     const auto degrees = static_cast<std::size_t>(n);
-    state.q.assign(degrees * kLanes, 0.0);
-    state.v.assign(degrees * kLanes, 0.0);
-    state.filter.assign(static_cast<std::size_t>(channels * kFilterStates * kLanes), 0.0);
+    TileState state = still_state(degrees, channels, kLanes);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t unit = static_cast<std::size_t>(first) + lane;
         if (unit >= 1 && unit <= degrees) {

@@ -33,15 +33,20 @@ void RigidRotation::remove(TileState& state) const {
     remove(state.v);
 }
 
+TileState still_state(std::size_t degrees, int channels, std::size_t lanes) {
+    TileState state;
+    state.q.assign(degrees * lanes, 0.0);
+    state.v.assign(degrees * lanes, 0.0);
+    state.filter.assign(static_cast<std::size_t>(channels) * kFilterStates * lanes, 0.0);
+    return state;
+}
+
 TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
     const std::size_t lanes = inputs.size();
     const auto pairs = plan.nodes.stiffness.begin();
     const std::vector<double> stiffness(pairs, pairs + plan.nodes.pairs);
     const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
-    TileState state;
-    state.q.assign(degrees * lanes, 0.0);
-    state.v.assign(degrees * lanes, 0.0);
-    state.filter.assign(static_cast<std::size_t>(plan.channels()) * kFilterStates * lanes, 0.0);
+    TileState state = still_state(degrees, plan.channels(), lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         const Eigen::VectorXd q =
             dynamics::static_equilibrium(dynamics::assemble(plan.layout, inputs[l], stiffness));

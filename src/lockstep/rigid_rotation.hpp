@@ -26,6 +26,9 @@ class RigidRotation {
     std::vector<Eigen::VectorXd> weight_;  // a lane's phi M / phi M phi: measures it in a motion
 };
 
+// Neither displaced nor moving, the sensor's filter at rest.
+TileState still_state(std::size_t degrees, int channels, std::size_t lanes);
+
 // Static equilibrium under the load at phase 0, the sensor's filter at rest.
 TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
 

@@ -20,6 +20,7 @@
 #include "lockstep/rigid_rotation.hpp"
 #include "machine/dispatch.hpp"
 #include "mc/thread_clock.hpp"
+#include "median.hpp"
 #include "operations.hpp"
 
 namespace gearpod::bench {
@@ -46,12 +47,6 @@ struct Setting {
             fmt::format("effects.motion={}", torsional ? "torsional" : "translational-torsional")};
     }
 };
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // A tile that marches one mesh period after the other.
 template <int W>

@@ -26,11 +26,6 @@ std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::str
     return std::make_unique<mc::Scene>(*reading.study);
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
 std::string ratio_text(const Row& row, const Row& to, double scale) {
     std::vector<double> all;
     for (std::size_t i = 0; i < row.times.size(); ++i) {

@@ -8,8 +8,11 @@
 
 #include "mc/accuracy_pilot.hpp"
 #include "mc/scene.hpp"
+#include "tests/bench/median.hpp"
 
 namespace gearpod::peers {
+
+using bench::median;
 
 struct Options {
     std::string study = GEARPOD_SOURCE_DIR "/studies/liang-fig-5-8.toml";
@@ -32,8 +35,6 @@ struct Row {
     double tolerance = 0.0, steps = 0.0;
     bool within = true;  // the error asked for
 };
-
-double median(std::vector<double> values);
 
 // Median and range of a row's times over another's, round by round.
 std::string ratio_text(const Row& row, const Row& to, double scale = 1.0);
