@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "analysis/outcomes.hpp"
-#include "analysis/reliable_size.hpp"
-#include "analysis/size_groups.hpp"
+#include "analysis/detection/reliable_size.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/pod/outcomes.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "analysis/combined_detector.hpp"
-#include "analysis/condition_detection.hpp"
-#include "analysis/feature_ranking.hpp"
-#include "analysis/hit_miss_pod.hpp"
-#include "analysis/input_effects.hpp"
-#include "analysis/level_sensitivity.hpp"
-#include "analysis/miss_sensitivity.hpp"
-#include "analysis/roc.hpp"
-#include "analysis/signal_response_pod.hpp"
+#include "analysis/detection/condition_detection.hpp"
+#include "analysis/inputs/input_effects.hpp"
+#include "analysis/inputs/level_sensitivity.hpp"
+#include "analysis/inputs/miss_sensitivity.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/pod/signal_response_pod.hpp"
+#include "analysis/ranking/combined_detector.hpp"
+#include "analysis/ranking/feature_ranking.hpp"
+#include "analysis/ranking/roc.hpp"
 
 namespace gearpod::analysis {
 

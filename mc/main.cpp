@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "mc/commands.hpp"
-#include "mc/provenance.hpp"
+#include "mc/commands/commands.hpp"
+#include "mc/results/provenance.hpp"
 
 namespace {
 

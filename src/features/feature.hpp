@@ -10,14 +10,14 @@ namespace gearpod::features {
 // Which way the feature moves as damage grows, hence which side of a threshold raises the alarm.
 enum class AlarmSide { high, low };
 
-// A signal averaged over the turns of a gear, and its parts: signals/mesh_separation.hpp.
+// A signal averaged over the turns of a gear, and its parts: signals/spectra/mesh_separation.hpp.
 struct TurnSignals {
     std::span<const double> turn;  // mean not removed
     std::span<const double> regular, residual, difference, envelope;
     std::span<const double> amplitude;  // [order]
 };
 
-// Statistics of every tooth's windowed and mapped signal: signals/tooth_signals.hpp.
+// Statistics of every tooth's windowed and mapped signal: signals/windowing/tooth_signals.hpp.
 struct ToothSignals {
     std::span<const double> rms, kurtosis, crest, m8a;
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stiffness/position_range.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/position_range.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
 

@@ -10,11 +10,11 @@
 #pragma once
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/chebyshev.hpp"
-#include "stiffness/material.hpp"
 #include "stiffness/mesh_stiffness.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 #include "stiffness/tooth_pair_curve.hpp"
-#include "stiffness/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "stiffness/stretch.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/stretch.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 #include "stiffness/tooth_pair_curve.hpp"
 
 namespace gearpod::stiffness {

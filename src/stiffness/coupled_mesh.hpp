@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/chebyshev.hpp"
 #include "stiffness/contact/load_sharing.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
-#include "stiffness/material.hpp"
 #include "stiffness/mesh_stiffness.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

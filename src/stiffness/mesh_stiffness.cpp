@@ -3,8 +3,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
-#include "stiffness/position_range.hpp"
-#include "stiffness/stretch.hpp"
+#include "stiffness/teeth/position_range.hpp"
+#include "stiffness/teeth/stretch.hpp"
 
 namespace gearpod::stiffness {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "stiffness/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
 
 namespace gearpod::stiffness {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "stiffness/position_range.hpp"
+#include "stiffness/teeth/position_range.hpp"
 
 namespace gearpod::stiffness {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "stiffness/chebyshev.hpp"
-#include "stiffness/stretch.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
+#include "stiffness/teeth/stretch.hpp"
 
 namespace gearpod::stiffness {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/hit_miss_pod.hpp"
-#include "analysis/signal_response_pod.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/pod/signal_response_pod.hpp"
 
 namespace gearpod::analysis {
 namespace {

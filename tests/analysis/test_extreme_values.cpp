@@ -5,12 +5,12 @@
 #include <limits>
 #include <random>
 
-#include "analysis/clopper_pearson.hpp"
-#include "analysis/false_alarm_rate.hpp"
-#include "analysis/link.hpp"
+#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/reliability.hpp"
-#include "analysis/upper_tail.hpp"
-#include "analysis/wilson.hpp"
+#include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/link.hpp"
+#include "analysis/statistics/upper_tail.hpp"
+#include "analysis/statistics/wilson.hpp"
 
 namespace gearpod::analysis {
 namespace {

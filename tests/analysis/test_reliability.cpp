@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
-#include "analysis/reliability_json.hpp"
-#include "analysis/reliability_text.hpp"
+#include "analysis/report/reliability_json.hpp"
+#include "analysis/report/reliability_text.hpp"
 
 namespace gearpod::analysis {
 namespace {

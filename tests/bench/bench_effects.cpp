@@ -1,6 +1,6 @@
 // What each effect of a scene costs: time of a step and gearbox against the effects that are on, in
 // three scenes (x, y and rotation of Liang's train; its rotations alone; a fixed-shaft stage),
-// eight abreast. `a_step` is what README.md tabulates and mc/effect_costs.cpp holds.
+// eight abreast. `a_step` is what README.md tabulates and mc/forecast/effect_costs.cpp holds.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bench_scene.hpp"
-#include "lockstep/driven_march.hpp"
-#include "lockstep/mesh_march.hpp"
-#include "lockstep/rigid_rotation.hpp"
-#include "mc/tile_draws.hpp"
+#include "lockstep/tile/driven_march.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+#include "mc/gearbox/tile_draws.hpp"
 
 namespace {
 

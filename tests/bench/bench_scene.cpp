@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::bench {
 

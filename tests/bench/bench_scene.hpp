@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/scene.hpp"
+#include "mc/scene/scene.hpp"
 
 namespace gearpod::bench {
 

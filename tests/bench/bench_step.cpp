@@ -16,10 +16,10 @@
 
 #include "bench_scene.hpp"
 #include "fma_peak.hpp"
-#include "lockstep/mesh_march.hpp"
-#include "lockstep/rigid_rotation.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/dispatch.hpp"
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 #include "median.hpp"
 #include "operations.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "machine/dispatch.hpp"
 #include "machine/lanes.hpp"
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 
 namespace gearpod::bench {
 namespace {

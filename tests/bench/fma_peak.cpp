@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "machine/dispatch.hpp"
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 
 namespace gearpod::bench {
 namespace {

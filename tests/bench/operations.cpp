@@ -4,13 +4,13 @@
 
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
-#include "lockstep/central_difference.hpp"
-#include "lockstep/generalized_alpha.hpp"
-#include "lockstep/runge_kutta.hpp"
+#include "lockstep/integrators/central_difference.hpp"
+#include "lockstep/integrators/generalized_alpha.hpp"
+#include "lockstep/integrators/runge_kutta.hpp"
 
 namespace gearpod::bench {
 
-// As lockstep/march_state.hpp has it for doubles.
+// As lockstep/integrators/march_state.hpp has it for doubles.
 inline Counted advance(Counted sum, Counted h, Counted rate, lockstep::NoRest, int) {
     return std::fma(h, rate, sum);
 }
@@ -81,7 +81,7 @@ Operations central_difference_operations(const lockstep::MarchPlan& plan) {
     return of_planetary<lockstep::CentralDifference>(plan, i);
 }
 
-// In the order of lockstep/generalized_alpha.hpp and implicit_stage.hpp.
+// In the order of lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
 Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
                                         const dynamics::GearboxInputs& inputs) {
     const auto lanes = lockstep::make_implicit_lanes<1>(plan, {&inputs, 1});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "counted.hpp"
-#include "lockstep/march.hpp"
+#include "lockstep/plan/march.hpp"
 
 namespace gearpod::bench {
 

@@ -20,9 +20,9 @@
 #include <thread>
 #include <vector>
 
-#include "mc/sampling.hpp"
-#include "mc/scene.hpp"
-#include "mc/schema.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "mc/study/schema/schema.hpp"
 #include "mutation.hpp"
 
 namespace {

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "mc/hdf5_data.hpp"
+#include "mc/files/hdf5_data.hpp"
 
 namespace gearpod::golden {
 namespace {

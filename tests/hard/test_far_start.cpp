@@ -3,8 +3,8 @@
 
 #include "../lockstep/liang_train.hpp"
 #include "../lockstep/tian_gearbox.hpp"
-#include "lockstep/mesh_march.hpp"
-#include "lockstep/sensor_filter.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/tile/mesh_march.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

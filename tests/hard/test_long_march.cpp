@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "../lockstep/pair_of_masses.hpp"
-#include "lockstep/instability.hpp"
+#include "lockstep/steps/instability.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

@@ -7,7 +7,7 @@
 
 #include "../lockstep/liang_train.hpp"
 #include "../lockstep/pair_of_masses.hpp"
-#include "lockstep/instability.hpp"
+#include "lockstep/steps/instability.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "../lockstep/liang_train.hpp"
-#include "lockstep/instability.hpp"
+#include "lockstep/steps/instability.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "lockstep/mesh_march.hpp"
-#include "lockstep/sensor_filter.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/tile/mesh_march.hpp"
 
 namespace gearpod::test {
 

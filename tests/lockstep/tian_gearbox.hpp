@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
-#include "lockstep/tile.hpp"
+#include "lockstep/tile/tile.hpp"
 #include "stiffness/additive_mesh.hpp"
 
 namespace gearpod::test {

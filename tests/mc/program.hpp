@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/results_file.hpp"
+#include "mc/results/results_file.hpp"
 
 namespace gearpod::test {
 

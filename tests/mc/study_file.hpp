@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "mc/ensemble.hpp"
-#include "mc/gearbox_tile.hpp"
-#include "mc/instance_features.hpp"
-#include "mc/scene.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/scene/scene.hpp"
 
 namespace gearpod::test {
 

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "mc/reliability_of_results.hpp"
-#include "mc/report_json.hpp"
+#include "mc/report/json.hpp"
+#include "mc/results/reliability_of_results.hpp"
 #include "report_cases.hpp"
 
 using namespace gearpod;

@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "mc/philox.hpp"
-#include "mc/row_source.hpp"
+#include "mc/random/philox.hpp"
+#include "mc/results/row_source.hpp"
 
 namespace gearpod::tests {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mc/reliability_of_results.hpp"
-#include "mc/report_json.hpp"
+#include "mc/report/json.hpp"
+#include "mc/results/reliability_of_results.hpp"
 #include "report_cases.hpp"
 
 using namespace gearpod;

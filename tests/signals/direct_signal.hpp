@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "signals/path_window.hpp"
+#include "signals/path/path_window.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::signals {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/material.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace test_pairs {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace printed {
 

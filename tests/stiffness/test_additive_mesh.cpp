@@ -3,7 +3,7 @@
 
 #include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

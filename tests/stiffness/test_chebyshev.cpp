@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "stiffness/chebyshev.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
 
 using namespace gearpod::stiffness;
 

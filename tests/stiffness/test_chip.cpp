@@ -4,7 +4,7 @@
 #include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/chip.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

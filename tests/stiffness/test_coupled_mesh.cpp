@@ -4,8 +4,8 @@
 
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/broken.hpp"
-#include "stiffness/faults/crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
+#include "stiffness/teeth/crack.hpp"
 #include "yang_gears.hpp"
 
 using namespace gearpod;

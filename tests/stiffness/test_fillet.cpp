@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "gear_pairs.hpp"
-#include "stiffness/faults/crack.hpp"
-#include "stiffness/section_moments.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/section_moments.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 #include "yang_forms.hpp"
 
 using namespace gearpod;

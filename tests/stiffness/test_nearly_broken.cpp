@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "stiffness/additive_mesh.hpp"
-#include "stiffness/faults/crack.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
+#include "stiffness/teeth/crack.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -5,7 +5,7 @@
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/slice_rule.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 #include "yang_gears.hpp"
 
 using namespace gearpod;

@@ -7,7 +7,7 @@
 #include "machine/dispatch.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -4,7 +4,7 @@
 //                  Secant: F / k_h is the approach.
 #pragma once
 
-#include "stiffness/material.hpp"
+#include "stiffness/teeth/material.hpp"
 
 namespace gearpod::stiffness {
 

@@ -3,7 +3,7 @@
 // that is lost, 1 being Tian's missing tooth.
 #pragma once
 
-#include "stiffness/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
 
 namespace gearpod::stiffness {
 

@@ -20,8 +20,8 @@
 #include <optional>
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/tooth_fault.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "stiffness/faults/crack.hpp"
+#include "stiffness/teeth/crack.hpp"
 
 namespace gearpod::stiffness {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stiffness/panels.hpp"
-#include "stiffness/section_moments.hpp"
-#include "stiffness/tooth_compliance.hpp"
+#include "stiffness/teeth/panels.hpp"
+#include "stiffness/teeth/section_moments.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
 
 namespace gearpod::stiffness {
 

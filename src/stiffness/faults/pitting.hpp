@@ -17,10 +17,10 @@
 #pragma once
 
 #include "gears/mesh_geometry.hpp"
-#include "stiffness/chebyshev.hpp"
-#include "stiffness/material.hpp"
-#include "stiffness/tooth_fault.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

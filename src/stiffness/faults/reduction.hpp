@@ -3,7 +3,7 @@
 // that is lost, high and low alike.
 #pragma once
 
-#include "stiffness/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
 
 namespace gearpod::stiffness {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "stiffness/faults/slice_rule.hpp"
-#include "stiffness/section_moments.hpp"
+#include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/tooth_pair_curve.hpp"
 
 namespace gearpod::stiffness {

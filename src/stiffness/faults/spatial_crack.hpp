@@ -20,9 +20,9 @@
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/faults/crack_surface.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
-#include "stiffness/material.hpp"
-#include "stiffness/tooth_fault.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_fault.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

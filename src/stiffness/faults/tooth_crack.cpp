@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "stiffness/faults/crack.hpp"
-#include "stiffness/section_moments.hpp"
+#include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/section_moments.hpp"
 
 namespace gearpod::stiffness {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gears/gear.hpp"
-#include "stiffness/material.hpp"
-#include "stiffness/tooth_profile.hpp"
+#include "stiffness/teeth/material.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::stiffness {
 

@@ -98,7 +98,7 @@ class Gearbox:
 
 
 class Sensor:
-    """lockstep/sensor_filter.hpp's low-pass, exact but for the input between Gauss's points."""
+    """lockstep/integrators/sensor_filter.hpp's low-pass, exact but for the input between Gauss's points."""
 
     def __init__(self, problem, box):
         w = problem["low_pass_rad_s"]

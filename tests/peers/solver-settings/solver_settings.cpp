@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "lockstep/fault_schedule.hpp"
-#include "lockstep/step_pilot.hpp"
-#include "mc/accuracy_pilot.hpp"
-#include "mc/accuracy_reference.hpp"
-#include "mc/schema.hpp"
+#include "lockstep/plan/fault_schedule.hpp"
+#include "lockstep/steps/step_pilot.hpp"
+#include "mc/numerics/pilot.hpp"
+#include "mc/numerics/reference.hpp"
+#include "mc/study/schema/schema.hpp"
 
 using namespace gearpod;
 using nlohmann::json;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mc/accuracy_reference.hpp"
+#include "mc/numerics/reference.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers {

@@ -12,7 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers {

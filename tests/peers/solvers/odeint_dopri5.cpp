@@ -3,7 +3,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 #include "peer_runs.hpp"
 
 namespace gearpod::peers {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/thread_clock.hpp"
+#include "machine/thread_clock.hpp"
 
 namespace gearpod::peers {
 namespace {

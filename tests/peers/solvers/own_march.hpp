@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "lockstep/mesh_march.hpp"
-#include "lockstep/rigid_rotation.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
 #include "peer_runs.hpp"
 #include "rows.hpp"
 

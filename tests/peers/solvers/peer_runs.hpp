@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gearbox.hpp"
-#include "lockstep/march.hpp"
+#include "lockstep/plan/march.hpp"
 #include "stiffness_tables.hpp"
 
 namespace gearpod::peers {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mc/accuracy_pilot.hpp"
-#include "mc/scene.hpp"
+#include "mc/numerics/pilot.hpp"
+#include "mc/scene/scene.hpp"
 #include "tests/bench/median.hpp"
 
 namespace gearpod::peers {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "comparison.hpp"
-#include "mc/numerics_choice.hpp"
+#include "mc/numerics/choice.hpp"
 
 namespace gearpod::peers {
 namespace {

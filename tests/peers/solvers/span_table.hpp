@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "mc/accuracy_reference.hpp"
+#include "mc/numerics/reference.hpp"
 #include "own_march.hpp"
 #include "tolerance_search.hpp"
 

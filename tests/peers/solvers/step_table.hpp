@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "mc/accuracy_reference.hpp"
+#include "mc/numerics/reference.hpp"
 #include "own_march.hpp"
 #include "tests/bench/fma_peak.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gearbox.hpp"
-#include "lockstep/fault_schedule.hpp"
-#include "mc/scene.hpp"
+#include "lockstep/plan/fault_schedule.hpp"
+#include "mc/scene/scene.hpp"
 
 namespace gearpod::peers {
 

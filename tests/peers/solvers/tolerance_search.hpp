@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "mc/accuracy_pilot.hpp"
+#include "mc/numerics/pilot.hpp"
 
 namespace gearpod::peers {
 

@@ -1,0 +1,189 @@
+#include "analysis/detection/detection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/threshold.hpp"
+#include "analysis/statistics/clopper_pearson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
+    if (sample.values.size() != sample.fault_size.size() * levels) {
+        throw std::invalid_argument(
+            fmt::format("detection: {} {} values for {} gearboxes at {} noise levels",
+                        sample.values.size(), which, sample.fault_size.size(), levels));
+    }
+}
+
+void check_request(const DetectionRequest& request) {
+    if (!(request.false_alarm_rate > 0.0 && request.false_alarm_rate < 1.0)) {
+        throw std::invalid_argument("detection: the false-alarm rate must lie between 0 and 1");
+    }
+    for (std::size_t g = 0; g < request.groups.size(); ++g) {
+        const SizeGroup& group = request.groups[g];
+        if (group.high < group.low || (g > 0 && group.low < request.groups[g - 1].high)) {
+            throw std::invalid_argument("detection: the size groups must ascend");
+        }
+    }
+}
+
+std::vector<double> column(const FeatureSample& sample, std::size_t level, std::size_t levels) {
+    std::vector<double> values;
+    values.reserve(sample.fault_size.size());
+    for (std::size_t i = 0; i < sample.fault_size.size(); ++i) {
+        values.push_back(sample.values[i * levels + level]);
+    }
+    return values;
+}
+
+// The cell of the graded gearboxes without a fault, or nullptr.
+const DetectionCell* healthy_cell(const LevelDetection& level) {
+    return !level.cells.empty() && level.cells.front().size.high == 0.0 ? &level.cells.front()
+                                                                        : nullptr;
+}
+
+// Healthy values that equal the threshold raise no alarm: the rate is then below the order
+// statistic's, by an amount that the sample does not tell.
+bool tied(const LevelDetection& level, const DetectionRequest& request) {
+    const long rank = threshold_rank(level.threshold_sample, request.false_alarm_rate);
+    return level.threshold_alarms < level.threshold_sample - rank;
+}
+
+void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
+    const double confidence = request.confidence;
+    level.threshold_rate =
+        threshold_rate_interval(level.threshold_sample, request.false_alarm_rate, confidence);
+    level.healthy_rate = kNan;
+    level.healthy_rate_bounds = level.expected_rate = {kNan, kNan};
+    if (std::isnan(level.threshold)) {
+        return;
+    }
+    const DetectionCell* healthy = healthy_cell(level);
+    const long alarms = healthy != nullptr ? healthy->detected : 0;
+    const long tested = healthy != nullptr ? healthy->tested : 0;
+    if (tied(level, request)) {
+        level.threshold_rate.lower = 0.0;
+        const long k = tested > 0 ? alarms : level.threshold_alarms;
+        const long n = tested > 0 ? tested : level.threshold_sample;
+        level.healthy_rate = static_cast<double>(k) / static_cast<double>(n);
+        level.healthy_rate_bounds = clopper_pearson_interval(k, n, confidence);
+        return;
+    }
+    const HealthyRate rate =
+        healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms, tested, confidence);
+    level.healthy_rate = rate.rate;
+    level.healthy_rate_bounds = rate.bounds;
+    level.expected_rate =
+        expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
+}
+
+void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
+                  std::vector<std::string>& warnings) {
+    const double rate = request.false_alarm_rate;
+    if (level.threshold_rate.upper > 2.0 * rate) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} healthy gearboxes fix the false-alarm rate of {:g} "
+                        "only to within "
+                        "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
+                        level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
+                        level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+    }
+    if (!std::isnan(level.threshold) && tied(level, request)) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: healthy gearboxes share the threshold's value, the feature is "
+            "constant there or nearly so; the false-alarm rate is below {:g}",
+            level.noise_level, rate));
+        return;
+    }
+    // A warning in a thousand tables, not in twenty.
+    constexpr double kSurprising = 0.999;
+    const DetectionCell* healthy = healthy_cell(level);
+    if (healthy == nullptr || std::isnan(level.threshold)) {
+        return;
+    }
+    const Interval expected = expected_rate_interval(level.threshold_sample, healthy->detected,
+                                                     healthy->tested, kSurprising);
+    if (expected.lower > rate || expected.upper < rate) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} of {} graded healthy gearboxes alarm, which a false-alarm rate "
+            "of "
+            "{:g} does not explain even with the threshold's own scatter (it would be in "
+            "[{:.2g}, {:.2g}])",
+            level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
+            expected.upper));
+    }
+}
+
+void warn(const LevelDetection& level, std::size_t healthy, double rate,
+          std::vector<std::string>& warnings) {
+    if (std::isnan(level.threshold)) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: no threshold, {} healthy gearboxes are too few for a false-alarm "
+            "rate of {:g}; it takes {:.0f}",
+            level.noise_level, level.threshold_sample, rate, std::ceil(1.0 / rate - 1.0 - 1e-9)));
+    }
+    const long without = static_cast<long>(healthy) - level.threshold_sample;
+    if (without > 0) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} of {} healthy gearboxes gave no value and do not count "
+            "in the threshold",
+            level.noise_level, without, healthy));
+    }
+}
+
+}  // namespace
+
+FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
+                        const FeatureSample& graded, const DetectionRequest& request) {
+    const std::size_t levels = request.noise_levels.size();
+    check_shapes(healthy, levels, "healthy");
+    check_shapes(graded, levels, "graded");
+    check_request(request);
+    FeatureDetection result;
+    result.feature = feature;
+    result.alarm = alarm;
+    const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);
+    for (std::size_t n = 0; n < levels; ++n) {
+        LevelDetection level;
+        level.noise_level = request.noise_levels[n];
+        const Threshold threshold =
+            alarm_threshold(column(healthy, n, levels), alarm, request.false_alarm_rate);
+        level.threshold = threshold.value;
+        level.threshold_sample = threshold.sample;
+        level.threshold_alarms = threshold.alarms;
+        level.cells.resize(request.groups.size());
+        for (std::size_t g = 0; g < request.groups.size(); ++g) {
+            level.cells[g].size = request.groups[g];
+        }
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (group[i] != kNoGroup) {
+                count(level.cells[group[i]], graded.values[i * levels + n], level.threshold, alarm);
+            }
+        }
+        for (DetectionCell& cell : level.cells) {
+            rate(cell, !std::isnan(level.threshold), request.confidence);
+        }
+        rate_healthy(level, request);
+        warn(level, healthy.fault_size.size(), request.false_alarm_rate, result.warnings);
+        warn_of_rate(level, request, result.warnings);
+        result.levels.push_back(std::move(level));
+    }
+    if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {
+        result.warnings.push_back(fmt::format(
+            "{} of {} gearboxes have a fault size outside all size groups and do not count",
+            outside, group.size()));
+    }
+    return result;
+}
+
+}  // namespace gearpod::analysis

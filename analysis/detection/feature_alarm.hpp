@@ -1,0 +1,13 @@
+// The side of the threshold on which a feature raises its alarm.
+#pragma once
+
+#include "analysis/detection/detection.hpp"
+#include "features/feature.hpp"
+
+namespace gearpod::analysis {
+
+constexpr Alarm alarm_of(const features::Feature& feature) {
+    return feature.alarm == features::AlarmSide::low ? Alarm::low : Alarm::high;
+}
+
+}  // namespace gearpod::analysis

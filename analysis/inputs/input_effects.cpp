@@ -1,0 +1,292 @@
+#include "analysis/inputs/input_effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/inputs/input_bins.hpp"
+#include "analysis/statistics/binary_regression.hpp"
+#include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/upper_tail.hpp"
+#include "analysis/statistics/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+using Where = SizeEstimate::Where;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kBins = 5;
+constexpr std::size_t kFewValues = 9;  // an input with no more has an a90 at each of them
+constexpr double kPod = 0.9;
+
+// Faulty gearboxes with an outcome.
+struct Outcomes {
+    std::vector<std::size_t> rows;
+    std::vector<double> sizes;
+    std::vector<char> hits;
+
+    Outcomes(std::span<const double> all_sizes, std::span<const int> hit) {
+        for (std::size_t i = 0; i < hit.size(); ++i) {
+            if (hit[i] >= 0 && std::isfinite(all_sizes[i]) && all_sizes[i] > 0.0) {
+                rows.push_back(i);
+                sizes.push_back(all_sizes[i]);
+                hits.push_back(hit[i] == 1 ? 1 : 0);
+            }
+        }
+    }
+    std::vector<double> values(const InputColumn& input) const {
+        std::vector<double> out;
+        for (const std::size_t row : rows) {
+            out.push_back(input.values[row]);
+        }
+        return out;
+    }
+};
+
+std::vector<double> sorted(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+double median(std::span<const double> ascending) {
+    const std::size_t n = ascending.size();
+    return 0.5 * (ascending[(n - 1) / 2] + ascending[n / 2]);
+}
+
+std::vector<InputBin> bins_of(const std::vector<double>& values, const Outcomes& outcomes,
+                              const SizeGroup& range, double confidence) {
+    std::vector<double> inside;
+    std::vector<char> hits;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (in_range(outcomes.sizes[i], range)) {
+            inside.push_back(values[i]);
+            hits.push_back(outcomes.hits[i]);
+        }
+    }
+    const InputBins bins = equal_count_bins(inside, kBins);
+    std::vector<std::vector<double>> members(bins.bins);
+    std::vector<InputBin> result(bins.bins);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        members[bins.of[i]].push_back(inside[i]);
+        result[bins.of[i]].detected += hits[i];
+    }
+    for (std::size_t b = 0; b < bins.bins; ++b) {
+        InputBin& bin = result[b];
+        const std::vector<double> ascending = sorted(members[b]);
+        bin.low = ascending.front();
+        bin.high = ascending.back();
+        bin.middle = median(ascending);
+        bin.tested = static_cast<long>(ascending.size());
+        bin.pd = static_cast<double>(bin.detected) / static_cast<double>(bin.tested);
+        bin.bounds = wilson_interval(bin.detected, bin.tested, confidence);
+    }
+    return result;
+}
+
+// A covariate to mean 0 and standard deviation 1.
+struct Scale {
+    double centre = 0.0, spread = 1.0;
+
+    explicit Scale(const Eigen::VectorXd& values) : centre(values.mean()) {
+        spread = std::sqrt((values.array() - centre).square().mean());
+    }
+    double operator()(double value) const { return (value - centre) / spread; }
+    double back(double scaled) const { return centre + spread * scaled; }
+};
+
+Eigen::VectorXd scaled_sizes(const Outcomes& outcomes, const PodForm& form) {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(outcomes.sizes.size()));
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        x[i] = form.scaled(outcomes.sizes[static_cast<std::size_t>(i)]);
+    }
+    return x;
+}
+
+// The curve of all gearboxes with one input as a covariate.
+struct CovariateCurve {
+    const PodForm& form;
+    Scale size, input;
+    BinaryFit fit;
+    double target = 0.0;  // eta at POD 0.9
+
+    // Sizes at which the POD is 0.9, for a value of the input.
+    SizeBounds a90(double value, double smallest, double largest, double confidence) const;
+};
+
+SizeEstimate within(double size, double smallest, double largest) {
+    if (!(size <= largest)) {
+        return {Where::not_reached, kNan};
+    }
+    return size < smallest ? SizeEstimate{Where::below_tested, kNan}
+                           : SizeEstimate{Where::reached, size};
+}
+
+SizeBounds CovariateCurve::a90(double value, double smallest, double largest,
+                               double confidence) const {
+    const Eigen::VectorXd& b = fit.coefficients;
+    const double z = input(value);
+    Eigen::VectorXd level = Eigen::VectorXd::Zero(b.size());  // eta(u) = b . (level + u e_1)
+    level[0] = 1.0;
+    level[2] = z;
+    if (b.size() > 3) {
+        level[3] = z * z;
+    }
+    const double slope = b[1];
+    const double away = b.dot(level) - target;  // eta - target at u = 0
+    const auto estimate = [&](double u) {
+        return within(form.size(size.back(u)), smallest, largest);
+    };
+    if (!(slope > 0.0)) {
+        const SizeEstimate never{Where::not_reached, kNan};
+        return {never, {Where::below_tested, kNan}, never};
+    }
+    const double q = link_quantile(Link::probit, confidence);
+    const double v_level = level.dot(fit.covariance * level);
+    const double v_cross = level.dot(fit.covariance.col(1));
+    const double v_slope = fit.covariance(1, 1);
+    // (away + slope u)^2 = q^2 var(away + slope u)
+    const double a = slope * slope - q * q * v_slope;
+    const double half = away * slope - q * q * v_cross;
+    const double c = away * away - q * q * v_level;
+    SizeBounds bounds{estimate(-away / slope), {Where::below_tested, kNan}, {}};
+    bounds.upper = {Where::not_reached, kNan};
+    if (a > 0.0) {
+        const double root = std::sqrt(std::max(0.0, half * half - a * c));
+        bounds.lower = estimate((-half - root) / a);
+        bounds.upper = estimate((-half + root) / a);
+    }
+    return bounds;
+}
+
+Eigen::MatrixXd design_of(const Eigen::VectorXd& x, const Scale& size, const Eigen::VectorXd& z,
+                          const Scale& input, int powers) {
+    Eigen::MatrixXd design(x.size(), 2 + powers);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        design(i, 0) = 1.0;
+        design(i, 1) = size(x[i]);
+        for (int p = 0; p < powers; ++p) {
+            design(i, 2 + p) = p == 0 ? input(z[i]) : input(z[i]) * input(z[i]);
+        }
+    }
+    return design;
+}
+
+std::vector<double> quantiles_of(const std::vector<double>& ascending) {
+    std::vector<double> values(ascending);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    if (values.size() <= kFewValues) {
+        return values;
+    }
+    std::vector<double> out;
+    for (const double share : kInputQuantiles) {
+        const double place = share * static_cast<double>(ascending.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const double rest = place - static_cast<double>(below);
+        const std::size_t above = std::min(below + 1, ascending.size() - 1);
+        out.push_back((1.0 - rest) * ascending[below] + rest * ascending[above]);
+    }
+    return out;
+}
+
+// The test and a90 of one input.
+void fit_input(InputEffect& effect, const std::vector<double>& values, const Outcomes& outcomes,
+               const Eigen::VectorXd& x, const HitMissPod& pod, const BinaryFit& without,
+               const BinaryModel& model, double confidence) {
+    effect.statistic = effect.p_value = kNan;
+    const std::vector<double> ascending = sorted(values);
+    effect.values = quantiles_of(ascending);
+    effect.refusal = !pod.refusal.empty() ? pod.refusal : without.refusal;
+    if (!effect.refusal.empty()) {
+        return;
+    }
+    const Eigen::VectorXd z =
+        Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+    const int powers = effect.values.size() > 2 ? 2 : 1;
+    CovariateCurve curve{pod.chosen.curve.form, Scale(x), Scale(z), {}, 0.0};
+    curve.fit = fit_binary(design_of(x, curve.size, z, curve.input, powers), outcomes.hits, model,
+                           without.coefficients);
+    effect.refusal = curve.fit.refusal;
+    if (!effect.refusal.empty()) {
+        return;
+    }
+    effect.degrees = powers;
+    effect.statistic = std::max(0.0, 2.0 * (curve.fit.log_likelihood - without.log_likelihood));
+    effect.p_value = chi_squared_upper_tail(effect.statistic, powers);
+    const bool reachable = kPod < model.ceiling;
+    curve.target =
+        reachable ? link_quantile(model.link, (kPod - model.floor) / (model.ceiling - model.floor))
+                  : 0.0;
+    for (const double value : effect.values) {
+        const SizeEstimate never{Where::not_reached, kNan};
+        effect.a90.push_back(reachable ? curve.a90(value, pod.smallest, pod.largest, confidence)
+                                       : SizeBounds{never, never, never});
+    }
+}
+
+bool varies(const std::vector<double>& values) {
+    return !values.empty() && std::any_of(values.begin(), values.end(),
+                                          [&](double value) { return value != values.front(); });
+}
+
+}  // namespace
+
+SizeGroup transition_sizes(const std::vector<DetectionCell>& cells) {
+    constexpr double kRare = 0.1, kSure = 0.95;
+    SizeGroup range{kNan, kNan}, nearest{kNan, kNan};
+    double distance = std::numeric_limits<double>::infinity();
+    for (const DetectionCell& cell : cells) {
+        if (cell.size.high <= 0.0 || std::isnan(cell.pd)) {
+            continue;
+        }
+        if (cell.pd >= kRare && cell.pd <= kSure) {
+            range = {std::isnan(range.low) ? cell.size.low : range.low, cell.size.high};
+        }
+        if (std::abs(cell.pd - 0.5) < distance) {
+            distance = std::abs(cell.pd - 0.5);
+            nearest = cell.size;
+        }
+    }
+    return std::isnan(range.low) ? nearest : range;
+}
+
+bool in_range(double size, const SizeGroup& range) {
+    constexpr double kSameSize = 1e-9;
+    return size >= range.low * (1.0 - kSameSize) && size <= range.high * (1.0 + kSameSize);
+}
+
+InputEffects input_effects(std::span<const double> sizes, std::span<const int> hit,
+                           const std::vector<InputColumn>& inputs, const HitMissPod& pod,
+                           const SizeGroup& range, double confidence) {
+    InputEffects result{range.low, range.high, {}, {}};
+    const Outcomes outcomes(sizes, hit);
+    const PodForm& form = pod.chosen.curve.form;
+    const BinaryModel model{form.link, form.floor, pod.chosen.curve.ceiling};
+    Eigen::VectorXd x;
+    BinaryFit without;
+    if (pod.refusal.empty() && !outcomes.rows.empty()) {
+        x = scaled_sizes(outcomes, form);
+        without = fit_binary(design_of(x, Scale(x), x, Scale(x), 0), outcomes.hits, model);
+    }
+    std::vector<double> p_values;
+    for (const InputColumn& input : inputs) {
+        const std::vector<double> values = outcomes.values(input);
+        if (!varies(values)) {
+            result.left_out.push_back(input.name);
+            continue;
+        }
+        InputEffect effect;
+        effect.name = input.name;
+        effect.unit = input.unit;
+        effect.bins = bins_of(values, outcomes, range, confidence);
+        fit_input(effect, values, outcomes, x, pod, without, model, confidence);
+        p_values.push_back(effect.p_value);
+        result.inputs.push_back(std::move(effect));
+    }
+    p_values = holm_adjusted(p_values);
+    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+        result.inputs[i].p_value = p_values[i];
+    }
+    return result;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,29 @@
+// Which random inputs decide whether a feature finds a crack: Sobol indices of its misses and of
+// its value over the faulty gearboxes of sizes at which detection is neither certain nor absent.
+// The fault's size is one of the inputs.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/detection/detection.hpp"
+#include "analysis/inputs/sobol_indices.hpp"
+
+namespace gearpod::analysis {
+
+struct LevelSensitivity {
+    std::string feature;
+    SizeGroup sizes;      // NaN if there are none
+    SobolIndices misses;  // of the outcome missed or detected
+    SobolIndices values;  // of the value's normal score, so that no tail outweighs the rest
+};
+
+// `values` of the feature at one noise level and `hit` (outcomes()) per gearbox; `size` is the
+// column of fault sizes.
+LevelSensitivity level_sensitivity(const std::string& feature, std::span<const double> values,
+                                   const std::vector<int>& hit, const InputColumn& size,
+                                   const std::vector<InputColumn>& inputs,
+                                   const LevelDetection& detection, double confidence);
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,205 @@
+#include "analysis/pod/pod_bounds.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+using Where = SizeEstimate::Where;
+constexpr double kAtEnd = 1e-12;
+constexpr int kSizeBits = 22;  // of a bound's place: 2e-7
+constexpr int kBandBits = 12;  // 2e-4
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Signed distance to the bound in the root of the deviance, which is nearly linear.
+class Profile {
+  public:
+    Profile(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
+            double confidence)
+        : likelihood_(likelihood),
+          maximum_(maximum),
+          last_(maximum.parameters),
+          limit_(link_quantile(Link::probit, confidence)) {}
+
+    double beyond(double u, double pod) {
+        auto held = likelihood_.maximise_through(u, pod, last_);
+        if (likelihood_.form().free_ceiling) {
+            // With a ceiling to choose, the last point's curve may lead to a lesser maximum.
+            const auto other = likelihood_.maximise_through(u, pod, maximum_.parameters);
+            if (other.log_likelihood > held.log_likelihood) {
+                held = other;
+            }
+        }
+        last_ = held.parameters;
+        const double deviance = 2.0 * (maximum_.log_likelihood - held.log_likelihood);
+        return std::sqrt(std::max(0.0, deviance)) - limit_;
+    }
+    double limit() const { return limit_; }
+    void restart() { last_ = maximum_.parameters; }
+
+  private:
+    const PodLikelihood& likelihood_;
+    const PodLikelihood::Maximum& maximum_;
+    PodLikelihood::Parameters last_;
+    double limit_;
+};
+
+// Between `inside`, where the function is negative, and `outside`, where it is `value` > 0.
+template <typename Function>
+double crossing(Function beyond, double inside, double outside, double at_inside, double value,
+                int bits) {
+    auto steps = static_cast<std::uintmax_t>(bits);  // as many as halving would need
+    const boost::math::tools::eps_tolerance<double> tolerance(static_cast<unsigned>(bits));
+    const bool up = outside > inside;
+    const auto bracket =
+        up ? boost::math::tools::toms748_solve(beyond, inside, outside, at_inside, value, tolerance,
+                                               steps, QuietPolicy())
+           : boost::math::tools::toms748_solve(beyond, outside, inside, value, at_inside, tolerance,
+                                               steps, QuietPolicy());
+    return 0.5 * (bracket.first + bracket.second);
+}
+
+}  // namespace
+
+SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
+                       const PodLikelihood::Maximum& maximum, double pod, double confidence) {
+    const SizeEstimate below{Where::below_tested, kNan};
+    const SizeEstimate never{Where::not_reached, kNan};
+    const double smallest = table.front().size, largest = table.back().size;
+    const auto size = likelihood.curve(maximum.parameters).size_at(pod);
+    // A curve that does not rise has no such size; one at its floor already reaches lower rates.
+    if (pod <= likelihood.form().floor) {
+        return {below, below, below};
+    }
+    if (!size) {
+        return {never, never, never};
+    }
+    Profile profile(likelihood, maximum, confidence);
+    const double u = likelihood.standardised(*size);
+    // Outwards in growing steps, each starting from the last one's curve.
+    const auto bound = [&](double edge, const SizeEstimate& outside) -> SizeEstimate {
+        profile.restart();
+        const auto beyond = [&](double at) { return profile.beyond(at, pod); };
+        const double u_edge = likelihood.standardised(edge);
+        double inside = u, at_inside = -profile.limit();
+        for (double share = 1.0 / 32.0; share <= 1.0; share *= 2.0) {
+            const double at = share < 1.0 ? u + share * (u_edge - u) : u_edge;
+            const double value = beyond(at);
+            if (value > 0.0) {
+                return {Where::reached,
+                        likelihood.size(crossing(beyond, inside, at, at_inside, value, kSizeBits))};
+            }
+            inside = at;
+            at_inside = value;
+        }
+        return outside;
+    };
+    // An estimate outside the tested sizes still bounds from the inside.
+    const auto beyond_edge = [&](double edge) {
+        profile.restart();
+        return profile.beyond(likelihood.standardised(edge), pod) > 0.0;
+    };
+    SizeBounds bounds;
+    if (*size > largest) {
+        bounds.estimate = bounds.upper = never;
+        bounds.lower = beyond_edge(largest) ? never : bound(smallest, below);
+    } else if (*size < smallest) {
+        bounds.estimate = bounds.lower = below;
+        bounds.upper = beyond_edge(smallest) ? below : bound(largest, never);
+    } else {
+        bounds.estimate = {Where::reached, *size};
+        bounds.lower = bound(smallest, below);
+        bounds.upper = bound(largest, never);
+    }
+    return bounds;
+}
+
+std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
+                               const PodLikelihood::Maximum& maximum,
+                               const std::vector<double>& sizes, double confidence) {
+    const PodForm& form = likelihood.form();
+    const PodCurve curve = likelihood.curve(maximum.parameters);
+    Profile profile(likelihood, maximum, confidence);
+    const Eigen::Matrix2d information = maximum.information.topLeftCorner<2, 2>();
+    const Eigen::LDLT<Eigen::Matrix2d> solver(information);
+    const double least = maximum.log_likelihood - 0.5 * profile.limit() * profile.limit();
+    PodLikelihood::Parameters extremes[] = {maximum.parameters, maximum.parameters};
+    std::vector<PodPoint> band;
+    for (const double size : sizes) {
+        const double u = likelihood.standardised(size);
+        // Along zeta, POD = floor + (1 - floor) F(zeta): eta itself if the ceiling is 1.
+        const auto pod_of = [&](double zeta) {
+            return form.floor + (1.0 - form.floor) * link_probability(form.link, zeta);
+        };
+        PodPoint point{size, curve.pod(size), form.floor, 1.0};
+        // Where the curve is at its floor, or at 1, to the last digit, zeta is infinite: the search
+        // for a bound sets out from next to that end.
+        const double end = link_quantile(form.link, 1.0 - kAtEnd);
+        const double share = std::clamp((point.pod - form.floor) / (1.0 - form.floor), 0.0, 1.0);
+        const double zeta = std::clamp(link_quantile(form.link, share), -end, end);
+        const Eigen::Vector2d direction(1.0, u);
+        const double se = std::sqrt(direction.dot(solver.solve(direction)));
+        // No longer where the likelihood is flat: the bound lies before the end of the rates.
+        const double first_step = se > 0.0 ? std::min(0.5, 1.2 * profile.limit() * se) : 0.5;
+        for (const double sign : {-1.0, 1.0}) {
+            double& bound = sign < 0.0 ? point.lower : point.upper;
+            const int side = sign < 0.0 ? -1 : 1;
+            PodLikelihood::Parameters& start = extremes[sign < 0.0 ? 0 : 1];
+            const auto found = [&](const std::optional<double>& extreme) {
+                return extreme && sign * (pod_of(*extreme) - point.pod) >= -kAtEnd;
+            };
+            auto extreme = likelihood.extreme_zeta(u, least, side, start);
+            if (!found(extreme)) {  // the last size's curve may lead astray
+                start = maximum.parameters;
+                extreme = likelihood.extreme_zeta(u, least, side, start);
+            }
+            if (found(extreme)) {
+                bound = pod_of(*extreme);
+                continue;
+            }
+            profile.restart();
+            const auto beyond = [&](double at) { return profile.beyond(u, pod_of(at)); };
+            double inside = zeta, at_inside = -profile.limit();
+            for (double step = first_step; std::isfinite(zeta); step *= 2.0) {
+                const double outside = zeta + sign * step;
+                if (pod_of(outside) < form.floor + kAtEnd || pod_of(outside) > 1.0 - kAtEnd) {
+                    break;  // the bound is the end itself
+                }
+                const double value = beyond(outside);
+                if (value > 0.0) {
+                    bound = pod_of(crossing(beyond, inside, outside, at_inside, value, kBandBits));
+                    break;
+                }
+                inside = outside;
+                at_inside = value;
+            }
+        }
+        band.push_back(point);
+    }
+    return band;
+}
+
+SizeBounds widest(const SizeBounds& a, const SizeBounds& b) {
+    // Below the tested sizes < reached < not reached.
+    const auto place = [](const SizeEstimate& estimate) {
+        return estimate.where == Where::below_tested ? -std::numeric_limits<double>::infinity()
+               : estimate.where == Where::reached    ? estimate.size
+                                                     : std::numeric_limits<double>::infinity();
+    };
+    SizeBounds wide = a;
+    if (place(b.lower) < place(a.lower)) {
+        wide.lower = b.lower;
+    }
+    if (place(b.upper) > place(a.upper)) {
+        wide.upper = b.upper;
+    }
+    return wide;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,43 @@
+// The probability of detection over fault size:
+//
+//   POD(a) = floor + (ceiling - floor) F(intercept + slope x),   x = a or ln a.
+//
+// MIL-HDBK-1823A, appendix G.3.3, has floor 0 and ceiling 1. A detector with a false-alarm rate
+// does not fall below it however small the fault, and one that some gearboxes hide from does not
+// reach 1: for asymptotes in POD see Annis, Gandossi and Martin, Nucl. Eng. Des. 262 (2013),
+// 98-105.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/statistics/link.hpp"
+
+namespace gearpod::analysis {
+
+struct PodForm {
+    Link link = Link::logit;
+    bool log_size = false;
+    double floor = 0.0;         // fixed, the healthy gearboxes' rate
+    bool free_ceiling = false;  // else 1
+
+    int parameters() const { return free_ceiling ? 3 : 2; }
+    double scaled(double size) const;  // x of a size
+    double size(double scaled) const;
+};
+
+// "logit of log size, floor 0.05, ceiling fitted"
+std::string form_text(const PodForm& form);
+
+struct PodCurve {
+    PodForm form;
+    double intercept = 0.0;
+    double slope = 0.0;  // per unit of x
+    double ceiling = 1.0;
+
+    double pod(double size) const;
+    // Empty unless floor < pod < ceiling and the curve rises.
+    std::optional<double> size_at(double pod) const;
+};
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,307 @@
+#include "analysis/pod/pod_likelihood.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/statistics/link_block.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kTiny = 1e-290;
+constexpr double kInTransition = 1e-6;
+// Half a cell of sizes in units of eta, at most: the singularities of the links nearest to the real
+// axis are pi away for the logit, about 2 with a usual floor for the probit.
+constexpr double kHalfCellLogit = 2.0, kHalfCellProbit = 1.0;
+
+// Where the curve is as flat as doubles tell, in its own probability's share.
+constexpr double kFlat = 1e-17;
+
+// eta from -low to high; beyond them the probability of this outcome is constant. Infinite where
+// that is 0 and its logarithm goes on.
+struct Transition {
+    double low = 0.0, high = 0.0;
+
+    Transition(Link link, double at_floor, double at_ceiling, double rise)
+        : low(-link_quantile(link, std::min(0.5, kFlat * at_floor / rise))),
+          high(-link_quantile(link, std::min(0.5, kFlat * at_ceiling / rise))) {}
+};
+
+}  // namespace
+
+PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
+    : sizes_(std::move(sizes)), form_(form) {
+    if (sizes_->sizes().size() < 2) {
+        throw std::invalid_argument("POD likelihood: needs two fault sizes at least");
+    }
+}
+
+PodLikelihood::PodLikelihood(const HitMissTable& table, const PodForm& form)
+    : PodLikelihood(std::make_shared<const StandardisedSizes>(table, form.log_size), form) {}
+
+const SizeNodes& PodLikelihood::nodes_for(double slope) const {
+    const double half = form_.link == Link::logit ? kHalfCellLogit : kHalfCellProbit;
+    return sizes_->nodes(2.0 * half / std::abs(slope));
+}
+
+PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
+                                              const std::optional<Point>& through,
+                                              const SizeNodes& nodes) const {
+    const double floor = form_.floor;
+    const double ceiling = parameters[2];
+    const double rise = ceiling - floor;
+    // Held to a point, the first parameter is eta there, and the ceiling follows from it.
+    double ceiling_by_eta = 0.0;
+    if (through && form_.free_ceiling) {
+        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * through->u);
+        ceiling_by_eta = -(through->pod - floor) * at.density / (at.up * at.up);
+    }
+    const double origin = through ? through->u : 0.0;
+    Slopes slopes;
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0;
+    double i00 = 0.0, i01 = 0.0, i11 = 0.0, i02 = 0.0, i12 = 0.0, i22 = 0.0;
+    const auto add = [&](const Block& u, const Block& weight, bool detected) {
+        const LinkBlock link(form_.link, parameters[0] + parameters[1] * u);
+        const Block hit = floor + rise * link.up;
+        const Block miss = (1.0 - ceiling) + rise * link.down;
+        slopes.value += (weight * block_log(detected ? hit : miss)).sum();
+        const Block both = hit * miss;
+        const Block bend = (both < kTiny).select(0.0, weight / both.max(kTiny));
+        const Block left = detected ? Block(bend * miss) : Block(-bend * hit);
+        const Block by_eta = rise * link.density;
+        const Block by_slope = by_eta * (u - origin);
+        const Block by_first = by_eta + ceiling_by_eta * link.up;
+        const Block bend_first = bend * by_first;
+        s0 += (left * by_first).sum();
+        s1 += (left * by_slope).sum();
+        i00 += (bend_first * by_first).sum();
+        i01 += (bend_first * by_slope).sum();
+        i11 += (bend * by_slope * by_slope).sum();
+        if (form_.free_ceiling && !through) {
+            const Block bend_ceiling = bend * link.up;
+            s2 += (left * link.up).sum();
+            i02 += (bend_ceiling * by_first).sum();
+            i12 += (bend_ceiling * by_slope).sum();
+            i22 += (bend_ceiling * link.up).sum();
+        }
+    };
+    const auto add_all = [&](Eigen::Index first, Eigen::Index last, bool detected) {
+        const Transition flat = detected ? Transition(form_.link, floor, ceiling, rise)
+                                         : Transition(form_.link, 1.0 - floor, 1.0 - ceiling, rise);
+        const double low = (-flat.low - parameters[0]) / parameters[1];
+        const double high = (flat.high - parameters[0]) / parameters[1];
+        const double* const begin = nodes.u.data();
+        const Eigen::Index from =
+            std::lower_bound(begin + first, begin + last, std::min(low, high)) - begin;
+        const Eigen::Index to =
+            std::lower_bound(begin + from, begin + last, std::max(low, high)) - begin;
+        for (Eigen::Index at = from; at < to; at += kBlock) {
+            const Eigen::Index count = std::min(kBlock, to - at);
+            add(nodes.u.segment(at, count), nodes.weight.segment(at, count), detected);
+        }
+        // Where the curve is flat one size stands for all.
+        const auto add_flat = [&](Eigen::Index start, Eigen::Index end, Eigen::Index at) {
+            if (end > start) {
+                const double weight = nodes.weight.segment(start, end - start).sum();
+                add(Block::Constant(1, nodes.u[at]), Block::Constant(1, weight), detected);
+            }
+        };
+        add_flat(first, from, from - 1);
+        add_flat(to, last, to);
+    };
+    add_all(0, nodes.hits, true);
+    add_all(nodes.hits, nodes.u.size(), false);
+    slopes.score = {s0, s1, s2};
+    slopes.information << i00, i01, i02, i01, i11, i12, i02, i12, i22;
+    if (through && !form_.free_ceiling) {  // eta there is given
+        slopes.score[0] = 0.0;
+        slopes.information.row(0).setZero();
+        slopes.information.col(0).setZero();
+    }
+    return slopes;
+}
+
+bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& through) const {
+    if (!through) {
+        parameters[2] = std::min(parameters[2], 1.0);
+        return parameters[2] > form_.floor;
+    }
+    const double rise = through->pod - form_.floor;  // up to the point
+    const double least = link_quantile(form_.link, rise / (1.0 - form_.floor));
+    const double eta = parameters[0] + parameters[1] * through->u;
+    if (form_.free_ceiling && eta > least) {
+        const double share = link_probability(form_.link, eta);
+        parameters[2] = std::min(1.0, form_.floor + rise / share);
+    } else {
+        parameters[2] = 1.0;
+        parameters[0] = least - parameters[1] * through->u;
+    }
+    return true;
+}
+
+PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
+                                             const std::optional<Point>& through) const {
+    // Of a profile only the deviance counts; where a degenerate curve steps from size to size its
+    // likelihood has no smooth maximum, and a search without end would find none.
+    const int most_steps = through ? 40 : 100;
+    const double converged = through ? 1e-7 : 1e-10;  // of the log likelihood
+    const double shortest = through ? 1e-3 : 1e-8;    // step
+    Maximum maximum;
+    meet(parameters, through);
+    const SizeNodes* nodes = &nodes_for(parameters[1]);
+    Slopes here = evaluate(parameters, through, *nodes);
+    for (int step = 0; step < most_steps; ++step) {
+        Eigen::Matrix3d system = here.information;
+        Parameters score = here.score;
+        // A parameter that is fixed, or a ceiling that pushes against 1, does not move.
+        const bool at_one = form_.free_ceiling && parameters[2] >= 1.0 &&
+                            (through ? score[0] <= 0.0 : score[2] >= 0.0);
+        for (int j = 0; j < 3; ++j) {
+            if (system(j, j) == 0.0 || (at_one && j == (through ? 0 : 2))) {
+                system.row(j).setZero();
+                system.col(j).setZero();
+                system(j, j) = 1.0;
+                score[j] = 0.0;
+            }
+        }
+        // A trace of damping keeps a nearly singular step finite.
+        system.diagonal() *= 1.0 + 1e-12;
+        const Parameters move = system.ldlt().solve(score);
+        const double gain = score.dot(move);
+        if (!std::isfinite(gain)) {
+            break;
+        }
+        if (gain < converged) {
+            maximum.converged = true;
+            break;
+        }
+        bool better = false;
+        for (double length = 1.0; length > shortest && !better; length *= 0.5) {
+            Parameters next = parameters + length * move;
+            if (through) {  // the first moves eta at the point
+                next[0] -= length * move[1] * through->u;
+            }
+            if (!meet(next, through)) {
+                continue;
+            }
+            // Never coarser than before: sums over other nodes differ by more than rounding.
+            if (const SizeNodes& finer = nodes_for(next[1]); finer.cell < nodes->cell) {
+                nodes = &finer;
+                here = evaluate(parameters, through, finer);
+            }
+            Slopes there = evaluate(next, through, *nodes);
+            if (there.value > here.value - 1e-14 * std::abs(here.value)) {
+                better = true;
+                parameters = next;
+                here = there;
+            }
+        }
+        if (!better) {
+            maximum.converged = gain < 1e-6;
+            break;
+        }
+    }
+    maximum.log_likelihood = here.value;
+    maximum.parameters = parameters;
+    maximum.information = here.information;
+    return maximum;
+}
+
+PodLikelihood::Maximum PodLikelihood::maximise(std::optional<Parameters> start) const {
+    if (!start) {
+        const double rate = sizes_->hits() / sizes_->tests();
+        const double share = std::clamp((rate - form_.floor) / (1.0 - form_.floor), 0.01, 0.99);
+        start = Parameters{link_quantile(form_.link, share), 0.1, form_.free_ceiling ? 0.99 : 1.0};
+    }
+    return ascend(*start, std::nullopt);
+}
+
+PodLikelihood::Maximum PodLikelihood::maximise_through(double u, double pod,
+                                                       const Parameters& start) const {
+    Parameters parameters = start;
+    // The start's ceiling if the point is clear of it, else its place.
+    constexpr double kClear = 0.9;
+    const double share = (pod - form_.floor) / (start[2] - form_.floor);
+    if (form_.free_ceiling && share < kClear) {
+        parameters[0] = link_quantile(form_.link, share) - parameters[1] * u;
+    }
+    return ascend(parameters, Point{u, pod});
+}
+
+std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihood, int side,
+                                                  Parameters& start) const {
+    constexpr int kMostSteps = 30;
+    constexpr double kSettled = 1e-3;    // of a standard error; what the move leaves is its square
+    constexpr double kOnContour = 1e-2;  // of the log likelihood
+    const double floor = form_.floor;
+    Parameters parameters = start;
+    bool held = !form_.free_ceiling;  // the ceiling
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Slopes here = evaluate(parameters, std::nullopt, nodes_for(parameters[1]));
+        // Gradient of zeta; it is eta itself with a ceiling of 1.
+        const double rise = parameters[2] - floor;
+        const LinkValues at = link_values(form_.link, parameters[0] + parameters[1] * u);
+        const double zeta = link_quantile(form_.link, rise * at.up / (1.0 - floor));
+        const double scale = (1.0 - floor) * link_density(form_.link, zeta);
+        const double by_eta = form_.free_ceiling ? rise * at.density / scale : 1.0;
+        const double by_ceiling = form_.free_ceiling ? at.up / scale : 0.0;
+        const Parameters gradient{by_eta, by_eta * u, held ? 0.0 : by_ceiling};
+        const Parameters score{here.score[0], here.score[1], held ? 0.0 : here.score[2]};
+        Eigen::Matrix3d system = here.information;
+        if (held) {
+            system.row(2).setZero();
+            system.col(2).setZero();
+            system(2, 2) = 1.0;
+        }
+        const Eigen::LDLT<Eigen::Matrix3d> solver(system);
+        // The extreme of zeta where the quadratic model of the log likelihood keeps its value.
+        const Parameters to_top = solver.solve(score);
+        const Parameters along = solver.solve(gradient);
+        const double height = here.value + 0.5 * score.dot(to_top) - log_likelihood;
+        const double length = std::sqrt(std::max(0.0, 2.0 * height / gradient.dot(along)));
+        const Parameters move = to_top + side * length * along;
+        if (!move.allFinite()) {
+            return std::nullopt;
+        }
+        if (parameters[2] + move[2] > 1.0) {  // a ceiling at its end stays there
+            parameters[2] = 1.0;
+            held = true;
+            continue;
+        }
+        parameters += move;
+        if (std::sqrt(std::abs(move.dot(system * move))) < kSettled) {
+            // Far out the likelihood is flat, and a move is small there wherever it leads.
+            const double reached =
+                evaluate(parameters, std::nullopt, nodes_for(parameters[1])).value;
+            // Below a ceiling of 1 there must be nothing more extreme.
+            const bool at_end = held && form_.free_ceiling;
+            if (!(std::abs(reached - log_likelihood) < kOnContour) ||
+                (at_end && !(side * length * by_ceiling + here.score[2] >= 0.0))) {
+                return std::nullopt;
+            }
+            start = parameters;
+            return zeta + gradient.dot(move);
+        }
+    }
+    return std::nullopt;
+}
+
+PodCurve PodLikelihood::curve(const Parameters& parameters) const {
+    PodCurve curve;
+    curve.form = form_;
+    curve.slope = parameters[1] / sizes_->spread();
+    curve.intercept = parameters[0] - curve.slope * sizes_->centre();
+    curve.ceiling = parameters[2];
+    return curve;
+}
+
+int PodLikelihood::sizes_in_transition(const Parameters& parameters) const {
+    const double farthest = link_quantile(form_.link, 1.0 - kInTransition);
+    return static_cast<int>(
+        ((parameters[0] + parameters[1] * sizes_->sizes()).abs() < farthest).count());
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,121 @@
+#include "analysis/ranking/feature_ranking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/link.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostMissing = 0.1;
+
+std::vector<std::size_t> complete_rows(const std::vector<const RankedFeature*>& features,
+                                       std::span<const double> RankedFeature::*group) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < (features.front()->*group).size(); ++i) {
+        if (std::all_of(features.begin(), features.end(), [&](const RankedFeature* feature) {
+                return std::isfinite((feature->*group)[i]);
+            })) {
+            rows.push_back(i);
+        }
+    }
+    return rows;
+}
+
+std::vector<double> picked(std::span<const double> values, const std::vector<std::size_t>& rows,
+                           Alarm alarm) {
+    std::vector<double> out;
+    for (const std::size_t row : rows) {
+        out.push_back(alarm == Alarm::high ? values[row] : -values[row]);
+    }
+    return out;
+}
+
+// Two-sided; NaN where the difference has no scatter but is not 0 either, 1 where it is 0.
+double paired_p_value(const AucShares& a, const AucShares& b) {
+    const double difference = std::abs(a.auc - b.auc);
+    if (difference == 0.0) {
+        return 1.0;
+    }
+    const double variance =
+        auc_covariance(a, a) + auc_covariance(b, b) - 2.0 * auc_covariance(a, b);
+    if (!(variance > 0.0)) {
+        return kNan;
+    }
+    return 2.0 * link_probability(Link::probit, -difference / std::sqrt(variance));
+}
+
+}  // namespace
+
+FeatureRanking rank_features(const std::vector<RankedFeature>& features, double confidence) {
+    FeatureRanking ranking;
+    std::vector<const RankedFeature*> used;
+    for (const RankedFeature& feature : features) {
+        const auto finite = [](std::span<const double> values) {
+            return std::count_if(values.begin(), values.end(),
+                                 [](double value) { return std::isfinite(value); });
+        };
+        const auto all = static_cast<long>(feature.healthy.size() + feature.faulty.size());
+        const long missing = all - finite(feature.healthy) - finite(feature.faulty);
+        if (static_cast<double>(missing) > kMostMissing * static_cast<double>(all)) {
+            ranking.left_out.push_back(
+                fmt::format("{}: no value for {} of {} gearboxes", feature.name, missing, all));
+        } else {
+            used.push_back(&feature);
+        }
+    }
+    if (used.empty()) {
+        ranking.refusal = "no feature has values for nine tenths of the gearboxes";
+        return ranking;
+    }
+    const auto healthy = complete_rows(used, &RankedFeature::healthy);
+    const auto faulty = complete_rows(used, &RankedFeature::faulty);
+    ranking.healthy = static_cast<long>(healthy.size());
+    ranking.faulty = static_cast<long>(faulty.size());
+    if (healthy.size() < 2 || faulty.size() < 2) {
+        ranking.refusal = fmt::format("{} healthy and {} faulty gearboxes, two of each are needed",
+                                      healthy.size(), faulty.size());
+        return ranking;
+    }
+    std::vector<AucShares> shares;
+    for (const RankedFeature* feature : used) {
+        shares.push_back(auc_shares(picked(feature->healthy, healthy, feature->alarm),
+                                    picked(feature->faulty, faulty, feature->alarm)));
+    }
+    std::vector<std::size_t> order(used.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return shares[a].auc > shares[b].auc; });
+    std::vector<double> p_values;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            p_values.push_back(paired_p_value(shares[order[i]], shares[order[j]]));
+        }
+    }
+    p_values = holm_adjusted(p_values);
+    const long pairs = std::min(ranking.healthy, ranking.faulty);
+    for (const std::size_t f : order) {
+        const double variance = auc_covariance(shares[f], shares[f]);
+        ranking.ranks.push_back(
+            {used[f]->name,
+             {shares[f].auc, auc_interval(shares[f].auc, variance, pairs, confidence),
+              ranking.healthy, ranking.faulty},
+             std::vector<double>(order.size(), 1.0)});
+    }
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t j = i + 1; j < order.size(); ++j, ++pair) {
+            ranking.ranks[i].p_values[j] = ranking.ranks[j].p_values[i] = p_values[pair];
+        }
+    }
+    return ranking;
+}
+
+}  // namespace gearpod::analysis

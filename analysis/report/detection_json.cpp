@@ -1,0 +1,71 @@
+#include "analysis/report/detection_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/detection/reliable_size.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kReliablePd = 0.9;
+
+nlohmann::json number(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json to_json(const Interval& bounds) {
+    return nlohmann::json::array({number(bounds.lower), number(bounds.upper)});
+}
+
+nlohmann::json to_json(const DetectionCell& cell) {
+    return {{"size_low", cell.size.low},   {"size_high", cell.size.high},
+            {"tested", cell.tested},       {"detected", cell.detected},
+            {"failed", cell.failed},       {"pd", number(cell.pd)},
+            {"lower", number(cell.lower)}, {"upper", number(cell.upper)},
+            {"exact", to_json(cell.exact)}};
+}
+
+}  // namespace
+
+nlohmann::json level_json(const LevelDetection& level) {
+    nlohmann::json sizes = nlohmann::json::array();
+    for (const DetectionCell& cell : level.cells) {
+        sizes.push_back(to_json(cell));
+    }
+    nlohmann::json reliable(nullptr);
+    if (const auto size = reliable_size(level, kReliablePd)) {
+        reliable = {size->low, size->high};
+    }
+    return {{"noise_level", level.noise_level},
+            {"threshold", number(level.threshold)},
+            {"threshold_sample", level.threshold_sample},
+            {"threshold_alarms", level.threshold_alarms},
+            {"threshold_rate", to_json(level.threshold_rate)},
+            {"healthy_rate", number(level.healthy_rate)},
+            {"healthy_rate_bounds", to_json(level.healthy_rate_bounds)},
+            {"expected_rate", to_json(level.expected_rate)},
+            {"reliable_size", reliable},
+            {"sizes", sizes}};
+}
+
+nlohmann::json detection_json(std::span<const FeatureDetection> features,
+                              const DetectionRequest& request) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const FeatureDetection& feature : features) {
+        nlohmann::json levels = nlohmann::json::array();
+        for (const LevelDetection& level : feature.levels) {
+            levels.push_back(level_json(level));
+        }
+        list.push_back({{"name", feature.feature},
+                        {"alarm", feature.alarm == Alarm::high ? "high" : "low"},
+                        {"warnings", feature.warnings},
+                        {"levels", levels}});
+    }
+    return {{"false_alarm_rate", request.false_alarm_rate},
+            {"confidence", request.confidence},
+            {"size", {{"name", request.size.name}, {"unit", request.size.unit}}},
+            {"features", list}};
+}
+
+}  // namespace gearpod::analysis

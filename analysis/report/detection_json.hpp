@@ -1,0 +1,24 @@
+// Detection rates as JSON, for other programs. Rates, bounds and thresholds that do not exist are
+// null.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "analysis/detection/detection.hpp"
+
+namespace gearpod::analysis {
+
+// {"false_alarm_rate", "confidence", "size": {"name", "unit"},
+//   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
+//     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "healthy_rate",
+//     "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
+//     "sizes": [{"size_low", "size_high", "tested", "detected", "failed", "pd", "lower",
+//     "upper", "exact": [lower, upper]}]}]}]}; sizes in their unit.
+nlohmann::json detection_json(std::span<const FeatureDetection> features,
+                              const DetectionRequest& request);
+
+// An entry of "levels" above.
+nlohmann::json level_json(const LevelDetection& level);
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,36 @@
+// Numbers, reasons and sizes as all of the JSON writes them; null where there is none.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "analysis/pod/pod_bounds.hpp"
+
+namespace gearpod::analysis {
+
+using Json = nlohmann::json;
+
+inline Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+inline Json text_or_null(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+// {"where": "reached", "below_tested" or "not_reached", "size": number or null}
+inline Json to_json(const SizeEstimate& estimate) {
+    const char* where[] = {"reached", "below_tested", "not_reached"};
+    return {{"where", where[static_cast<int>(estimate.where)]},
+            {"size",
+             estimate.where == SizeEstimate::Where::reached ? Json(estimate.size) : Json(nullptr)}};
+}
+
+inline Json to_json(const SizeBounds& bounds) {
+    return {{"estimate", to_json(bounds.estimate)},
+            {"lower", to_json(bounds.lower)},
+            {"upper", to_json(bounds.upper)}};
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,23 @@
+// Lines of the terminal's reports.
+#pragma once
+
+#include <string>
+
+#include "analysis/detection/detection.hpp"
+#include "analysis/pod/pod_bounds.hpp"
+
+namespace gearpod::analysis {
+
+inline constexpr std::size_t kTextWidth = 120;
+
+// Adds the text and an end of line. Breaks at spaces before the width; further lines are indented.
+void add_wrapped(std::string& out, const std::string& text, std::size_t indent);
+
+std::string with_unit(double size, const SizeUnit& unit);              // "1.24 mm"
+std::string range_text(const SizeGroup& range, const SizeUnit& unit);  // "0.5 mm to 1 mm"
+
+// "1.24" in the unit shown, "< 0.5" and "> 4.28" beyond the tested sizes.
+std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
+                               const SizeUnit& unit);
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,121 @@
+#include "analysis/statistics/binary_regression.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/statistics/link_block.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+struct Slopes {
+    double log_likelihood = 0.0;
+    double objective = 0.0;  // with the penalty
+    Eigen::VectorXd score;
+    Eigen::MatrixXd information;
+};
+
+Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+                const Eigen::VectorXd& b) {
+    constexpr double kTiny = 1e-290;
+    const Eigen::VectorXd eta = design * b;
+    const double rise = model.ceiling - model.floor;
+    Eigen::VectorXd left(eta.size()), weight(eta.size());
+    Slopes slopes;
+    for (Eigen::Index first = 0; first < eta.size(); first += kBlock) {
+        const Eigen::Index count = std::min(kBlock, eta.size() - first);
+        const LinkBlock link(model.link, eta.segment(first, count).array());
+        const Block hit = model.floor + rise * link.up;
+        const Block miss = (1.0 - model.ceiling) + rise * link.down;
+        const auto yes_here = Eigen::Map<const Eigen::Array<char, Eigen::Dynamic, 1>>(
+                                  yes.data() + first, count) != char{0};
+        slopes.log_likelihood += block_log(yes_here.select(hit, miss)).sum();
+        const Block by_eta = rise * link.density;
+        const Block both = hit * miss;
+        const Block inverse = (both < kTiny).select(0.0, 1.0 / both.max(kTiny));
+        left.segment(first, count) = by_eta * inverse * yes_here.select(miss, -hit);
+        weight.segment(first, count) = by_eta.square() * inverse;
+    }
+    Eigen::VectorXd penalty = Eigen::VectorXd::Constant(b.size(), model.ridge);
+    penalty[0] = 0.0;
+    slopes.objective = slopes.log_likelihood - 0.5 * penalty.dot(b.cwiseAbs2());
+    slopes.score = design.transpose() * left - penalty.cwiseProduct(b);
+    slopes.information = design.transpose() * weight.asDiagonal() * design;
+    slopes.information.diagonal() += penalty;
+    return slopes;
+}
+
+// Steps from `b` until the gain of a further one is negligible; false if there is no maximum within
+// reach.
+bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
+            Eigen::VectorXd& b, Slopes& here) {
+    constexpr int kMostSteps = 200;
+    constexpr double kConverged = 1e-10;  // of the log likelihood
+    constexpr double kFarthest = 1e3;     // coefficients of covariates of order 1
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Eigen::VectorXd move = here.information.ldlt().solve(here.score);
+        const double gain = here.score.dot(move);
+        if (!std::isfinite(gain) || b.cwiseAbs().maxCoeff() > kFarthest) {
+            return false;
+        }
+        if (gain < kConverged) {
+            return true;
+        }
+        bool better = false;
+        for (double length = 1.0; length > 1e-8 && !better; length *= 0.5) {
+            const Eigen::VectorXd next = b + length * move;
+            Slopes there = evaluate(design, yes, model, next);
+            if (there.objective > here.objective - 1e-14 * std::abs(here.objective)) {
+                better = true;
+                b = next;
+                here = std::move(there);
+            }
+        }
+        if (!better) {
+            return gain < 1e-6;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
+                     const BinaryModel& model, const Eigen::VectorXd& start) {
+    if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
+        throw std::invalid_argument("binary regression: a row of the design for each outcome");
+    }
+    BinaryFit fit;
+    const auto count = static_cast<double>(yes.size());
+    const auto hits = static_cast<double>(
+        std::count_if(yes.begin(), yes.end(), [](char outcome) { return outcome != 0; }));
+    if (hits == 0.0 || hits == count) {
+        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are alike";
+        return fit;
+    }
+    const double share =
+        std::clamp((hits / count - model.floor) / (model.ceiling - model.floor), 0.01, 0.99);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(design.cols());
+    b[0] = link_quantile(model.link, share);
+    b.head(start.size()) = start;
+    Slopes here = evaluate(design, yes, model, b);
+    if (!ascend(design, yes, model, b, here)) {
+        fit.refusal = "the likelihood has no maximum within reach";
+        return fit;
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(here.information);
+    const Eigen::VectorXd pivots = solver.vectorD();
+    if (pivots.minCoeff() <= 1e-10 * pivots.maxCoeff()) {
+        fit.refusal = "the outcomes do not determine all coefficients";
+        return fit;
+    }
+    fit.coefficients = b;
+    fit.covariance = solver.solve(Eigen::MatrixXd::Identity(design.cols(), design.cols()));
+    fit.log_likelihood = here.log_likelihood;
+    return fit;
+}
+
+}  // namespace gearpod::analysis

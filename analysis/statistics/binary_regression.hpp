@@ -1,0 +1,35 @@
+// Yes/no outcomes against several covariates: P(yes) = floor + (ceiling - floor) F(design * b),
+// with the floor and the ceiling given. By Fisher scoring with step halving: P. McCullagh, J. A.
+// Nelder, Generalized Linear Models (1989), section 2.5. `ridge` penalises ridge / 2 times the sum
+// of the squared coefficients except the first (the intercept): S. le Cessie, J. C. van
+// Houwelingen, Appl. Stat. 41 (1992), 191-201.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+
+#include "analysis/statistics/link.hpp"
+
+namespace gearpod::analysis {
+
+struct BinaryModel {
+    Link link = Link::logit;
+    double floor = 0.0;
+    double ceiling = 1.0;
+    double ridge = 0.0;
+};
+
+struct BinaryFit {
+    Eigen::VectorXd coefficients;
+    Eigen::MatrixXd covariance;   // inverse of Fisher's information, penalty included
+    double log_likelihood = 0.0;  // without the penalty
+    std::string refusal;          // why there is no fit, else empty
+};
+
+// `design`: outcomes x coefficients, its first column 1; the others should be of order 1. `start`:
+// the first coefficients of a fit with fewer, to set out from.
+BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
+                     const BinaryModel& model, const Eigen::VectorXd& start = {});
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,29 @@
+#include "analysis/statistics/link_block.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace gearpod::analysis {
+
+LinkBlock::LinkBlock(Link link, const Block& eta) {
+    Block small;
+    if (link == Link::logit) {
+        const Block e = (-eta.abs()).exp();
+        small = e / (1.0 + e);
+        density = small / (1.0 + e);
+    } else {
+        small = eta.unaryExpr(
+            [](double at) { return 0.5 * std::erfc(std::abs(at) / std::numbers::sqrt2); });
+        density = (-0.5 * eta.square()).exp() * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+    }
+    up = (eta > 0.0).select(1.0 - small, small);
+    down = (eta > 0.0).select(small, 1.0 - small);
+}
+
+Block block_log(const Block& values) {
+    // Eigen takes many logarithms at once only in an array of their own.
+    return values.max(std::numeric_limits<double>::min()).log();
+}
+
+}  // namespace gearpod::analysis

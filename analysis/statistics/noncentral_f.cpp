@@ -1,0 +1,51 @@
+#include "analysis/statistics/noncentral_f.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/non_central_f.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+#include "analysis/statistics/gauss_rule.hpp"
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+// Boost sums some multiples of the noncentrality's root in terms, and counts them in an int.
+constexpr double kLarge = 1e5;
+constexpr double kOfFreedom = 100.0;
+
+// Far out the numerator's root is as good as normal: its mean and variance such that its square has
+// the noncentral law's mean and variance. It scatters far less than the denominator there, so that
+// the expectation over it of the central law is that of a smooth function.
+double far_out(double f, double numerator, double denominator, double noncentrality) {
+    static const GaussRule rule = normal_gauss_rule(24);
+    const double mean = noncentrality + numerator;
+    const double half_variance = 2.0 * noncentrality + numerator;
+    const double spread_squared =
+        half_variance / (mean + std::sqrt(mean * mean - half_variance));  // of the root
+    const double centre = std::sqrt(mean - spread_squared), spread = std::sqrt(spread_squared);
+    double probability = 0.0;
+    for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
+        const double root = centre + spread * rule.nodes[i];
+        const double least = denominator * (root / (numerator * f)) * root;  // of the denominator
+        probability +=
+            rule.weights[i] * boost::math::gamma_q(0.5 * denominator, 0.5 * least, QuietPolicy());
+    }
+    return std::min(probability, 1.0);
+}
+
+}  // namespace
+
+double noncentral_f_cdf(double f, double numerator, double denominator, double noncentrality) {
+    if (noncentrality > std::max(kLarge, kOfFreedom * denominator)) {
+        return f > 0.0 ? far_out(f, numerator, denominator, noncentrality) : 0.0;
+    }
+    using Policy =
+        boost_policies::normalise<QuietPolicy, boost_policies::promote_double<false>>::type;
+    return boost::math::cdf(boost::math::non_central_f_distribution<double, Policy>(
+                                numerator, denominator, noncentrality),
+                            f);
+}
+
+}  // namespace gearpod::analysis

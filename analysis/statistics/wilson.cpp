@@ -1,0 +1,34 @@
+#include "analysis/statistics/wilson.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+
+Interval wilson_interval(long detected, long tested, double confidence) {
+    if (detected < 0 || detected > tested || !(confidence > 0.0 && confidence < 1.0)) {
+        throw std::invalid_argument(
+            "Wilson interval: needs 0 <= detected <= tested and a confidence");
+    }
+    if (tested == 0) {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        return {nan, nan};
+    }
+    const boost::math::normal_distribution<double, QuietPolicy> normal;
+    const double z =
+        boost::math::quantile(boost::math::complement(normal, 0.5 * (1.0 - confidence)));
+    const auto n = static_cast<double>(tested);
+    const double p = static_cast<double>(detected) / n;
+    const double z2 = z * z;
+    const double centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    const double half = z / (1.0 + z2 / n) * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n));
+    // Exactly 0 and 1 at the ends, where rounding would leave a residue.
+    return {detected == 0 ? 0.0 : centre - half, detected == tested ? 1.0 : centre + half};
+}
+
+}  // namespace gearpod::analysis

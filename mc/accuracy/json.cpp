@@ -1,0 +1,127 @@
+// accuracy_json().
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "mc/accuracy/report.hpp"
+#include "mc/results/provenance.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using nlohmann::json;
+
+// JSON has no infinity.
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json errors(const AccuracyReport& report, const PilotError& error) {
+    json all{{"sensor", number(error.sensor)},
+             {"te", number(error.te)},
+             {"worst_feature", number(error.largest_feature())}};
+    for (std::size_t f = 0; f < report.features.size(); ++f) {
+        all["features"][report.features[f]] =
+            number(error.feature(static_cast<int>(f), report.levels()));
+    }
+    return all;
+}
+
+json rung_json(const AccuracyReport& report, const RungResult& r) {
+    json row{{"name", r.rung.text()},
+             {"integrator", r.rung.integrator},
+             {"overrides", r.rung.overrides()}};
+    if (!r.refusal.empty()) {
+        row["refused"] = r.refusal;
+        return row;
+    }
+    row.update({{"steps", r.steps},
+                {"settle_tolerance", r.rung.settle_tolerance},
+                {"meshes_marched", r.meshes},
+                {"failed", r.failed},
+                {"gearbox_s", r.march_s},
+                {"gearbox_median_s", r.march_median_s},
+                {"gearbox_with_features_s", r.total_s},
+                {"mesh_s", r.mesh_s},
+                {"modelled_cost", r.cost},
+                {"frontier", r.frontier},
+                {"error", errors(report, r.error)}});
+    if (r.detection) {
+        const DetectionChange& d = *r.detection;
+        row["detection"] = {{"gearboxes", d.gearboxes},
+                            {"alarms_changed", d.alarms},
+                            {"pd_change", d.pd},
+                            {"pd_half_width", d.pd_half_width},
+                            {"a90_change", d.a90 < 0.0 ? json(nullptr) : json(d.a90)},
+                            {"a90_interval", number(d.a90_interval)}};
+    }
+    return row;
+}
+
+json choice_json(const AccuracyReport& report, const ChoiceCheck& c) {
+    json row{{"tolerance", c.tolerance}};
+    if (c.chosen < 0) {
+        row["refused"] = c.refusal;
+        return row;
+    }
+    row["chosen"] = report.rungs[static_cast<std::size_t>(c.chosen)].rung.text();
+    if (c.best >= 0) {
+        row["fastest"] = report.rungs[static_cast<std::size_t>(c.best)].rung.text();
+        row["time_over_fastest"] = c.over_best;
+    }
+    return row;
+}
+
+json peer_json(const PeerResult& p) {
+    json row{{"name", p.name},     {"command", p.command}, {"gearbox_s", p.march_s},
+             {"mesh_s", p.mesh_s}, {"sensor", p.sensor},   {"te", p.te}};
+    double worst = 0.0;
+    for (const auto& [feature, error] : p.features) {
+        row["features"][feature] = number(error);
+        worst = std::max(worst, error);
+    }
+    row["worst_feature"] = p.features.empty() ? json(nullptr) : number(worst);
+    return row;
+}
+
+}  // namespace
+
+std::string accuracy_json(const AccuracyReport& report, const Study& study) {
+    const Reference& r = report.reference;
+    const ExplicitLimit& e = report.explicit_limit;
+    json all{{"title", study.title},
+             {"gearboxes", report.gearboxes},
+             {"signal_meshes", report.signal_meshes},
+             {"span_meshes", report.span_meshes},
+             {"mesh_frequency_Hz", report.mesh_frequency_Hz},
+             {"noise_levels", report.noise_levels},
+             {"own", report.rungs[static_cast<std::size_t>(report.own)].rung.text()},
+             {"step_costs", report.step_costs},
+             {"reference",
+              {{"first", r.first.text()},
+               {"first_order", r.first_order},
+               {"second", r.second.text()},
+               {"second_order", r.second_order},
+               {"agreement", errors(report, r.agreement)},
+               {"reached", r.reached}}},
+             {"explicit_limit",
+              {{"steps", e.steps},
+               {"step_s", e.step_s},
+               {"mesh_s", e.mesh_s()},
+               {"gearbox_s", e.march_s()},
+               {"refused", e.refused}}}};
+    for (const RungResult& rung : report.rungs) {
+        all["rungs"].push_back(rung_json(report, rung));
+    }
+    for (const ChoiceCheck& check : report.choices) {
+        all["choices"].push_back(choice_json(report, check));
+    }
+    for (const PeerResult& peer : report.peers) {
+        all["peers"].push_back(peer_json(peer));
+    }
+    for (const auto& [name, value] : provenance(study, 1, 1)) {
+        all["provenance"][name] = value;
+    }
+    return all.dump(2) + "\n";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,79 @@
+#include "mc/accuracy/listing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/numerics/ladder.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kBeyondOwnRule = 1.5;
+// Each graded grid takes a pilot, so there are but three; and none where its fewest steps would
+// cost so many times the cheapest integrator's own.
+constexpr double kGridTolerances[] = {1e-2, 1e-3, 1e-4};
+constexpr double kWorthGrading = 3.0;
+
+// Of the integrator's own equal steps, in steps of rk4.
+double own_cost(const Study& study, const Flight& flight) {
+    const auto cost = step_cost(study, flight.integrator, flight.other);
+    return cost && flight.own_steps > 0 ? *cost * flight.own_steps : INFINITY;
+}
+
+void add_graded(const Study& study, const Flight& flight, double least_cost,
+                std::vector<ListedRung>& all) {
+    const double over = kFewestGraded * own_cost(study, flight) / least_cost;
+    if (over > kWorthGrading) {
+        all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
+                       fmt::format("not tried: an eighth of its {} equal steps would cost {:.0f} "
+                                   "times the cheapest integrator's",
+                                   flight.own_steps, over)});
+        return;
+    }
+    for (std::size_t i = 0; i < flight.size(); ++i) {
+        if (std::find(std::begin(kGridTolerances), std::end(kGridTolerances),
+                      flight.grid_tolerances[i]) != std::end(kGridTolerances)) {
+            all.push_back({flight.rung(i, settle_tolerances().front()), ""});
+        }
+    }
+}
+
+}  // namespace
+
+Study without_steps(const Study& study) {
+    Study free = study;
+    free.numerics.integrator = Integrator::automatic;
+    free.numerics.steps_per_mesh = 0;
+    return free;
+}
+
+std::vector<ListedRung> listed_rungs(const Study& study) {
+    const std::vector<Flight> all_flights = flights(without_steps(study), kBeyondOwnRule);
+    double least_cost = INFINITY;
+    for (const Flight& flight : all_flights) {
+        least_cost = flight.graded() ? least_cost : std::min(least_cost, own_cost(study, flight));
+    }
+    std::vector<ListedRung> all{{own_rung(study), ""}};
+    for (const Flight& flight : all_flights) {
+        if (flight.graded()) {
+            add_graded(study, flight, least_cost, all);
+            continue;
+        }
+        if (flight.size() == 0) {
+            all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
+                           flight.refusal});
+        }
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            all.push_back({flight.rung(i, settle_tolerances().front()), ""});
+        }
+    }
+    all.push_back({own_rung(study), ""});
+    all.back().rung.other.push_back("numerics.horizon=march");
+    return all;
+}
+
+}  // namespace gearpod::mc

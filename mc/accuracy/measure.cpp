@@ -1,0 +1,380 @@
+// measure_accuracy().
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "mc/accuracy/listing.hpp"
+#include "mc/accuracy/report.hpp"
+#include "mc/accuracy/rung_scenes.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/numerics/choice.hpp"
+#include "mc/numerics/ladder.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Rungs slower than so many times the fastest that is as close are timed once, and not settled more
+// loosely.
+constexpr double kNearFrontier = 3.0;
+// Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
+constexpr double kContender = 1.5;
+constexpr int kContenderRepeats = 10;
+// Tried on the fastest rung for each tolerance.
+constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+class Measurement {
+  public:
+    Measurement(const Study& study, const AccuracyRequest& request)
+        : study_(plain(study)), request_(request), scenes_(study_), pilot_(scenes_.own()) {
+        const Scene& scene = scenes_.own();
+        report_.features = study_.features.use;
+        report_.noise_levels = study_.sensor.noise_levels;
+        report_.gearboxes = static_cast<int>(pilot_.size());
+        report_.signal_meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
+        report_.span_meshes = scene.span_meshes();
+        report_.mesh_frequency_Hz = scene.nominal_mesh_frequency_Hz();
+        report_.explicit_limit.steps = scene.explicit_steps();
+    }
+
+    AccuracyReport run() {
+        request_.progress("reference: two methods until they agree");
+        report_.reference = converged_reference(study_, pilot_, {});
+        report_.own = 0;
+        for (const ListedRung& listed : listed_rungs(study_)) {
+            add(listed.rung, listed.refusal);
+        }
+        times_.resize(report_.rungs.size());
+        request_.progress(fmt::format("{} rungs", report_.rungs.size()));
+        march_all(0, true);
+        finish_times();
+        const std::size_t tight = report_.rungs.size();
+        settle_loosely();
+        request_.progress(
+            fmt::format("{} of them settled more loosely", report_.rungs.size() - tight));
+        march_all(tight, true);
+        for (int repeat = 1; repeat < request_.repeats; ++repeat) {
+            finish_times();
+            request_.progress(fmt::format("time {} of {}", repeat + 1, request_.repeats));
+            march_all(0, false);
+        }
+        for (const double tolerance : request_.tolerances) {
+            choose(tolerance);
+        }
+        thin_stiffness();
+        time_contenders();
+        finish_times();
+        for (ChoiceCheck& check : report_.choices) {
+            compare(check);
+        }
+        mark_frontier();
+        measure_explicit_limit();
+        check_step_costs();
+        if (request_.gearboxes > 0) {
+            detect();
+        }
+        return std::move(report_);
+    }
+
+  private:
+    static Study plain(Study study) {
+        study.numerics.tolerance = 0.0;
+        return study;
+    }
+    void add(const Rung& rung, const std::string& refusal = "") {
+        report_.rungs.emplace_back();
+        report_.rungs.back().rung = rung;
+        report_.rungs.back().refusal = refusal;
+    }
+
+    // The fastest rung for each tolerance with fewer terms in the stiffness curves.
+    void thin_stiffness() {
+        finish_times();
+        std::vector<Rung> fastest_rungs;
+        for (const ChoiceCheck& check : report_.choices) {
+            const double best = fastest(check.tolerance);
+            const auto known = [&](const Rung& rung) {
+                return std::any_of(fastest_rungs.begin(), fastest_rungs.end(),
+                                   [&](const Rung& r) { return r.text() == rung.text(); });
+            };
+            for (const RungResult& result : report_.rungs) {
+                if (holds(result, check.tolerance) && result.march_s == best &&
+                    !known(result.rung)) {
+                    fastest_rungs.push_back(result.rung);
+                }
+            }
+        }
+        const std::size_t first = report_.rungs.size();
+        for (const Rung& rung : fastest_rungs) {
+            for (const double tolerance : kStiffnessTolerances) {
+                Rung thin = rung;
+                thin.other.push_back(fmt::format("numerics.stiffness_tolerance={:g}", tolerance));
+                add(thin);
+            }
+        }
+        times_.resize(report_.rungs.size());
+        request_.progress(
+            fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
+        march_all(first, true);
+    }
+
+    // Rungs with the same steps stand together, so that a scene serves them all.
+    void settle_loosely() {
+        std::vector<Rung> tight;
+        for (const RungResult& result : report_.rungs) {
+            if (result.refusal.empty() && near_frontier(result) &&
+                result.rung.integrator != "auto" && !marches_everything(result.rung)) {
+                tight.push_back(result.rung);
+            }
+        }
+        for (Rung& rung : tight) {
+            for (std::size_t i = 1; i < settle_tolerances().size(); ++i) {
+                rung.settle_tolerance = settle_tolerances()[i];
+                add(rung);
+            }
+        }
+        times_.resize(report_.rungs.size());
+    }
+
+    bool near_frontier(const RungResult& result) const {
+        return std::none_of(
+            report_.rungs.begin(), report_.rungs.end(), [&](const RungResult& other) {
+                return other.steps > 0 &&
+                       other.error.largest_feature() <= result.error.largest_feature() &&
+                       kNearFrontier * other.march_s < result.march_s;
+            });
+    }
+
+    static bool marches_everything(const Rung& rung) {
+        return !rung.other.empty() && rung.other.back() == "numerics.horizon=march";
+    }
+
+    void march_all(std::size_t from, bool first) {
+        for (std::size_t i = from; i < report_.rungs.size(); ++i) {
+            if (first || near_frontier(report_.rungs[i])) {
+                march(i, first);
+            }
+        }
+    }
+
+    void march(std::size_t place, bool first) {
+        RungResult& result = report_.rungs[place];
+        if (!result.refusal.empty() || (marches_everything(result.rung) && !first)) {
+            return;
+        }
+        try {
+            const PilotRecord record = pilot_.run(scenes_.of(result.rung));
+            times_[place].march.push_back(record.march_s);
+            times_[place].total.push_back(record.total_s);
+            if (first) {
+                fill(record, result);
+            }
+        } catch (const SceneError& error) {
+            result.refusal = error.what();
+        }
+    }
+
+    void fill(const PilotRecord& record, RungResult& result) const {
+        result.steps = record.steps;
+        result.meshes = record.meshes_per_tile();
+        result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
+        result.error = pilot_error(record, report_.reference.record);
+        // The study's own rung may leave the integrator to the program.
+        const std::string integrator = result.rung.integrator == "auto"
+                                           ? std::string(lockstep::name(own_integrator_))
+                                           : result.rung.integrator;
+        result.cost = step_cost(study_, integrator, result.rung.other).value_or(0.0) *
+                      result.steps * result.meshes;
+    }
+
+    bool holds(const RungResult& result, double tolerance) const {
+        return result.refusal.empty() && result.steps > 0 &&
+               result.error.largest_feature() <= tolerance;
+    }
+
+    // The rung that the tolerance chooses joins the ladder if it is not on it.
+    void choose(double tolerance) {
+        request_.progress(fmt::format("choice for {:g}", tolerance));
+        ChoiceCheck check;
+        check.tolerance = tolerance;
+        Study study = without_steps(study_);
+        study.numerics.tolerance = tolerance;
+        try {
+            const Rung rung = choose_numerics(study)->rung;
+            const auto same =
+                std::find_if(report_.rungs.begin(), report_.rungs.end(),
+                             [&](const RungResult& r) { return r.rung.text() == rung.text(); });
+            check.chosen = static_cast<int>(same - report_.rungs.begin());
+            if (same == report_.rungs.end()) {
+                add(rung);
+                times_.emplace_back();
+                march(report_.rungs.size() - 1, true);
+            }
+        } catch (const SceneError& error) {
+            check.refusal = error.what();
+        }
+        report_.choices.push_back(check);
+    }
+
+    // Interleaved: what the machine does meanwhile slows all of them alike.
+    void time_contenders() {
+        finish_times();
+        std::vector<std::size_t> contenders;
+        for (const ChoiceCheck& check : report_.choices) {
+            const double best = fastest(check.tolerance);
+            for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+                if ((holds(report_.rungs[i], check.tolerance) &&
+                     report_.rungs[i].march_s < kContender * best) ||
+                    static_cast<int>(i) == check.chosen) {
+                    contenders.push_back(i);
+                }
+            }
+        }
+        std::sort(contenders.begin(), contenders.end());
+        contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
+        request_.progress(fmt::format("{} contenders again", contenders.size()));
+        for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
+            for (const std::size_t place : contenders) {
+                march(place, false);
+            }
+        }
+    }
+
+    double fastest(double tolerance) const {
+        double best = INFINITY;
+        for (const RungResult& result : report_.rungs) {
+            best = holds(result, tolerance) ? std::min(best, result.march_s) : best;
+        }
+        return best;
+    }
+
+    void finish_times() {
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            RungResult& result = report_.rungs[i];
+            if (times_[i].march.empty()) {
+                continue;
+            }
+            result.march_s = *std::min_element(times_[i].march.begin(), times_[i].march.end());
+            result.march_median_s = median(times_[i].march);
+            result.total_s = *std::min_element(times_[i].total.begin(), times_[i].total.end());
+            result.mesh_s = result.march_s / result.meshes;
+        }
+    }
+
+    void compare(ChoiceCheck& check) const {
+        const double best = fastest(check.tolerance);
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            if (holds(report_.rungs[i], check.tolerance) && report_.rungs[i].march_s == best) {
+                check.best = static_cast<int>(i);
+            }
+        }
+        if (check.chosen >= 0 && check.best >= 0) {
+            check.over_best =
+                report_.rungs[static_cast<std::size_t>(check.chosen)].march_s / best - 1.0;
+        }
+    }
+
+    void mark_frontier() {
+        std::vector<RungResult*> marched;
+        for (RungResult& result : report_.rungs) {
+            if (result.refusal.empty() && std::isfinite(result.error.largest_feature())) {
+                marched.push_back(&result);
+            }
+        }
+        std::sort(marched.begin(), marched.end(),
+                  [](const auto* a, const auto* b) { return a->march_s < b->march_s; });
+        double least = INFINITY;
+        for (RungResult* result : marched) {
+            result->frontier = result->error.largest_feature() < least;
+            least = std::min(least, result->error.largest_feature());
+        }
+    }
+
+    void measure_explicit_limit() {
+        ExplicitLimit& limit = report_.explicit_limit;
+        limit.step_s = explicit_step_s(scenes_.of(own_rung(study_)));
+        limit.meshes = report_.rungs[0].meshes;
+        limit.refused = std::none_of(report_.rungs.begin(), report_.rungs.end(), [](const auto& r) {
+            return r.rung.integrator == "rk4" && r.refusal.empty();
+        });
+    }
+
+    // Measured time of a step over rk4's, against the table.
+    void check_step_costs() {
+        std::map<std::string, std::vector<double>> measured;
+        for (const RungResult& result : report_.rungs) {
+            if (result.steps > 0 && result.rung.integrator != "auto" && result.rung.other.empty()) {
+                measured[result.rung.integrator].push_back(result.mesh_s / result.steps);
+            }
+        }
+        for (auto& [integrator, steps] : measured) {
+            const auto known = step_cost(study_, integrator, {});
+            report_.step_costs.push_back(
+                fmt::format("{}: {:.1f} measured, {} in the table", integrator,
+                            median(steps) / report_.explicit_limit.step_s,
+                            known ? fmt::format("{:.1f}", *known) : "none"));
+        }
+    }
+
+    // The frontier's rungs, the study's own and the chosen ones, against the closest rung of all.
+    void detect() {
+        std::vector<std::size_t> places{0};
+        std::size_t closest = 0;
+        const auto error_of = [&](std::size_t i) {
+            const RungResult& r = report_.rungs[i];
+            return r.refusal.empty() && r.steps > 0 ? r.error.largest_feature() : INFINITY;
+        };
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            closest = error_of(i) < error_of(closest) ? i : closest;
+            if (report_.rungs[i].frontier) {
+                places.push_back(i);
+            }
+        }
+        for (const ChoiceCheck& check : report_.choices) {
+            if (check.chosen >= 0) {
+                places.push_back(static_cast<std::size_t>(check.chosen));
+            }
+        }
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        const Study pilot = pilot_ensemble_study(study_, request_.gearboxes);
+        const PilotEnsemble reference =
+            run_pilot_ensemble(with_rung(pilot, report_.rungs[closest].rung));
+        if (!has_rates(reference)) {
+            return;
+        }
+        for (const std::size_t place : places) {
+            RungResult& result = report_.rungs[place];
+            request_.progress(fmt::format("detection rates by {}", result.rung.text()));
+            result.detection =
+                detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
+        }
+    }
+
+    struct Times {
+        std::vector<double> march, total;
+    };
+    const Study study_;
+    const AccuracyRequest& request_;
+    RungScenes scenes_;
+    const lockstep::Integrator own_integrator_ = scenes_.own().plan().integrator;
+    const Pilot pilot_;
+    AccuracyReport report_;
+    std::vector<Times> times_;
+};
+
+}  // namespace
+
+AccuracyReport measure_accuracy(const Study& study, const AccuracyRequest& request) {
+    return Measurement(study, request).run();
+}
+
+}  // namespace gearpod::mc

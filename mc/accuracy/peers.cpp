@@ -1,0 +1,77 @@
+// read_peers().
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+
+#include "mc/accuracy/report.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Cells of a line; a cell in quotation marks may hold commas.
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            cells.emplace_back();
+        } else if (c != '\r') {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
+double number_in(const std::string& cell, const std::string& where, const std::string& column) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size() || !(value >= 0.0)) {
+        throw std::runtime_error(
+            fmt::format("{}: {}: \"{}\" is no number >= 0", where, column, cell));
+    }
+    return value;
+}
+
+}  // namespace
+
+std::vector<PeerResult> read_peers(const std::string& path) {
+    std::ifstream file(path);
+    std::string line;
+    if (!file || !std::getline(file, line)) {
+        throw std::runtime_error(path + ": cannot be read, or is empty");
+    }
+    const std::vector<std::string> head = cells_of(line);
+    const std::vector<std::string> first{"name", "command", "march_s", "mesh_s", "sensor", "te"};
+    if (head.size() < first.size() || !std::equal(first.begin(), first.end(), head.begin())) {
+        throw std::runtime_error(path +
+                                 ":1: must begin with name,command,march_s,mesh_s,sensor,te");
+    }
+    std::vector<PeerResult> peers;
+    for (int number = 2; std::getline(file, line); ++number) {
+        const std::string where = fmt::format("{}:{}", path, number);
+        const std::vector<std::string> cells = cells_of(line);
+        if (cells.size() != head.size()) {
+            throw std::runtime_error(fmt::format("{}: has {} cells, the first line {}", where,
+                                                 cells.size(), head.size()));
+        }
+        PeerResult peer{cells[0], cells[1], 0.0, 0.0, 0.0, 0.0, {}};
+        double* const into[] = {&peer.march_s, &peer.mesh_s, &peer.sensor, &peer.te};
+        for (std::size_t i = 2; i < cells.size(); ++i) {
+            const double value = number_in(cells[i], where, head[i]);
+            if (i < first.size()) {
+                *into[i - 2] = value;
+            } else {
+                peer.features.emplace_back(head[i], value);
+            }
+        }
+        peers.push_back(peer);
+    }
+    return peers;
+}
+
+}  // namespace gearpod::mc

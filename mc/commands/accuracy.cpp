@@ -1,0 +1,51 @@
+#include <fmt/core.h>
+
+#include <exception>
+
+#include "mc/accuracy/report.hpp"
+#include "mc/commands/support.hpp"
+
+namespace gearpod::mc {
+
+int accuracy_command(const AccuracyOptions& options) {
+    const auto scene = load_scene(options.study);
+    if (!scene) {
+        return kBadInput;
+    }
+    if (scene->study().effects.quasi_static()) {
+        print_problems({{options.study.path, 0, "effects.motion",
+                         "a quasi-static gearbox is not integrated in time, so its accuracy is not "
+                         "a matter of steps",
+                         "give it inertia, or take the results as they are"}});
+        return kBadInput;
+    }
+    AccuracyRequest request;
+    request.repeats = options.repeats;
+    request.gearboxes = options.gearboxes;
+    if (!options.quiet) {
+        request.progress = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
+    }
+    try {
+        std::vector<PeerResult> peers;
+        if (!options.peers.empty()) {
+            peers = read_peers(options.peers);
+        }
+        AccuracyReport report = measure_accuracy(scene->study(), request);
+        report.peers = std::move(peers);
+        const bool terminal = options.json == "-";
+        if (!terminal) {
+            fmt::print("{}", accuracy_text(report));
+        }
+        return options.json.empty() ||
+                       write_text_to(options.json, accuracy_json(report, scene->study()))
+                   ? kDone
+                   : kBadInput;
+    } catch (const SceneError& error) {
+        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+    }
+    return kBadInput;
+}
+
+}  // namespace gearpod::mc

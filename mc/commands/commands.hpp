@@ -1,0 +1,90 @@
+// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed,
+// 4 stopped before its end with a checkpoint to resume from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/gearbox/measured_signal.hpp"
+
+namespace gearpod::mc {
+
+inline constexpr int kDone = 0;
+inline constexpr int kBadInput = 2;
+inline constexpr int kSomeFailed = 3;
+inline constexpr int kResumable = 4;
+
+// A study file and what the command line changes in it.
+struct StudyOptions {
+    std::string path;
+    std::vector<std::string> overrides;  // "section.key=value"
+};
+
+struct RunOptions {
+    StudyOptions study;
+    std::string out;  // "": the study's name with .h5, in the working folder
+    bool resume = false;
+    std::string time_limit;     // "hh:mm:ss", "": none
+    std::string watch;          // feature whose Pd the progress shows, "": the study's first
+    std::vector<long> signals;  // rows whose signals the results hold as well
+    bool quiet = false;
+};
+int run_command(const RunOptions& options);
+
+struct ReportOptions {
+    std::string results;
+    std::string json;       // "": none; "-": standard output
+    std::string html;       // "": none
+    std::string condition;  // random input whose values get thresholds of their own; "": none
+};
+int report_command(const ReportOptions& options);
+
+struct DescribeOptions {
+    StudyOptions study;
+    bool keys = false;  // print all keys of study files instead
+};
+int describe_command(const DescribeOptions& options);
+
+struct StiffnessOptions {
+    StudyOptions study;
+    std::string csv;  // "": a summary; "-": standard output
+    int points = 1000;
+};
+int stiffness_command(const StiffnessOptions& options);
+
+struct ModesOptions {
+    StudyOptions study;
+    std::string json;
+};
+int modes_command(const ModesOptions& options);
+
+struct AccuracyOptions {
+    StudyOptions study;
+    std::string json;      // "": none; "-": standard output instead of the table
+    std::string peers;     // table of other programs' results, "": none
+    int repeats = 3;       // of every rung's time
+    long gearboxes = 480;  // of the pilot ensemble; 0: no detection rates
+    bool quiet = false;
+};
+int accuracy_command(const AccuracyOptions& options);
+
+struct SimulateOptions {
+    StudyOptions study;
+    long instance = 0;  // row of the results file
+    long meshes = 0;    // 0: one planet turn
+    std::string out;    // .h5 or .csv
+};
+int simulate_command(const SimulateOptions& options);
+
+struct FeaturesOptions {
+    StudyOptions study;
+    std::string signal;
+    SignalColumns columns;
+    std::vector<std::string> healthy;  // recordings of healthy gearboxes
+    double noise_level = 1.0;          // of the simulated ones, where there are no recordings
+    std::string json;                  // "": none; "-": standard output
+};
+int features_command(const FeaturesOptions& options);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "machine/wall_clock.hpp"
+#include "mc/commands/support.hpp"
+#include "mc/forecast/describe_effects.hpp"
+#include "mc/forecast/describe_forecast.hpp"
+#include "mc/forecast/effect_costs.hpp"
+#include "mc/gearbox/march_cache.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+#include "mc/numerics/choice.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string joined(const std::vector<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, " "));
+}
+
+void print_planetary(const PlanetaryDrive& drive) {
+    const auto& train = drive.train();
+    print_entry("teeth (sun/planet/ring)",
+                fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
+                            train.ring_teeth, train.planets));
+    std::vector<std::string> sun, ring;
+    for (int n = 0; n < train.planets; ++n) {
+        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
+        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
+    }
+    print_entry("mesh phases, sun", joined(sun));
+    print_entry("mesh phases, ring",
+                fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
+}
+
+void print_fixed_shaft(const Study& study) {
+    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", *study.fixed_shaft.pinion_teeth,
+                                                   *study.fixed_shaft.gear_teeth));
+    const InstanceInputs nominal = Sampler(study).nominal();
+    const double balanced =
+        nominal.torque_N_m * *study.fixed_shaft.gear_teeth / *study.fixed_shaft.pinion_teeth;
+    const double load = nominal.fixed_shaft.load_torque_N_m;
+    if (std::abs(load - balanced) > 1e-6 * balanced) {
+        print_entry("torques out of balance",
+                    fmt::format("the load takes {:g} N m, {:.4g} N m would balance the motor; the "
+                                "speed is kept, only the vibration feels the difference",
+                                load, balanced));
+    }
+}
+
+void print_gearbox(const Scene& scene) {
+    print_heading("gearbox");
+    if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
+        print_planetary(*planetary);
+    } else {
+        print_fixed_shaft(scene.study());
+    }
+    for (const SceneMesh& mesh : scene.meshes()) {
+        print_entry((mesh_name(mesh.members) + " mesh").c_str(),
+                    fmt::format("contact ratio {:.4f}, mean {:.4g} N/m",
+                                mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness)));
+    }
+    print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
+}
+
+// Lengths of the steps, and where the short ones lie.
+void print_steps(const Scene& scene) {
+    const lockstep::PhaseGrid& grid = scene.plan().grid;
+    const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
+    print_entry("step lengths", fmt::format("{:.3g} to {:.3g} mesh periods, {} different ones",
+                                            *shortest, *longest, grid.lengths.size()));
+    if (!scene.calibration()) {
+        return;
+    }
+    const Calibration& how = *scene.calibration();
+    const Numerics& n = scene.study().numerics;
+    if (how.estimated) {
+        print_entry("calibrated by", fmt::format("a pilot of {}: estimated error of a step {:g} of "
+                                                 "the largest motion",
+                                                 lockstep::kPilotLanes, n.step_tolerance));
+    } else {
+        print_entry("calibrated by",
+                    fmt::format("a pilot of {}: signals within {:.2g} rms (allowed: {:g})",
+                                lockstep::kPilotLanes, how.signal_error, n.grid_tolerance));
+        print_entry("graded",
+                    fmt::format("{:.3g} after a transition, then up to {:g} of the phase "
+                                "since it, at most {:.3g}",
+                                how.grading.first, how.grading.growth, how.grading.longest));
+    }
+    std::vector<double> since;
+    for (const lockstep::Step& step : grid.steps) {
+        since.push_back(lockstep::since_transition(scene.transitions(), step.phase));
+    }
+    std::sort(since.begin(), since.end());
+    print_entry("where fine",
+                fmt::format("half of the steps begin within {:.3g} mesh periods after "
+                            "a transition",
+                            since[since.size() / 2]));
+}
+
+// Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
+void print_effect_costs(const Study& study) {
+    for (const EffectCost& cost : effect_costs(study)) {
+        print_entry(("cost of " + cost.effect).c_str(),
+                    fmt::format("{:.0f} % of a plain step of rk4", 100.0 * cost.share));
+    }
+}
+
+void print_cost(const Scene& scene) {
+    const Study& study = scene.study();
+    const auto& plan = scene.plan();
+    print_heading("cost");
+    print_entry("degrees of freedom", std::to_string(dynamics::degrees_of_freedom(plan.layout)));
+    print_entry("samples a mesh period",
+                study.effects.quasi_static()
+                    ? fmt::format("{} (encoders)", scene.te_samples_per_mesh())
+                    : fmt::format("{} (sensor), {} (encoders)", scene.samples_per_mesh(),
+                                  scene.te_samples_per_mesh()));
+    print_entry("sampling rate", fmt::format("{:.1f} Hz", scene.samples_per_mesh() *
+                                                              scene.nominal_mesh_frequency_Hz()));
+    if (!study.effects.quasi_static()) {
+        const std::string least =
+            scene.least_steps() > 1 ? fmt::format(" (at least {})", scene.least_steps()) : "";
+        print_entry("steps a mesh period", fmt::format("{}{}, {}", plan.grid.steps.size(), least,
+                                                       lockstep::name(plan.integrator)));
+    }
+    print_effect_costs(study);
+    if (const NumericsChoice* choice = scene.numerics_choice()) {
+        print_entry("chosen for the tolerance", choice->text());
+    }
+    if (scene.study().numerics.grid == StepGrid::graded || scene.calibration()) {
+        print_steps(scene);
+    }
+    if (plan.precision == lockstep::Precision::single_precision) {
+        print_entry("precision",
+                    fmt::format("single within a mesh period, double between; orbits settle to "
+                                "{:g} (asked for: {:g})",
+                                settle_tolerance(study), study.numerics.settle_tolerance));
+    }
+    print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
+                                                    marched_meshes(scene), scene.span_meshes()));
+    print_entry("gearboxes",
+                fmt::format("{} graded and {} for the thresholds, {} noise levels",
+                            study.ensemble.instances, study.ensemble.threshold_instances,
+                            study.sensor.noise_levels.size()));
+    const std::optional<std::size_t> distinct = distinct_marches(scene);
+    print_entry("distinct motions",
+                distinct ? fmt::format("{}; gearboxes that differ in path exponent and noise alone "
+                                       "share one march",
+                                       *distinct)
+                         : "every gearbox moves differently");
+}
+
+}  // namespace
+
+int describe_command(const DescribeOptions& options) {
+    // Processor time so far: loading the program.
+    const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    if (options.keys) {
+        fmt::print("{}", schema_help());
+        return kDone;
+    }
+    const auto study = load_study(options.study);
+    if (!study) {
+        return kBadInput;
+    }
+    fmt::print("# the resolved study\n{}", resolved_text(*study));
+    if (!has_gears(*study)) {
+        fmt::print("\nno tooth numbers: only modes are defined\n");
+        return kDone;
+    }
+    const auto start = WallClock::now();
+    const auto scene = load_scene(options.study);
+    if (!scene) {
+        return kBadInput;
+    }
+    const double setup_s = seconds_since(start);
+    print_gearbox(*scene);
+    print_effects(*scene);
+    print_cost(*scene);
+    std::fflush(stdout);
+    print_forecast(*scene, begun_s + setup_s);
+    return kDone;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,81 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "mc/commands/support.hpp"
+#include "mc/scene/body.hpp"
+#include "mc/scene/meshes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Frequencies that agree to this belong to one mode, which shows as its multiplicity.
+constexpr double kSameMode = 1e-6;
+
+std::vector<double> mean_pairs(const Study& study) {
+    return study.gearbox.tooth_profile == ToothProfile::constant ? constant_pairs(study)
+                                                                 : Scene(study).mean_pairs();
+}
+
+// Natural frequencies are those of the standing gearbox.
+dynamics::GearboxLayout layout_at_rest(const Study& study) {
+    dynamics::GearboxLayout layout = gearbox_layout(study);
+    if (auto* planetary = std::get_if<dynamics::PlanetaryLayout>(&layout)) {
+        planetary->inertial_terms = false;
+    }
+    return layout;
+}
+
+// Without masses there is nothing to vibrate.
+bool has_masses(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    const FixedShaft& f = study.fixed_shaft;
+    return g.kind == GearboxKind::planetary
+               ? g.sun_mass_kg && g.planet_mass_kg && g.ring_mass_kg && g.carrier_mass_kg
+               : f.pinion_mass_kg && f.gear_mass_kg && f.motor_inertia_kg_m2 &&
+                     f.load_inertia_kg_m2;
+}
+
+}  // namespace
+
+int modes_command(const ModesOptions& options) {
+    const auto study = load_study(options.study);
+    if (!study) {
+        return kBadInput;
+    }
+    if (!has_masses(*study)) {
+        print_problems({{options.study.path, 0, "gearbox", "no masses (modes need them)",
+                         "add the masses and inertias to [gearbox]"}});
+        return kBadInput;
+    }
+    const auto inputs = body_inputs(*study, Sampler(*study).nominal());
+    std::vector<double> frequencies;
+    try {
+        frequencies = dynamics::natural_frequencies_Hz(
+            dynamics::assemble(layout_at_rest(*study), inputs, mean_pairs(*study)));
+    } catch (const SceneError& error) {
+        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        return kBadInput;
+    }
+
+    if (!options.json.empty()) {
+        const nlohmann::json json{{"frequencies_Hz", frequencies}};
+        return write_text_to(options.json, json.dump(2) + "\n") ? kDone : kBadInput;
+    }
+    fmt::print("natural frequencies at mean mesh stiffness, {} degrees of freedom\n",
+               frequencies.size());
+    fmt::print("{:>12}  {}\n", "Hz", "multiplicity");
+    for (std::size_t i = 0; i < frequencies.size();) {
+        std::size_t end = i + 1;
+        while (end < frequencies.size() &&
+               std::abs(frequencies[end] - frequencies[i]) <= kSameMode * frequencies[end]) {
+            ++end;
+        }
+        fmt::print("{:>12.1f}  {}\n", frequencies[i], end - i);
+        i = end;
+    }
+    return kDone;
+}
+
+}  // namespace gearpod::mc

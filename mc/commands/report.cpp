@@ -1,0 +1,71 @@
+#include <fmt/core.h>
+
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/files/atomic_file.hpp"
+#include "mc/report/json.hpp"
+#include "mc/report/page.hpp"
+#include "mc/report/run_report.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/results/reliability_of_results.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// JSON and page, as far as they are asked for; false after a message.
+bool write_files(const ReportOptions& options, const Results& results, const RowSource& rows,
+                 const std::optional<analysis::Reliability>& reliability) {
+    nlohmann::json json = report_json(results, rows, reliability);
+    json["results"] = options.results;
+    if (!options.json.empty() && !write_text_to(options.json, json.dump(2) + "\n")) {
+        return false;
+    }
+    if (!options.html.empty()) {
+        const std::string page = report_page(json.dump());
+        write_file(options.html, std::as_bytes(std::span(page)));
+    }
+    return true;
+}
+
+}  // namespace
+
+int report_command(const ReportOptions& options) {
+    if (!options.html.empty() && !can_write(options.html)) {
+        return kBadInput;
+    }
+    try {
+        Results results = read_frame(options.results);
+        const FileRows rows(options.results, results);
+        results.detection = detect_all(results, rows);
+        const auto reliability = reliability_of(results, rows, options.condition, processors());
+        if (!options.json.empty() || !options.html.empty()) {
+            if (!write_files(options, results, rows, reliability)) {
+                return kBadInput;
+            }
+        }
+        if (!options.json.empty()) {
+            return kDone;
+        }
+        const std::string state = results.provenance_value("state");
+        if (state == "running" || state.starts_with("interrupted")) {
+            fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results,
+                       count_rows(rows).all, results.provenance_value("gearboxes_asked_for"),
+                       state);
+        }
+        fmt::print("{}", results_text(results, rows, reliability));
+        if (!options.html.empty()) {
+            fmt::print("\npage: {}\n", options.html);
+        }
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return kBadInput;
+    }
+    return kDone;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,298 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+
+#include "analysis/report/detection_text.hpp"
+#include "machine/wall_clock.hpp"
+#include "mc/commands/run_agreement.hpp"
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/run_store.hpp"
+#include "mc/gearbox/simulation.hpp"
+#include "mc/numerics/choice.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/report/run_report.hpp"
+#include "mc/results/provenance.hpp"
+#include "mc/results/reliability_of_results.hpp"
+#include "mc/results/row_source.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string results_path(const RunOptions& options) {
+    return options.out.empty() ? std::filesystem::path(options.study.path).stem().string() + ".h5"
+                               : options.out;
+}
+
+bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
+    if (options.time_limit.empty()) {
+        return true;
+    }
+    limit = parse_time_limit(options.time_limit);
+    if (!limit) {
+        fmt::print(stderr,
+                   "--time-limit {}: is not a time; write hours:minutes:seconds as 01:30:00\n",
+                   options.time_limit);
+    }
+    return limit.has_value();
+}
+
+bool check_watch(const RunOptions& options, const Study& study) {
+    const auto& use = study.features.use;
+    if (options.watch.empty() || std::find(use.begin(), use.end(), options.watch) != use.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
+    return false;
+}
+
+bool check_signals(const RunOptions& options, const Study& study) {
+    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
+                                      [&](long row) { return row < 0 || row >= rows; });
+    if (outside == options.signals.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
+    return false;
+}
+
+// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
+std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
+    std::vector<RowSignals> all;
+    for (const long row : options.signals) {
+        try {
+            all.push_back({static_cast<std::size_t>(row),
+                           simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
+                               .columns});
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "--signals {}: {}\n", row, error.what());
+        }
+    }
+    return all;
+}
+
+// Rank 0's run: everything that is not computing tiles.
+class Run {
+  public:
+    Run(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+        std::unique_ptr<Checkpoint> checkpoint, double setup_s)
+        : options_(options),
+          scene_(scene),
+          ranks_(ranks),
+          study_(scene.study()),
+          plan_(study_.ensemble.threshold_instances, study_.ensemble.instances),
+          checkpoint_(std::move(checkpoint)),
+          watch_(study_, plan_, options.watch),
+          setup_s_(setup_s) {}
+
+    int run(const Interruption& interruption) {
+        if (!options_.quiet) {
+            fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
+            if (const NumericsChoice* choice = scene_.numerics_choice()) {
+                fmt::print(stderr, "tolerance {:g}: {}\n", study_.numerics.tolerance,
+                           choice->text());
+            }
+        }
+        Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
+        const EnsembleOutcome outcome = run_tiles(scene_, plan_,
+                                                  {.ranks = ranks_,
+                                                   .store = *checkpoint_,
+                                                   .progress = progress,
+                                                   .interruption = &interruption,
+                                                   .watch = &watch_,
+                                                   .checkpoint_s = study_.ensemble.checkpoint_s,
+                                                   .checkpointed = [&] { snapshot(); }});
+        progress.finish();
+        return conclude(outcome);
+    }
+
+  private:
+    long rows_done() const {
+        long rows = 0;
+        for (std::size_t tile = 0; tile < plan_.tiles(); ++tile) {
+            rows += checkpoint_->has(tile) ? static_cast<long>(plan_.tile(tile).count) : 0;
+        }
+        return rows;
+    }
+
+    // What the file says about its rows.
+    Results frame(const RowSource& rows, const std::string& state) const {
+        Results results = results_frame(study_);
+        results.detection = detect_all(results, rows);
+        results.provenance = provenance(study_, ranks_.size(), threads_);
+        results.provenance.emplace_back("state", state);
+        results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
+        if (const NumericsChoice* choice = scene_.numerics_choice()) {
+            results.provenance.emplace_back("numerics_choice", choice->text());
+        }
+        return results;
+    }
+
+    // The results so far, for whoever looks while the run goes on; left out where it would take
+    // more than a fiftieth of the time.
+    void snapshot() {
+        constexpr double kShare = 0.02;
+        if (snapshot_s_ > kShare * seconds_since(last_snapshot_)) {
+            return;
+        }
+        const auto start = WallClock::now();
+        while (complete_ < plan_.tiles() && checkpoint_->has(complete_)) {
+            ++complete_;
+        }
+        const StoredRows rows(*checkpoint_, plan_, complete_);
+        write_results(results_path(options_), frame(rows, "running"), rows);
+        last_snapshot_ = WallClock::now();
+        snapshot_s_ = seconds_since(start);
+    }
+
+    int conclude(const EnsembleOutcome& outcome) {
+        const auto start = WallClock::now();
+        const bool whole = outcome.failure.empty() && outcome.interruption.empty();
+        for (const CrewTimes& crew : outcome.crews) {
+            threads_ += crew.threads;
+        }
+        const std::string path = results_path(options_);
+        std::string trouble = outcome.failure, text;
+        const StoredRows rows(*checkpoint_, plan_, outcome.tiles);
+        Results all;
+        if (trouble.empty()) {
+            try {
+                all = frame(rows, state_of(outcome));
+                all.signals = chosen_signals(options_, scene_);
+                if (whole) {
+                    all.numerical = find_numerical_error(scene_);
+                }
+                all.timing = timing_of(outcome);
+                all.timing.push_back({"setup_s", setup_s_});
+                all.timing.push_back({"output_s", outcome.output_s});
+                write_results(path, all, rows);
+                if (whole && !options_.quiet) {
+                    text = results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
+                }
+            } catch (const std::exception& error) {
+                trouble = error.what();
+            }
+        }
+        if (!trouble.empty()) {
+            fmt::print(stderr, "{}\n", trouble);
+        }
+        if (!whole || !trouble.empty()) {
+            return stop_short(outcome, trouble.empty());
+        }
+        const RowCounts counts = count_rows(rows);
+        checkpoint_->remove();
+        if (!options_.quiet) {
+            fmt::print("{}\n", text);
+            print_failures(counts, scene_.max_meshes());
+            print_times(outcome);
+            fmt::print("set-up {:.2f} s, detection and results {:.2f} s\n", setup_s_,
+                       seconds_since(start));
+            print_end(outcome, path);
+        }
+        return counts.failed() == 0 ? kDone : kSomeFailed;
+    }
+
+    // Of all ranks on this machine, which have nothing more to compute.
+    int idle_threads() const {
+        const int ranks = ranks_.on_this_machine();
+        return std::min(processors(), ranks * thread_count(study_, ranks));
+    }
+
+    std::string state_of(const EnsembleOutcome& outcome) const {
+        return !outcome.interruption.empty() ? "interrupted by " + outcome.interruption
+               : watch_.enough()             ? "ended by ensemble.until"
+                                             : "complete";
+    }
+
+    void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
+        if (watch_.enough()) {
+            fmt::print("ensemble.until is reached with {} of {} gearboxes: {}\n",
+                       plan_.rows_before(outcome.tiles), plan_.rows(), watch_.text());
+        } else if (study_.ensemble.until.half_width) {
+            fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
+                       watch_.text(), watch_.rows_left().value_or(0));
+        }
+        fmt::print("results: {}\n", path);
+    }
+
+    // With a checkpoint left to go on from.
+    int stop_short(const EnsembleOutcome& outcome, bool saved) {
+        const long done = rows_done();
+        if (!options_.quiet || !saved) {
+            fmt::print(
+                stderr,
+                "{}{} of {} gearboxes are finished and kept in {}; continue with "
+                "--resume\n",
+                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
+                done, plan_.rows(), checkpoint_->path());
+        }
+        return kResumable;
+    }
+
+    const RunOptions& options_;
+    const Scene& scene_;
+    const Ranks& ranks_;
+    const Study& study_;
+    const TilePlan plan_;
+    std::unique_ptr<Checkpoint> checkpoint_;
+    PdWatch watch_;
+    const double setup_s_;
+    int threads_ = 0;
+    std::size_t complete_ = 0;
+    double snapshot_s_ = 0.0;
+    WallClock::time_point last_snapshot_ = WallClock::now();
+};
+
+// The other ranks' run: computing tiles.
+void help(const Scene& scene, const Ranks& ranks, const Interruption& interruption) {
+    const Ensemble& ensemble = scene.study().ensemble;
+    const TilePlan plan(ensemble.threshold_instances, ensemble.instances);
+    MemoryRows nothing(0);
+    Progress silent(1, true);
+    run_tiles(
+        scene, plan,
+        {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+    const auto start = WallClock::now();
+    std::optional<std::chrono::seconds> limit;
+    const bool good_limit = check_time_limit(options, limit);
+    const Interruption interruption(limit);
+    const Ranks ranks;
+    const auto scene = load_scene_together(ranks, options.study);
+    std::unique_ptr<Checkpoint> checkpoint;
+    if (ranks.leads()) {
+        const bool writable = can_write(results_path(options));
+        if (scene && writable && good_limit && check_watch(options, scene->study()) &&
+            check_signals(options, scene->study())) {
+            const Ensemble& ensemble = scene->study().ensemble;
+            try {
+                checkpoint = open_checkpoint(
+                    *scene, TilePlan(ensemble.threshold_instances, ensemble.instances),
+                    results_path(options), options.resume, options.quiet);
+            } catch (const std::exception& error) {
+                fmt::print(stderr, "{}\n", error.what());
+            }
+        }
+    }
+    if (ranks.from_leader(checkpoint ? "go" : "").empty()) {
+        return kBadInput;
+    }
+    if (!ranks.leads()) {
+        help(*scene, ranks, interruption);
+        return std::stoi(ranks.from_leader(""));
+    }
+    const int code =
+        Run(options, *scene, ranks, std::move(checkpoint), seconds_since(start)).run(interruption);
+    ranks.from_leader(std::to_string(code));
+    return code;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,66 @@
+#include "mc/commands/run_agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "mc/commands/support.hpp"
+#include "mc/random/fnv.hpp"
+#include "mc/results/provenance.hpp"
+#include "mc/results/run_identity.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Of the running program's file: a rebuild between two ranks' starts shows in it.
+std::string program_sum() {
+    std::ifstream stream("/proc/self/exe", std::ios::binary);
+    std::uint64_t sum = kFnvStart;
+    std::string piece(std::size_t{1} << 20, '\0');
+    while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())),
+           stream.gcount() > 0) {
+        sum = fnv1a({piece.data(), static_cast<std::size_t>(stream.gcount())}, sum);
+    }
+    return fmt::format("{:016x}", sum);
+}
+
+// Why a rank that is not the first cannot take part, or "".
+std::string misfit(const std::string& name, const std::string& program,
+                   const std::string& first_program, const std::string& study,
+                   const std::string& first_study) {
+    if (program != first_program) {
+        return fmt::format("{} runs another program ({}; rank 0: {}); start the same on all", name,
+                           program, first_program);
+    }
+    const std::string line = line_difference(first_study, study, "in rank 0");
+    return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> load_scene_together(const Ranks& ranks, const StudyOptions& options) {
+    Problems problems;
+    auto scene = make_scene(options, problems);
+    const auto all_problems = ranks.gather(scene ? "" : format(problems));
+    const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
+    const auto programs =
+        ranks.gather(ranks.size() > 1 ? fmt::format("{}, {}", version_text(), program_sum()) : "");
+    const auto studies = ranks.gather(scene ? resolved_text(scene->study()) : "");
+    std::string why = all_problems[0];
+    for (std::size_t rank = 1; rank < names.size() && why.empty(); ++rank) {
+        const std::string& problem = all_problems[rank];
+        why = problem.empty()
+                  ? misfit(names[rank], programs[rank], programs[0], studies[rank], studies[0])
+                  : names[rank] + ": " + problem.substr(0, problem.find('\n'));
+        why += why.empty() ? "" : "\n";
+    }
+    if (!why.empty()) {
+        scene.reset();
+        if (ranks.leads()) {
+            fmt::print(stderr, "{}", why);
+        }
+    }
+    return scene;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,82 @@
+#include "mc/ensemble/ensemble.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "mc/ensemble/tile_exchange.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/results/row_source.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+
+Results results_frame(const Study& study) {
+    Results results;
+    for (const ParameterColumn& column : Sampler(study).columns()) {
+        results.parameters.push_back({column.name, column.unit, {}});
+    }
+    results.noise_levels = study.sensor.noise_levels;
+    results.request = detection_request(study);
+    for (const features::Feature* feature : used_features(study)) {
+        results.features.push_back({std::string(feature->name),
+                                    std::string(feature->unit),
+                                    analysis::alarm_of(*feature),
+                                    {}});
+    }
+    return results;
+}
+
+EnsembleOutcome run_tiles(const Scene& scene, const TilePlan& plan, const EnsembleRun& run) {
+    const TileTask task(scene);
+    const int threads = std::max(
+        1, static_cast<int>(std::min<std::size_t>(
+               static_cast<std::size_t>(thread_count(scene.study(), run.ranks.on_this_machine())),
+               plan.tiles())));
+    TileCrew crew(task, plan, threads);
+    return run.ranks.leads() ? lead(crew, plan, run) : follow(crew, run);
+}
+
+Results run_ensemble(const Scene& scene, Progress& progress) {
+    const Study& study = scene.study();
+    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    MemoryRows store(plan.tiles());
+    const Ranks alone;
+    const EnsembleOutcome outcome =
+        run_tiles(scene, plan, {.ranks = alone, .store = store, .progress = progress});
+    if (!outcome.failure.empty()) {
+        throw std::runtime_error(outcome.failure);
+    }
+    Results results = results_frame(study);
+    fill_columns(results, StoredRows(store, plan, outcome.tiles));
+    results.timing = timing_of(outcome);
+    return results;
+}
+
+int thread_count(const Study& study, int ranks_on_this_machine) {
+    if (study.numerics.threads > 0) {
+        return study.numerics.threads;
+    }
+    // Ranks that are bound to processors of their own see only those.
+    const int own = processors();
+    return own < all_processors() ? own : std::max(1, own / ranks_on_this_machine);
+}
+
+std::vector<analysis::FeatureDetection> detect_all(const Results& results) {
+    return detect_all(results, ColumnRows(results));
+}
+
+std::vector<Timing> timing_of(const EnsembleOutcome& outcome) {
+    Seconds work;
+    double waiting = 0.0;
+    for (const CrewTimes& crew : outcome.crews) {
+        work += crew.work;
+        waiting += crew.waiting;
+    }
+    return {{"sampling_thread_s", work.sampling}, {"stiffness_thread_s", work.stiffness},
+            {"march_thread_s", work.march},       {"signals_thread_s", work.signals},
+            {"noise_thread_s", work.noise},       {"features_thread_s", work.features},
+            {"waiting_thread_s", waiting},        {"ensemble_s", outcome.wall_s}};
+}
+
+}  // namespace gearpod::mc

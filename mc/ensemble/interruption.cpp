@@ -1,0 +1,83 @@
+#include "mc/ensemble/interruption.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <string_view>
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1};
+
+volatile std::sig_atomic_t caught = 0;
+
+extern "C" void note_signal(int number) {
+    if (caught != 0 && number != SIGUSR1) {
+        std::signal(number, SIG_DFL);
+        std::raise(number);
+        return;
+    }
+    caught = number;
+}
+
+const char* name_of(int number) {
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGUSR1";
+}
+
+void handle(int number, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, nullptr);
+}
+
+}  // namespace
+
+Interruption::Interruption(std::optional<std::chrono::seconds> limit)
+    : limit_(limit), start_(std::chrono::steady_clock::now()) {
+    caught = 0;
+    for (const int number : kSignals) {
+        handle(number, note_signal);
+    }
+    handle(SIGXFSZ, SIG_IGN);
+}
+
+Interruption::~Interruption() {
+    for (const int number : kSignals) {
+        handle(number, SIG_DFL);
+    }
+}
+
+std::string Interruption::reason(std::chrono::duration<double> ahead) const {
+    if (caught != 0) {
+        return name_of(caught);
+    }
+    const bool over = limit_ && std::chrono::steady_clock::now() - start_ + ahead >= *limit_;
+    return over ? "the time limit" : "";
+}
+
+std::optional<std::chrono::seconds> parse_time_limit(const std::string& text) {
+    std::array<long, 3> parts{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto [next, error] = std::from_chars(at, end, parts[i]);
+        const auto digits = next - at;
+        const bool last = i + 1 == parts.size();
+        const bool good = error == std::errc{} && *at != '-' && (i == 0 || digits == 2) &&
+                          (i == 0 || parts[i] < 60) && parts[i] < 1000000 &&
+                          (last ? next == end : next != end && *next == ':');
+        if (!good) {
+            return std::nullopt;
+        }
+        at = next + 1;
+    }
+    return std::chrono::hours(parts[0]) + std::chrono::minutes(parts[1]) +
+           std::chrono::seconds(parts[2]);
+}
+
+}  // namespace gearpod::mc

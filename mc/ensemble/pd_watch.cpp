@@ -1,0 +1,130 @@
+#include "mc/ensemble/pd_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/threshold.hpp"
+#include "analysis/statistics/wilson.hpp"
+#include "mc/ensemble/tile_worker.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::size_t level_next_to(const std::vector<double>& levels, double wanted) {
+    const auto nearer = [&](double a, double b) {
+        return std::abs(a - wanted) < std::abs(b - wanted);
+    };
+    return static_cast<std::size_t>(std::min_element(levels.begin(), levels.end(), nearer) -
+                                    levels.begin());
+}
+
+}  // namespace
+
+PdWatch::PdWatch(const Study& study, const TilePlan& plan, const std::string& feature)
+    : request_(detection_request(study)), plan_(plan), shape_(row_shape(Sampler(study), study)) {
+    const Until& until = study.ensemble.until;
+    const auto used = used_features(study);
+    feature_name_ = feature.empty() ? study.features.use.front() : feature;
+    if (until.half_width) {
+        feature_name_ = features::all_features()[static_cast<std::size_t>(*until.feature)].name;
+    }
+    const auto place = static_cast<std::size_t>(
+        std::find(study.features.use.begin(), study.features.use.end(), feature_name_) -
+        study.features.use.begin());
+    alarm_ = analysis::alarm_of(*used.at(place));
+    wanted_ = until.half_width;
+    level_ = level_next_to(request_.noise_levels, wanted_ ? until.noise_level : 1.0);
+    group_ = request_.groups.size() - 1;
+    if (wanted_) {
+        group_ = analysis::group_of(size_in_si(study, *until.size), request_.groups).value();
+    }
+    size_name_ = size_text(study, request_.groups[group_]);
+    column_ = shape_.value_of(place, level_);
+}
+
+void PdWatch::advance(const RowStore& store) {
+    while (!stop_ && next_ < plan_.tiles() && store.has(next_)) {
+        if (next_ == plan_.threshold_tiles()) {
+            set_threshold(store);
+        }
+        if (next_ >= plan_.threshold_tiles()) {
+            count(store.read(next_));
+        }
+        ++next_;
+        if (wanted_ && tested_ > 0 && half_width(static_cast<double>(tested_)) <= *wanted_) {
+            stop_ = next_;
+        }
+    }
+}
+
+void PdWatch::set_threshold(const RowStore& store) {
+    std::vector<double> healthy;
+    for (std::size_t tile = 0; tile < plan_.threshold_tiles(); ++tile) {
+        const TileRows rows = store.read(tile);
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            healthy.push_back(rows.values[row * shape_.values() + column_]);
+        }
+    }
+    threshold_ =
+        analysis::alarm_threshold(std::move(healthy), alarm_, request_.false_alarm_rate).value;
+}
+
+void PdWatch::count(const TileRows& rows) {
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        const double* values = rows.values.data() + row * shape_.values();
+        const double value = values[column_];
+        ++graded_;
+        if (std::isfinite(value) && !std::isnan(threshold_) &&
+            analysis::group_of(values[shape_.parameters - 1], request_.groups) == group_) {
+            ++tested_;
+            detected_ += analysis::is_alarm(value, threshold_, alarm_) ? 1 : 0;
+        }
+    }
+}
+
+// Of the Wilson interval at today's rate, were so many tested.
+double PdWatch::half_width(double tested) const {
+    const long n = std::lround(tested);
+    const long detected =
+        std::lround(static_cast<double>(detected_) * tested / static_cast<double>(tested_));
+    const auto interval = analysis::wilson_interval(detected, n, request_.confidence);
+    return 0.5 * (interval.upper - interval.lower);
+}
+
+std::string PdWatch::text() const {
+    if (tested_ == 0) {
+        return "";
+    }
+    const auto interval = analysis::wilson_interval(detected_, tested_, request_.confidence);
+    return fmt::format("Pd({}, {}, noise x {:g}) = {:.3g} [{:.3g}, {:.3g}]", feature_name_,
+                       size_name_, request_.noise_levels[level_],
+                       static_cast<double>(detected_) / static_cast<double>(tested_),
+                       interval.lower, interval.upper);
+}
+
+std::optional<std::size_t> PdWatch::rows_left() const {
+    if (!wanted_ || tested_ == 0 || stop_) {
+        return std::nullopt;
+    }
+    double few = static_cast<double>(tested_), many = few;
+    constexpr double kMost = 1e12;
+    while (many < kMost && half_width(many) > *wanted_) {
+        many *= 2.0;
+    }
+    while (many - few > 1.0) {
+        const double middle = std::floor(0.5 * (few + many));
+        (half_width(middle) > *wanted_ ? few : many) = middle;
+    }
+    const double each = static_cast<double>(graded_) / static_cast<double>(tested_);
+    return static_cast<std::size_t>(each * many) -
+           std::min(graded_, static_cast<std::size_t>(each * many));
+}
+
+}  // namespace gearpod::mc

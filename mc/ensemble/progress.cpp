@@ -1,0 +1,79 @@
+#include "mc/ensemble/progress.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+namespace gearpod::mc {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string duration_text(double seconds) {
+    const long s = static_cast<long>(seconds + 0.5);
+    return s < 60     ? fmt::format("{} s", s)
+           : s < 3600 ? fmt::format("{} min {:02} s", s / 60, s % 60)
+                      : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+}
+
+}  // namespace
+
+Progress::Progress(long total, bool quiet, long done)
+    : total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      shown_(start_),
+      before_(done),
+      done_(done) {}
+
+void Progress::advance(long count) {
+    done_ += count;
+    const auto now = std::chrono::steady_clock::now();
+    const auto interval = terminal_ ? 200ms : 5000ms;
+    if (!quiet_ && (now - shown_ >= interval || (terminal_ && done_ == total_))) {
+        shown_ = now;
+        show(now);
+    }
+}
+
+void Progress::watch(std::string rate, std::optional<std::size_t> left) {
+    rate_ = std::move(rate);
+    wanted_ = left;
+}
+
+void Progress::show(std::chrono::steady_clock::time_point now) {
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const double rate = static_cast<double>(done_ - before_) / elapsed;
+    // What the wanted interval still needs, if that is less.
+    const long missing = total_ - done_;
+    const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
+    const double share = static_cast<double>(done_) / static_cast<double>(total_);
+    std::string numbers = fmt::format("{} of {}{} gearboxes, {:.0f} a second, {} left", done_,
+                                      left < missing ? "at most " : "", total_, rate,
+                                      duration_text(static_cast<double>(left) / rate));
+    if (!rate_.empty()) {
+        numbers += ", " + rate_;
+    }
+    if (terminal_) {
+        constexpr int kWidth = 20;
+        const int filled = static_cast<int>(share * kWidth);
+        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}\033[K", "", filled, "", kWidth - filled, numbers);
+    } else {
+        fmt::print(stderr, "{:%Y-%m-%d %H:%M:%S} {}\n", fmt::localtime(std::time(nullptr)),
+                   numbers);
+    }
+    std::fflush(stderr);
+}
+
+void Progress::finish() {
+    if (!quiet_ && terminal_) {
+        fmt::print(stderr, "\n");
+    }
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,116 @@
+#include "mc/ensemble/run_store.hpp"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+
+#include "mc/ensemble/tile_worker.hpp"
+#include "mc/files/atomic_file.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/results/provenance.hpp"
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+RunIdentity identity_of(const Results& results, const std::string& path) {
+    const StudyReading reading = read_study_text(results.provenance_value("study"), path);
+    RunIdentity identity = run_identity(reading.study.value_or(Study{}), row_shape(results));
+    identity.version = version_text(results.provenance_value("code_version"),
+                                    results.provenance_value("git_hash"));
+    identity.seed = results.provenance_value("seed");
+    return identity;
+}
+
+// Rows of finished results into a checkpoint: all whole tiles.
+class TileFiller {
+  public:
+    TileFiller(Checkpoint& checkpoint, const TilePlan& plan, const RowShape& shape)
+        : checkpoint_(checkpoint), plan_(plan), shape_(shape) {}
+
+    void add(const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const auto values =
+                block.values.begin() + static_cast<std::ptrdiff_t>(row * shape_.values());
+            rows_.status.push_back(block.status[row]);
+            rows_.values.insert(rows_.values.end(), values,
+                                values + static_cast<std::ptrdiff_t>(shape_.values()));
+            const std::size_t tile = plan_.tile_of_row(block.first + row);
+            const Tile place = plan_.tile(tile);
+            if (block.first + row + 1 == place.first_row + place.count) {
+                checkpoint_.write(tile, rows_);
+                rows_ = {};
+            }
+        }
+    }
+
+  private:
+    Checkpoint& checkpoint_;
+    const TilePlan& plan_;
+    const RowShape shape_;
+    TileRows rows_;
+};
+
+std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
+                                 const RunIdentity& identity, const TilePlan& plan) {
+    const Results old = read_frame(results_path);
+    const FileRows rows(results_path, old);
+    const std::string why = difference(identity_of(old, results_path), identity);
+    if (!why.empty()) {
+        throw std::runtime_error(results_path + ": cannot be continued: it " + why);
+    }
+    if (rows.rows() > plan.rows()) {
+        throw std::runtime_error(
+            fmt::format("{}: cannot be continued: it has {} gearboxes, more than the {} asked for; "
+                        "raise --instances",
+                        results_path, rows.rows(), plan.rows()));
+    }
+    auto checkpoint = Checkpoint::create(path, identity, plan);
+    TileFiller filler(*checkpoint, plan, identity.shape);
+    rows.visit([&](const RowBlock& block) { filler.add(block); });
+    checkpoint->sync();
+    return checkpoint;
+}
+
+void tell(const Checkpoint& checkpoint, const TilePlan& plan, const std::string& from) {
+    for (const std::string& finding : checkpoint.findings()) {
+        fmt::print(stderr, "{}\n", finding);
+    }
+    fmt::print(stderr, "continuing {}: {} of {} tiles of gearboxes are there\n", from,
+               checkpoint.tiles_done(), plan.tiles());
+}
+
+}  // namespace
+
+std::string checkpoint_path(const std::string& results_path) {
+    return behind_links(results_path) + ".part";
+}
+
+std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const TilePlan& plan,
+                                            const std::string& results_path, bool resume,
+                                            bool quiet) {
+    const Study& study = scene.study();
+    const RunIdentity identity = run_identity(study, row_shape(Sampler(study), study));
+    const std::string path = checkpoint_path(results_path);
+    std::unique_ptr<Checkpoint> checkpoint;
+    std::string from;
+    if (resume && Checkpoint::exists(path)) {
+        from = path;
+        checkpoint = Checkpoint::resume(path, identity, plan);
+    } else if (resume && Checkpoint::exists(behind_links(results_path))) {
+        from = results_path;
+        checkpoint = grow(results_path, path, identity, plan);
+    } else {
+        checkpoint = Checkpoint::create(path, identity, plan);
+        if (resume && !quiet) {
+            fmt::print(stderr, "{}: there is nothing to continue; the run begins anew\n",
+                       results_path);
+        }
+    }
+    if (!from.empty() && (!quiet || !checkpoint->findings().empty())) {
+        tell(*checkpoint, plan, from);
+    }
+    return checkpoint;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,22 @@
+// Where a run keeps its finished tiles: a new checkpoint, one to continue, or one filled from
+// finished results that are to grow.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mc/results/checkpoint.hpp"
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// The checkpoint's file: beside the results file, behind its links.
+std::string checkpoint_path(const std::string& results_path);
+
+// Throws std::runtime_error naming the file and the reason. Unless quiet, says on stderr what it
+// continues.
+std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const TilePlan& plan,
+                                            const std::string& results_path, bool resume,
+                                            bool quiet);
+
+}  // namespace gearpod::mc

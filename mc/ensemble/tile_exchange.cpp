@@ -1,0 +1,351 @@
+#include "mc/ensemble/tile_exchange.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "machine/wall_clock.hpp"
+#include "mc/ensemble/tile_messages.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// How long a main thread sleeps between two looks for messages. Every look takes a processor, and
+// its caches, from a thread that computes; so it is rare while the threads have tiles ahead: within
+// a tile's time, a finished tile is seen and the next one fetched. A process alone looks for
+// signals only.
+class Naps {
+  public:
+    explicit Naps(const Ranks& ranks) : alone_(ranks.size() == 1) {}
+    void finished(const FinishedTile& tile) { shortest_s_ = std::min(shortest_s_, tile.seconds); }
+    std::chrono::milliseconds next(bool tiles_ahead) const {
+        if (alone_) {
+            return kLongest;
+        }
+        return tiles_ahead ? std::clamp(milliseconds(0.25 * shortest_s_), kShortest, kLongest)
+                           : kShortest;
+    }
+
+  private:
+    static constexpr std::chrono::milliseconds kShortest{1}, kLongest{50};
+    static std::chrono::milliseconds milliseconds(double seconds) {
+        return std::chrono::milliseconds(static_cast<long>(1e3 * seconds));
+    }
+
+    const bool alone_;
+    double shortest_s_ = 1.0;
+};
+
+void say(const Ranks& ranks, int to, Say what, const std::vector<std::byte>& bytes = {}) {
+    ranks.send(to, static_cast<int>(what), bytes);
+}
+
+class Leader {
+  public:
+    Leader(TileCrew& crew, const TilePlan& plan, const EnsembleRun& run)
+        : crew_(crew),
+          plan_(plan),
+          run_(run),
+          naps_(run.ranks),
+          dealt_(static_cast<std::size_t>(run.ranks.size())) {
+        for (const std::string& threads : run.ranks.gather(std::to_string(crew.threads()))) {
+            threads_.push_back(static_cast<std::size_t>(std::stoul(threads)));
+        }
+        all_threads_ = std::accumulate(threads_.begin(), threads_.end(), std::size_t{0});
+        outcome_.crews.resize(threads_.size());
+    }
+
+    EnsembleOutcome run() {
+        const auto start = WallClock::now();
+        last_sync_ = start;
+        look();
+        while (true) {
+            deal();
+            if (outstanding_ == 0) {
+                break;
+            }
+            crew_.wait(naps_.next(tiles_ahead()));
+            receive();
+            consider_stopping();
+            checkpoint();
+        }
+        close();
+        outcome_.crews[0].output = outcome_.output_s;
+        outcome_.wall_s = seconds_since(start);
+        outcome_.tiles =
+            run_.watch != nullptr && run_.watch->enough() ? run_.watch->tiles() : first_missing();
+        return std::move(outcome_);
+    }
+
+  private:
+    // Tiles that a rank should have: one for each thread and one ahead, so that none waits for a
+    // message; none ahead near the end, where a tile queued at one rank would keep another idle.
+    std::size_t share(std::size_t rank) const {
+        return tiles_ahead() ? 2 * threads_[rank] : threads_[rank];
+    }
+    bool tiles_ahead() const { return plan_.tiles() - next_ > 4 * all_threads_; }
+
+    bool next_missing() {
+        while (next_ < plan_.tiles() && run_.store.has(next_)) {
+            ++next_;
+        }
+        return next_ < plan_.tiles();
+    }
+
+    void deal() {
+        for (bool dealt = true; dealt && !stopping_;) {
+            dealt = false;
+            for (std::size_t rank = 0; rank < dealt_.size(); ++rank) {
+                if (dealt_[rank] < share(rank) && next_missing()) {
+                    give(rank, next_++);
+                    dealt = true;
+                }
+            }
+        }
+    }
+
+    void give(std::size_t rank, std::size_t tile) {
+        ++dealt_[rank];
+        ++outstanding_;
+        if (rank == 0) {
+            crew_.give(tile);
+        } else {
+            say(run_.ranks, static_cast<int>(rank), Say::compute, bytes_of_number(tile));
+        }
+    }
+
+    void receive() {
+        while (auto finished = crew_.take()) {
+            accept(0, *finished);
+        }
+        while (auto message = run_.ranks.receive()) {
+            const auto rank = static_cast<std::size_t>(message->from);
+            switch (static_cast<Say>(message->kind)) {
+                case Say::finished:
+                    accept(rank, tile_of(message->bytes));
+                    break;
+                case Say::dropped:
+                    settle(rank, number_of(message->bytes));
+                    break;
+                case Say::stop:
+                    interrupt(text_of(message->bytes));
+                    break;
+                case Say::times:
+                    outcome_.crews[rank] = times_of(message->bytes);
+                    ++closed_;
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+
+    void settle(std::size_t rank, std::size_t tiles) {
+        dealt_[rank] -= tiles;
+        outstanding_ -= tiles;
+    }
+
+    void accept(std::size_t rank, const FinishedTile& finished) {
+        settle(rank, 1);
+        longest_tile_s_ = std::max(longest_tile_s_, finished.seconds);
+        naps_.finished(finished);
+        if (!finished.failure.empty()) {
+            fail(finished.failure);
+            return;
+        }
+        store([&] { run_.store.write(finished.tile, finished.rows); });
+        look();
+        run_.progress.advance(static_cast<long>(finished.rows.count()));
+    }
+
+    // Writing that fails ends the run; what was written before is kept.
+    template <class Action>
+    void store(Action action) {
+        if (unwritable_) {
+            return;
+        }
+        const auto start = WallClock::now();
+        try {
+            action();
+        } catch (const std::exception& error) {
+            unwritable_ = true;
+            fail(error.what());
+        }
+        outcome_.output_s += seconds_since(start);
+    }
+
+    void look() {
+        if (run_.watch == nullptr || stopping_) {
+            return;
+        }
+        store([&] { run_.watch->advance(run_.store); });
+        run_.progress.watch(run_.watch->text(), run_.watch->rows_left());
+        if (run_.watch->enough()) {
+            stop();
+        }
+    }
+
+    void checkpoint() {
+        if (seconds_since(last_sync_) < run_.checkpoint_s) {
+            return;
+        }
+        const auto start = WallClock::now();
+        store([&] {
+            run_.store.sync();
+            run_.checkpointed();
+        });
+        last_sync_ = WallClock::now();
+        saving_s_ = seconds_since(start);
+    }
+
+    void consider_stopping() {
+        if (stopping_ || run_.interruption == nullptr) {
+            return;
+        }
+        // The tiles in work, once more for a guess, and saving as long as it took last.
+        const std::chrono::duration<double> ahead(1.5 * longest_tile_s_ + saving_s_);
+        interrupt(run_.interruption->reason(ahead));
+    }
+
+    void interrupt(const std::string& reason) {
+        if (!reason.empty() && !stopping_) {
+            outcome_.interruption = reason;
+            stop();
+        }
+    }
+
+    void fail(const std::string& what) {
+        if (outcome_.failure.empty()) {
+            outcome_.failure = what;
+        }
+        stop();
+    }
+
+    void stop() {
+        if (std::exchange(stopping_, true)) {
+            return;
+        }
+        settle(0, crew_.drop());
+        for (int rank = 1; rank < run_.ranks.size(); ++rank) {
+            say(run_.ranks, rank, Say::drop);
+        }
+    }
+
+    void close() {
+        for (int rank = 1; rank < run_.ranks.size(); ++rank) {
+            say(run_.ranks, rank, Say::close);
+        }
+        outcome_.crews[0] = crew_.close();
+        while (closed_ + 1 < run_.ranks.size()) {
+            std::this_thread::sleep_for(naps_.next(false));
+            receive();
+        }
+        store([&] { run_.store.sync(); });
+    }
+
+    std::size_t first_missing() const {
+        std::size_t tile = 0;
+        while (tile < plan_.tiles() && run_.store.has(tile)) {
+            ++tile;
+        }
+        return tile;
+    }
+
+    TileCrew& crew_;
+    const TilePlan plan_;
+    const EnsembleRun& run_;
+    Naps naps_;
+    std::vector<std::size_t> dealt_, threads_;  // by rank
+    std::size_t all_threads_ = 0;
+    std::size_t outstanding_ = 0;
+    std::size_t next_ = 0;
+    int closed_ = 0;
+    bool stopping_ = false, unwritable_ = false;
+    double longest_tile_s_ = 0.0, saving_s_ = 0.0;
+    WallClock::time_point last_sync_;
+    EnsembleOutcome outcome_;
+};
+
+class Follower {
+  public:
+    Follower(TileCrew& crew, const EnsembleRun& run)
+        : crew_(crew),
+          run_(run),
+          naps_(run.ranks),
+          threads_(static_cast<std::size_t>(crew.threads())) {
+        run.ranks.gather(std::to_string(crew.threads()));
+    }
+
+    void run() {
+        while (!closed_) {
+            crew_.wait(naps_.next(tiles_ > threads_));
+            while (auto finished = crew_.take()) {
+                --tiles_;
+                naps_.finished(*finished);
+                if (!finished->failure.empty()) {
+                    finished->failure = rank_name(run_.ranks) + ": " + finished->failure;
+                }
+                say(run_.ranks, 0, Say::finished, bytes_of_tile(*finished));
+            }
+            pass_on_signal();
+            receive();
+        }
+        say(run_.ranks, 0, Say::times, bytes_of_times(crew_.close()));
+    }
+
+  private:
+    void pass_on_signal() {
+        if (told_ || run_.interruption == nullptr) {
+            return;
+        }
+        const std::string reason = run_.interruption->reason({});
+        if (!reason.empty()) {
+            told_ = true;
+            say(run_.ranks, 0, Say::stop, bytes_of_text(reason));
+        }
+    }
+
+    void receive() {
+        while (auto message = run_.ranks.receive()) {
+            switch (static_cast<Say>(message->kind)) {
+                case Say::compute:
+                    crew_.give(number_of(message->bytes));
+                    ++tiles_;
+                    break;
+                case Say::drop:
+                    drop();
+                    break;
+                case Say::close:
+                    closed_ = true;
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+
+    void drop() {
+        const std::size_t dropped = crew_.drop();
+        tiles_ -= dropped;
+        say(run_.ranks, 0, Say::dropped, bytes_of_number(dropped));
+    }
+
+    TileCrew& crew_;
+    const EnsembleRun& run_;
+    Naps naps_;
+    const std::size_t threads_;
+    std::size_t tiles_ = 0;  // given and not yet handed in
+    bool closed_ = false, told_ = false;
+};
+
+}  // namespace
+
+EnsembleOutcome lead(TileCrew& crew, const TilePlan& plan, const EnsembleRun& run) {
+    return Leader(crew, plan, run).run();
+}
+
+EnsembleOutcome follow(TileCrew& crew, const EnsembleRun& run) {
+    Follower(crew, run).run();
+    return {};
+}
+
+}  // namespace gearpod::mc

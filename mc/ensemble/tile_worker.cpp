@@ -1,0 +1,78 @@
+#include "mc/ensemble/tile_worker.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "machine/wall_clock.hpp"
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+
+Seconds& Seconds::operator+=(const Seconds& other) {
+    sampling += other.sampling;
+    stiffness += other.stiffness;
+    march += other.march;
+    signals += other.signals;
+    noise += other.noise;
+    features += other.features;
+    meshes += other.meshes;
+    return *this;
+}
+
+RowShape row_shape(const Sampler& sampler, const Study& study) {
+    return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size()};
+}
+
+TileWorker::TileWorker(const TileTask& task)
+    : task_(task),
+      features_(task.scene, &task.healthy),
+      shape_(row_shape(task.sampler, task.scene.study())) {}
+
+TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
+    std::vector<GearboxId> ids;
+    for (std::size_t i = 0; i < tile.count; ++i) {
+        ids.push_back({tile.group, tile.first_index + i});
+    }
+    TileRows rows;
+    const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
+    for (std::size_t first = 0; first < ids.size(); first += lanes) {
+        add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), rows, seconds);
+    }
+    return rows;
+}
+
+// As many gearboxes as there are lanes.
+void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds) {
+    const GearboxTile computed =
+        run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
+                      task_.scene.study().numerics.lanes, false, &task_.marches);
+    const auto start = WallClock::now();
+    const double noise_before = features_.noise_s();
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        add_row(ids[lane], computed, static_cast<int>(lane), rows);
+    }
+    const double spent_s = seconds_since(start);
+    const double noise = features_.noise_s() - noise_before;
+    seconds +=
+        {computed.sampling_s, computed.stiffness_s, computed.march_s, computed.signals_s, noise,
+         spent_s - noise,     computed.meshes};
+}
+
+void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,
+                         TileRows& rows) {
+    const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
+    rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+    const Status status = computed.status[static_cast<std::size_t>(lane)];
+    rows.status.push_back(static_cast<int>(status));
+
+    std::vector<double> values(shape_.features * shape_.levels,
+                               std::numeric_limits<double>::quiet_NaN());
+    if (status == Status::ok) {
+        values = features_.compute(
+            lane_signals(task_.scene, task_.path, computed, lane, features_.meshes()),
+            computed.inputs[static_cast<std::size_t>(lane)], id);
+    }
+    rows.values.insert(rows.values.end(), values.begin(), values.end());
+}
+
+}  // namespace gearpod::mc

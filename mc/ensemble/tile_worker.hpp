@@ -1,0 +1,62 @@
+// Computes tiles: from a tile's place in the ensemble to its rows.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/march_cache.hpp"
+#include "mc/results/tile_rows.hpp"
+
+namespace gearpod::mc {
+
+// Seconds of one thread, by what it did.
+struct Seconds {
+    double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
+    long meshes = 0;  // no time: mesh periods marched, each of as many gearboxes as there are lanes
+
+    Seconds& operator+=(const Seconds& other);
+    double sum() const { return sampling + stiffness + march + signals + noise + features; }
+};
+
+// The rows' shape for a scene.
+RowShape row_shape(const Sampler& sampler, const Study& study);
+
+// What all workers share, made once.
+struct TileTask {
+    explicit TileTask(const Scene& shared_scene)
+        : scene(shared_scene),
+          sampler(scene.study()),
+          path(path_grid(scene)),
+          marches(scene),
+          healthy(healthy_reference(scene, sampler, path)) {}
+
+    const Scene& scene;
+    const Sampler sampler;
+    const signals::PathGrid path;
+    const MarchCache marches;
+    const HealthyReference healthy;
+};
+
+// Holds scratch memory: one object per thread.
+class TileWorker {
+  public:
+    explicit TileWorker(const TileTask& task);
+
+    // The same bits whatever the lanes and whatever was computed before. Adds its time to
+    // `seconds`.
+    TileRows compute(const Tile& tile, Seconds& seconds);
+
+  private:
+    void add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds);
+    void add_row(const GearboxId& id, const GearboxTile& computed, int lane, TileRows& rows);
+
+    const TileTask& task_;
+    InstanceFeatures features_;
+    RowShape shape_;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,35 @@
+#include "mc/files/signal_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace gearpod::mc {
+
+bool SignalFile::has(const std::string& name) const {
+    const auto all = names();
+    return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+std::unique_ptr<SignalFile> open_signal_file(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        throw SignalError(path + ": no such file");
+    }
+    std::string kind = std::filesystem::path(path).extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    if (kind == ".csv") {
+        return open_signal_csv(path);
+    }
+    if (kind == ".h5" || kind == ".hdf5") {
+        return open_signal_hdf5(path);
+    }
+    if (kind == ".mat") {
+        return open_signal_mat(path);
+    }
+    throw SignalError(path +
+                      ": unknown kind of file; its name must end in .csv, .h5, .hdf5 or .mat");
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,252 @@
+#include "mc/forecast/analysis_trial.hpp"
+
+#include <algorithm>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "machine/wall_clock.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/gearbox/simulation.hpp"
+#include "mc/results/reliability_of_results.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Bytes that the assessment has of every value (gearbox, feature and noise level) at a time:
+// columns, their parts by size, ranks. From the peaks of `report` on results of 48,000, 126,000 and
+// 420,000 values.
+constexpr double kBytesOfValue = 60.0;
+
+double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Least-squares parabola through values over sizes, of whose terms (orthogonal over the sizes) only
+// those stay that are three standard errors or more: what the few computed gearboxes leave open
+// must not look like a finding among many.
+class Trend {
+  public:
+    Trend(const std::vector<double>& sizes, const std::vector<double>& values) {
+        const auto n = static_cast<double>(sizes.size());
+        if (n < 4.0) {
+            return;
+        }
+        mean_ = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
+        std::vector<double> linear, square;
+        for (const double size : sizes) {
+            linear.push_back(size - mean_);
+            square.push_back((size - mean_) * (size - mean_));
+        }
+        const double x2 = sum_of_products(linear, linear);
+        if (!(x2 > 0.0)) {
+            return;
+        }
+        square_mean_ = x2 / n;
+        square_slope_ = sum_of_products(linear, square) / x2;
+        for (std::size_t i = 0; i < square.size(); ++i) {
+            square[i] -= square_mean_ + square_slope_ * linear[i];
+        }
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+        const double p2 = sum_of_products(square, square);
+        const double b1 = sum_of_products(linear, values) / x2;
+        const double b2 = p2 > 0.0 ? sum_of_products(square, values) / p2 : 0.0;
+        double residual = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double rest = values[i] - mean - b1 * linear[i] - b2 * square[i];
+            residual += rest * rest;
+        }
+        const double least = 9.0 * residual / (n - 3.0);
+        linear_ = b1 * b1 * x2 >= least ? b1 : 0.0;
+        square_ = b2 * b2 * p2 >= least ? b2 : 0.0;
+    }
+
+    // But for a constant.
+    double at(double size) const {
+        const double x = size - mean_;
+        return linear_ * x + square_ * (x * x - square_mean_ - square_slope_ * x);
+    }
+
+  private:
+    double mean_ = 0.0, square_mean_ = 0.0, square_slope_ = 0.0;
+    double linear_ = 0.0, square_ = 0.0;
+};
+
+// The computed gearboxes of one group, by fault size.
+class Pool {
+  public:
+    Pool(const RunCalibration& calibration, const RowShape& shape, Group group)
+        : rows_(calibration.rows), shape_(shape) {
+        for (std::size_t row = 0; row < calibration.gearboxes.size(); ++row) {
+            if (calibration.gearboxes[row].group == group) {
+                order_.push_back(row);
+            }
+        }
+        std::sort(order_.begin(), order_.end(),
+                  [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+    }
+
+    bool empty() const { return order_.empty(); }
+
+    // A gearbox of that size or, with no such, any.
+    std::size_t draw(double wanted, Philox& engine) const {
+        auto [low, high] =
+            std::pair(std::partition_point(order_.begin(), order_.end(),
+                                           [&](std::size_t row) { return size(row) < wanted; }),
+                      std::partition_point(order_.begin(), order_.end(),
+                                           [&](std::size_t row) { return size(row) <= wanted; }));
+        if (low == high) {
+            low = order_.begin();
+            high = order_.end();
+        }
+        return *(low + boost::random::uniform_int_distribution<std::ptrdiff_t>(
+                           0, high - low - 1)(engine));
+    }
+
+    // How a feature follows the size.
+    Trend trend(std::size_t feature, std::size_t level) const {
+        std::vector<double> sizes, values;
+        for (const std::size_t row : order_) {
+            if (const double one = value(row, feature, level); std::isfinite(one)) {
+                sizes.push_back(size(row));
+                values.push_back(one);
+            }
+        }
+        return {sizes, values};
+    }
+
+    double value(std::size_t row, std::size_t feature, std::size_t level) const {
+        return rows_.values[row * shape_.values() + shape_.value_of(feature, level)];
+    }
+
+    // The smoothing's standard deviation: of the values, over the fifth root of their number.
+    double smoothing(std::size_t feature, std::size_t level) const {
+        double sum = 0.0, squares = 0.0, n = 0.0;
+        for (const std::size_t row : order_) {
+            if (const double one = value(row, feature, level); std::isfinite(one)) {
+                sum += one;
+                squares += one * one;
+                n += 1.0;
+            }
+        }
+        const double variance = n > 1.0 ? (squares - sum * sum / n) / (n - 1.0) : 0.0;
+        return std::sqrt(std::max(0.0, variance)) * std::pow(std::max(1.0, n), -0.2);
+    }
+
+    // The last parameter.
+    double size(std::size_t row) const {
+        return rows_.values[row * shape_.values() + shape_.parameters - 1];
+    }
+
+  private:
+    const TileRows& rows_;
+    const RowShape shape_;
+    std::vector<std::size_t> order_;
+};
+
+// Noise levels from the middle on.
+std::vector<std::size_t> level_order(std::size_t levels) {
+    std::vector<std::size_t> order(levels);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto middle = static_cast<double>(levels / 2);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(static_cast<double>(a) - middle) <
+               std::abs(static_cast<double>(b) - middle);
+    });
+    return order;
+}
+
+double seconds_of_analysis(Results results, int threads, bool assessed) {
+    const auto start = WallClock::now();
+    results.detection = detect_all(results);
+    if (assessed) {
+        reliability_of(results, ColumnRows(results), "", threads);
+    }
+    return seconds_since(start);
+}
+
+}  // namespace
+
+Results made_up_results(const Study& study, const RunCalibration& calibration, const TilePlan& plan,
+                        std::size_t rows, const std::vector<std::size_t>& levels) {
+    const Sampler sampler(study);
+    const RowShape shape = row_shape(sampler, study);
+    Results results = results_frame(study);
+    results.noise_levels.clear();
+    for (const std::size_t level : levels) {
+        results.noise_levels.push_back(study.sensor.noise_levels[level]);
+    }
+    results.request.noise_levels = results.noise_levels;
+
+    std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
+                              Pool(calibration, shape, Group::graded)};
+    // Healthy gearboxes scatter as those of the threshold sample do, or as all do if none is there.
+    const Pool& scatter = pools[pools[0].empty() ? 1 : 0];
+    std::vector<double> smoothing;
+    std::array<std::vector<Trend>, 2> trends;
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        for (const std::size_t level : levels) {
+            smoothing.push_back(scatter.smoothing(f, level));
+            for (std::size_t g = 0; g < pools.size(); ++g) {
+                trends[g].push_back((pools[g].empty() ? scatter : pools[g]).trend(f, level));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+        const GearboxId id = id_of_row(study, static_cast<long>(i * plan.rows() / rows));
+        const std::vector<double> parameters = sampler.row(id.group, id.index);
+        Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
+                      parameter_id("analysis.trial"));
+        boost::random::normal_distribution<double> normal;
+        const Pool& own = pools[static_cast<std::size_t>(id.group)];
+        const Pool& pool = own.empty() ? scatter : own;
+        const std::size_t like = pool.draw(parameters.back(), engine);
+        results.group.push_back(static_cast<int>(id.group));
+        results.status.push_back(calibration.rows.status[like]);
+        for (std::size_t p = 0; p < shape.parameters; ++p) {
+            results.parameters[p].values.push_back(parameters[p]);
+        }
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            for (std::size_t l = 0; l < levels.size(); ++l) {
+                const std::size_t at = f * levels.size() + l;
+                const Trend& trend = trends[static_cast<std::size_t>(id.group)][at];
+                results.features[f].values.push_back(
+                    pool.value(like, f, levels[l]) + trend.at(parameters.back()) -
+                    trend.at(pool.size(like)) + smoothing[at] * normal(engine));
+            }
+        }
+    }
+    return results;
+}
+
+AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,
+                           const TilePlan& plan, int threads, double budget_s) {
+    AnalysisTrial trial;
+    const std::size_t levels = study.sensor.noise_levels.size();
+    const std::size_t values = plan.rows() * study.features.use.size() * levels;
+    const bool assessed = values <= kMostAssessedValues;
+    trial.bytes = kBytesOfValue * static_cast<double>(std::min(values, kMostAssessedValues));
+    if (calibration.gearboxes.empty()) {
+        return trial;
+    }
+    trial.rows = std::min(plan.rows(), kTrialRows);
+    const std::vector<std::size_t> order = level_order(levels);
+    const auto start = WallClock::now();
+    while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(trial.levels);
+        const auto count =
+            std::min(levels - trial.levels, static_cast<std::size_t>(std::max(1, threads)));
+        std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
+        std::sort(now.begin(), now.end());
+        trial.total_s += seconds_of_analysis(
+            made_up_results(study, calibration, plan, trial.rows, now), threads, assessed);
+        trial.levels += count;
+        trial.trial_s = seconds_since(start);
+    }
+    trial.total_s *= static_cast<double>(levels) / static_cast<double>(trial.levels) *
+                     static_cast<double>(plan.rows()) / static_cast<double>(trial.rows);
+    return trial;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,255 @@
+#include "mc/forecast/describe_effects.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "mc/scene/sampling.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string choice(const Study& study, const char* section, const char* name) {
+    return std::string(choice_text(study, section, name));
+}
+
+bool random(const Study& study, const char* key) {
+    return study.find_random(key) != nullptr;
+}
+
+void print_motion(const Study& study) {
+    const Effects& e = study.effects;
+    std::string text = e.torsional() ? "rotations only (rigid bearings)" : "x, y and rotation";
+    if (e.quasi_static()) {
+        text += ", without inertia: static equilibrium at every sample";
+    }
+    print_entry("motion", text);
+    if (!e.quasi_static()) {
+        constexpr const char* kDamping[] = {"ratio of critical", "proportional to stiffness",
+                                            "constant"};
+        print_entry("mesh damping", kDamping[static_cast<int>(e.mesh_damping)]);
+    }
+    if (study.gearbox.kind == GearboxKind::planetary && e.inertial_terms && !e.torsional()) {
+        print_entry("inertial terms", e.quasi_static()
+                                          ? "centrifugal pull"
+                                          : "Coriolis and centrifugal, rigid rotation removed "
+                                            "every mesh");
+    }
+}
+
+// Where a gear lies outside what its foundation is fitted for.
+void print_foundation_warnings(const Study& study) {
+    std::set<Member> members;
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        members.insert({mesh.driver, mesh.driven});
+    }
+    for (const Member member : members) {
+        for (const std::string& warning : stiffness::foundation_warnings(
+                 gear_of(study, member), profile_of(study), study.effects.foundation,
+                 body_radius_m(study, member))) {
+            fmt::print("  warning: {}: {}\n", member_name(member), warning);
+        }
+    }
+}
+
+void print_meshes(const Study& study) {
+    const Effects& e = study.effects;
+    if (!stiffness_given(study)) {
+        print_entry("teeth", fmt::format("{} profile{}", choice(study, "gearbox", "tooth_profile"),
+                                         e.shear ? "" : ", without shear energy"));
+        if (e.foundation != Foundation::none) {
+            print_entry("foundation", choice(study, "effects", "foundation"));
+            print_foundation_warnings(study);
+        }
+        if (e.contact == Contact::load_dependent) {
+            print_entry("contact", "stiffens with the force it carries at the nominal torque");
+        }
+    }
+    if (e.separation != Separation::none) {
+        print_entry("tooth separation",
+                    e.separation == Separation::one_sided
+                        ? "one-sided: the back flanks never touch"
+                        : fmt::format("two-sided, backlash {:g} mm",
+                                      1e3 * study.gearbox.backlash_m.value_or(0.0)));
+    }
+    if (has_static_errors(study)) {
+        print_entry("transmission error", "harmonics of the mesh period");
+    }
+    if (has_pitch_errors(study)) {
+        print_entry("pitch errors", fmt::format("{:g} um rms a tooth, every mesh marched",
+                                                1e6 * study.errors.pitch_error_m));
+    }
+}
+
+// A sine's and a noise's size, nominal.
+std::string sizes(double amplitude, const std::string& rate, double rms, double band_Hz) {
+    std::string text =
+        rate.empty() ? "" : fmt::format("sine of {:g} of the mean, {}", amplitude, rate);
+    if (band_Hz > 0.0) {
+        text += fmt::format("{}noise of {:g} rms of the mean up to {:g} Hz",
+                            text.empty() ? "" : "; ", rms, band_Hz);
+    }
+    return text;
+}
+
+void print_driving(const Study& study) {
+    const FluctuationInstance f = Sampler(study).nominal().fluctuations;
+    if (torque_fluctuates(study)) {
+        const std::string rate = !torque_has_sine(study) ? ""
+                                 : f.torque_order > 0.0
+                                     ? fmt::format("{:g} times a turn of the input", f.torque_order)
+                                     : fmt::format("{:g} Hz", f.torque_Hz);
+        print_entry("torque fluctuation", sizes(f.torque, rate, f.torque_noise,
+                                                torque_has_noise(study) ? f.torque_noise_Hz : 0.0));
+    }
+    if (speed_fluctuates(study)) {
+        const std::string rate = speed_has_sine(study)
+                                     ? fmt::format("{:g} times a turn of the input", f.speed_order)
+                                     : "";
+        print_entry("speed fluctuation", sizes(f.speed, rate, f.speed_noise,
+                                               speed_has_noise(study) ? f.speed_noise_Hz : 0.0));
+    }
+    if (study.effects.gravity) {
+        print_entry("gravity",
+                    fmt::format("{:g} deg from the x axis{}",
+                                study.effects.gravity_direction_rad * 180.0 / std::numbers::pi,
+                                gravity_turns(study) ? ", turning in the carrier's frame" : ""));
+    }
+    if (const std::string why = why_no_mesh_repeats(study); !why.empty()) {
+        print_entry("every mesh", fmt::format("marched or solved, because {}", why));
+    }
+}
+
+void print_driving_left_out(const Study& study) {
+    if (!torque_fluctuates(study)) {
+        print_entry("torque fluctuation", "neither operation.torque_fluctuation nor torque_noise");
+    }
+    if (!speed_fluctuates(study)) {
+        print_entry("speed fluctuation",
+                    study.effects.quasi_static()
+                        ? "without inertia nothing feels it"
+                        : "neither operation.speed_fluctuation nor speed_noise");
+    }
+    if (!study.effects.gravity) {
+        print_entry("gravity", study.effects.torsional() && planets_balance(study)
+                                   ? "the planets' weights balance each other"
+                                   : "effects.gravity = false");
+    }
+}
+
+void print_fault(const Study& study) {
+    if (study.fault.kind == FaultKind::none) {
+        return;
+    }
+    std::string where(member_name(*study.fault.member));
+    if (study.fault.side) {
+        where += fmt::format(" {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
+                             study.fault.side == FaultSide::both ? "s" : "");
+    }
+    print_entry("fault",
+                fmt::format("{} on the {}",
+                            study.fault.kind == FaultKind::crack ? "tooth crack"
+                                                                 : choice(study, "fault", "kind"),
+                            where));
+}
+
+void print_sensor(const Study& study) {
+    if (study.effects.path != PathWindow::none) {
+        print_entry("transmission path",
+                    fmt::format("{} window, exponent {:g}", choice(study, "effects", "path"),
+                                study.sensor.path_exponent));
+    } else {
+        print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",
+                                          member_name(study.sensor.position)));
+    }
+    print_entry("sensor low-pass",
+                fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
+    if (!study.sensor.tones.empty()) {
+        print_entry("interfering tones", fmt::format("{}", study.sensor.tones.size()));
+    }
+}
+
+bool sensor_noise(const Study& study) {
+    return study.sensor.noise_m_s2 > 0.0 || random(study, "sensor.noise_m_s2");
+}
+bool encoder_noise(const Study& study) {
+    return study.sensor.encoder_noise_rad > 0.0 || random(study, "sensor.encoder_noise_arcsec");
+}
+
+void print_left_out(const Scene& scene) {
+    const Study& study = scene.study();
+    const Effects& e = study.effects;
+    print_heading("left out");
+    if (e.quasi_static()) {
+        print_entry("inertia and damping",
+                    fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
+        print_entry("sensor", "nothing accelerates");
+    }
+    if (e.torsional()) {
+        print_entry("x and y motion",
+                    fmt::format("effects.motion = \"{}\"", choice(study, "effects", "motion")));
+        print_entry("inertial terms", "rotations feel none");
+    } else if (study.gearbox.kind == GearboxKind::planetary && !e.inertial_terms) {
+        print_entry("inertial terms", "effects.inertial_terms = false");
+    }
+    print_driving_left_out(study);
+    if (!stiffness_given(study) && e.foundation == Foundation::none) {
+        print_entry("gear bodies", "effects.foundation = \"none\"");
+    }
+    if (study.fault.kind == FaultKind::none) {
+        print_entry("fault", "fault.kind = \"none\"");
+    }
+    if (!e.quasi_static() && !sensor_noise(study)) {
+        print_entry("sensor noise", "sensor.noise_m_s2 is 0");
+    }
+    if (!encoder_noise(study)) {
+        print_entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
+    }
+    if (!std::isfinite(scene.decay_meshes())) {
+        fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
+    }
+    if (!has_static_errors(study) && !has_pitch_errors(study)) {
+        print_entry("transmission error", "perfect flanks");
+    }
+    if (e.separation == Separation::none) {
+        print_entry("tooth separation", "the meshes are springs that always touch");
+    }
+}
+
+}  // namespace
+
+void print_heading(const char* text) {
+    fmt::print("\n{}\n", text);
+}
+
+void print_entry(const char* name, const std::string& value) {
+    fmt::print("  {:<26}{}\n", name, value);
+}
+
+void print_effects(const Scene& scene) {
+    const Study& study = scene.study();
+    print_heading("simulated");
+    print_motion(study);
+    print_meshes(study);
+    print_driving(study);
+    print_fault(study);
+    if (!study.effects.quasi_static()) {
+        print_sensor(study);
+        if (sensor_noise(study)) {
+            print_entry("sensor noise", fmt::format("{:g} m/s^2 rms times the noise level",
+                                                    study.sensor.noise_m_s2));
+        }
+    }
+    if (encoder_noise(study)) {
+        print_entry("encoder noise", fmt::format("{:.4g} rad rms times the noise level",
+                                                 study.sensor.encoder_noise_rad));
+    }
+    print_left_out(scene);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,73 @@
+#include "mc/forecast/describe_forecast.hpp"
+
+#include <fmt/format.h>
+
+#include "machine/dispatch.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/forecast/describe_effects.hpp"
+#include "mc/forecast/forecast.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Gearboxes, then the analysis.
+constexpr double kBudget_s = 1.0;
+
+// Two figures, or whole seconds.
+std::string seconds_text(double seconds) {
+    return seconds < 0.01   ? "less than 0.01 s"
+           : seconds < 9.95 ? fmt::format("{:.2g} s", seconds)
+                            : fmt::format("{:.0f} s", seconds);
+}
+
+std::string measured_text(const RunCalibration& calibration, const AnalysisTrial& trial) {
+    if (calibration.march_alone) {
+        return "a mesh period alone, and how many the damping asks for: a batch of gearboxes takes "
+               "too long";
+    }
+    std::string text = fmt::format("{} gearboxes in {:.1f} s", calibration.gearboxes.size(),
+                                   calibration.wall_s + calibration.task_s);
+    if (calibration.recorded < calibration.to_record) {
+        text +=
+            fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
+    }
+    return text +
+           fmt::format("; the analysis of {} made up from them, {} noise level{}, in {:.1f} s",
+                       trial.rows, trial.levels, trial.levels == 1 ? "" : "s", trial.trial_s);
+}
+
+// Shares of the threads' time, as `run` tells them.
+std::string shares_text(const Seconds& work, double thread_s) {
+    const auto share = [&](double seconds) { return 100.0 * seconds / std::max(1e-9, thread_s); };
+    return fmt::format(
+        "march {:.0f} %, stiffness {:.0f} %, signals {:.0f} %, noise {:.0f} %, "
+        "features {:.0f} %",
+        share(work.march), share(work.stiffness + work.sampling), share(work.signals),
+        share(work.noise), share(work.features));
+}
+
+}  // namespace
+
+void print_forecast(Scene& scene, double setup_s) {
+    const Study& study = scene.study();
+    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const int threads = thread_count(study);
+    const RunCalibration calibration = calibrate_run(scene, plan, threads, kBudget_s);
+    const AnalysisTrial trial = try_analysis(study, calibration, plan, threads, kBudget_s);
+    const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
+    print_heading("forecast of a run");
+    print_entry("measured on", measured_text(calibration, trial));
+    print_entry("threads", fmt::format("{}, {}", calibration.threads,
+                                       machine::name(machine::active_instruction_set())));
+    print_entry("set-up", seconds_text(forecast.setup_s));
+    print_entry("gearboxes", fmt::format("{}: {}", seconds_text(forecast.gearboxes_s),
+                                         shares_text(forecast.work,
+                                                     forecast.gearboxes_s * calibration.threads)));
+    print_entry("detection and results", seconds_text(forecast.detection_s));
+    print_entry("estimated time",
+                seconds_text(forecast.total_s()) +
+                    (study.ensemble.until.half_width ? ", less if ensemble.until ends it" : ""));
+    print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
+}
+
+}  // namespace gearpod::mc

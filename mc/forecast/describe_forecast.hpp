@@ -1,0 +1,13 @@
+// What `describe` says of the time and memory of a run.
+#pragma once
+
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// Computes some gearboxes and tries the analysis, for a few seconds at most, and prints what a run
+// of this study is going to take in this process. `setup_s`: what starting the program and making
+// the scene took.
+void print_forecast(Scene& scene, double setup_s);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,118 @@
+#include "mc/forecast/forecast.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "machine/wall_clock.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/numerics/numerical_error.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// What describing a study leaves out: a checkpoint and a results file are made and written, with
+// the HDF5 library at work. From runs of two gearboxes; a slow disk's syncing comes on top.
+constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
+
+// Hands out the batches of a group: those that march before those that need not.
+class Batches {
+  public:
+    Batches(const GroupCost& cost, std::size_t marched) : cost_(cost), marches_left_(marched) {}
+
+    const BatchCost& next() {
+        if (marches_left_ == 0) {
+            return cost_.reused;
+        }
+        --marches_left_;
+        return cost_.fresh;
+    }
+
+  private:
+    const GroupCost& cost_;
+    std::size_t marches_left_;
+};
+
+// Calls visit(cost, rows) for the batches of a tile.
+template <class Visit>
+void each_batch(const Tile& tile, std::size_t lanes, Batches& batches, Visit visit) {
+    for (std::size_t first = 0; first < tile.count; first += lanes) {
+        visit(batches.next(), std::min(lanes, tile.count - first));
+    }
+}
+
+std::array<Batches, 2> batches_of(const RunCalibration& calibration, const MarchCounts& marches) {
+    return {Batches(calibration.cost[0], marches.marched[0]),
+            Batches(calibration.cost[1], marches.marched[1])};
+}
+
+Seconds all_work(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
+                 const MarchCounts& marches) {
+    auto batches = batches_of(calibration, marches);
+    Seconds work;
+    for (std::size_t t = 0; t < plan.tiles(); ++t) {
+        const Tile tile = plan.tile(t);
+        each_batch(tile, lanes, batches[static_cast<std::size_t>(tile.group)],
+                   [&](const BatchCost& cost, std::size_t rows) {
+                       work += cost.whole;
+                       work.noise += static_cast<double>(rows) * cost.row.noise;
+                       work.features += static_cast<double>(rows) * cost.row.features;
+                   });
+    }
+    return work;
+}
+
+}  // namespace
+
+double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
+                   const MarchCounts& marches) {
+    auto batches = batches_of(calibration, marches);
+    // When each thread is free again.
+    std::vector<double> free(static_cast<std::size_t>(calibration.threads), calibration.start_s);
+    for (std::size_t t = 0; t < plan.tiles(); ++t) {
+        const Tile tile = plan.tile(t);
+        double seconds = 0.0;
+        each_batch(tile, lanes, batches[static_cast<std::size_t>(tile.group)],
+                   [&](const BatchCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
+        *std::min_element(free.begin(), free.end()) += seconds;
+    }
+    return *std::max_element(free.begin(), free.end());
+}
+
+double verification_s(const Scene& scene, const RunCalibration& calibration) {
+    const auto start = WallClock::now();
+    const FinerScene finer = finer_scene(scene);
+    if (finer.scene == nullptr) {
+        return 0.0;
+    }
+    const double setup_s = seconds_since(start);
+    const BatchCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].fresh;
+    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const double march_s = mesh_period_s(*finer.scene) * marched_meshes(*finer.scene);
+    return setup_s + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
+}
+
+double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double motion_bytes,
+                    double analysis_bytes) {
+    const double kept =
+        std::max(0.0, memory.kept + static_cast<double>(marches.kept) * motion_bytes);
+    // The analysis has what the gearboxes leave.
+    return std::max(memory.peak + memory.records + kept,
+                    memory.before + analysis_bytes + kFileBytes);
+}
+
+RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
+                         const RunCalibration& calibration, const AnalysisTrial& analysis,
+                         double setup_s) {
+    const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
+    const double motion = motion_bytes(scene);
+    const MarchCounts marches = count_marches(scene, plan, motion);
+    RunForecast forecast;
+    forecast.setup_s = setup_s + calibration.task_s + kFiles_s;
+    forecast.gearboxes_s = gearboxes_s(calibration, plan, lanes, marches);
+    forecast.work = all_work(calibration, plan, lanes, marches);
+    forecast.detection_s = analysis.total_s + verification_s(scene, calibration);
+    forecast.memory_bytes = memory_bytes(calibration.memory, marches, motion, analysis.bytes);
+    return forecast;
+}
+
+}  // namespace gearpod::mc

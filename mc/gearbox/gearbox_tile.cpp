@@ -1,0 +1,213 @@
+#include "mc/gearbox/gearbox_tile.hpp"
+
+#include "lockstep/steps/instability.hpp"
+#include "lockstep/tile/quasi_static.hpp"
+#include "machine/thread_clock.hpp"
+#include "machine/wall_clock.hpp"
+#include "mc/gearbox/march_cache.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "signals/path/path_window.hpp"
+#include "signals/sensor/sensor.hpp"
+#include "signals/spectra/averaged_te.hpp"
+#include "signals/windowing/folded_signal.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Seconds since `start`, which moves on to now.
+double lap(WallClock::time_point& start) {
+    const auto now = WallClock::now();
+    const double seconds = std::chrono::duration<double>(now - start).count();
+    start = now;
+    return seconds;
+}
+
+lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
+    const Numerics& n = scene.study().numerics;
+    lockstep::TileSettings settings;
+    settings.tolerance = settle_tolerance(scene.study());
+    settings.max_meshes = scene.max_meshes();
+    settings.march_meshes = n.horizon == Horizon::march ? scene.recorded_meshes() : 0;
+    settings.run_in_meshes = run_in_meshes(scene);
+    settings.with_motion = with_motion;
+    return settings;
+}
+
+template <int W>
+void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
+           GearboxTile& tile) {
+    auto start = WallClock::now();
+    std::vector<dynamics::GearboxInputs> inputs;
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.resize(static_cast<std::size_t>(scene.fault().curves()));
+    for (const InstanceInputs& instance : tile.inputs) {
+        inputs.push_back(scene.inputs(instance));
+        for (int c = 0; c < scene.fault().curves(); ++c) {
+            faults.curve[static_cast<std::size_t>(c)].push_back(
+                scene.fault().mesh(c, instance.fault_size));
+        }
+    }
+    const auto tooth_errors = draw_tooth_errors(scene, ids, tile.inputs);
+    faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
+    tile.stiffness_s = lap(start);
+    auto settings = tile_settings(scene, with_motion);
+    const auto excitation = draw_excitation(scene, ids, tile.inputs);
+    settings.excitation = excitation ? &*excitation : nullptr;
+    const double processor_start = thread_processor_s();
+    if constexpr (W <= 8) {
+        tile.march = scene.study().effects.quasi_static()
+                         ? lockstep::run_quasi_static<W>(scene.plan(), inputs, faults, settings)
+                         : lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    } else {
+        tile.march = lockstep::run_tile<W>(scene.plan(), inputs, faults, settings);
+    }
+    tile.march_s = lap(start);
+    tile.meshes = tile.march.marched;
+    tile.march_cpu_s = thread_processor_s() - processor_start;
+}
+
+void march(const Scene& scene, std::span<const GearboxId> ids, int lanes, bool with_motion,
+           GearboxTile& tile) {
+    if (lanes == 1) {
+        march<1>(scene, ids, with_motion, tile);
+    } else if (lanes == 4) {
+        march<4>(scene, ids, with_motion, tile);
+    } else if (lanes == 8) {
+        march<8>(scene, ids, with_motion, tile);
+    } else {
+        march<16>(scene, ids, with_motion, tile);
+    }
+}
+
+Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
+    const bool ok = status == lockstep::LaneStatus::ok;
+    const bool diverged = status == lockstep::LaneStatus::diverged;
+    if (scene.study().effects.quasi_static()) {
+        return ok ? Status::ok : diverged ? Status::no_equilibrium : Status::not_settled;
+    }
+    if (ok) {
+        // A motion that nothing excites does not grow although it would.
+        return lockstep::above_critical_speed(scene.plan().layout, scene.inputs(instance),
+                                              scene.mean_pairs())
+                   ? Status::supercritical
+                   : Status::ok;
+    }
+    switch (lockstep::find_instability(scene.plan(), scene.inputs(instance))) {
+        case lockstep::Instability::turning_frame:
+            return Status::supercritical;
+        case lockstep::Instability::parametric:
+            return Status::parametric;
+        case lockstep::Instability::step:
+            return Status::step_too_long;
+        case lockstep::Instability::none:
+            break;
+    }
+    return diverged ? Status::diverged : Status::not_settled;
+}
+
+}  // namespace
+
+signals::PathGrid path_grid(const Scene& scene) {
+    const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
+    if (planetary == nullptr || scene.study().effects.path == PathWindow::none) {
+        // One sensor that weighs the same whatever turns.
+        return {signals::path_window("rectangular"), 1, scene.samples_per_mesh(), scene.span()};
+    }
+    const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
+                                                            : signals::CarrierSense::positive;
+    return {signals::path_window(choice_text(scene.study(), "effects", "path")),
+            gears::planet_places(planetary->train()), scene.samples_per_mesh(), scene.span(),
+            sense};
+}
+
+namespace {
+
+GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids, int lanes) {
+    auto start = WallClock::now();
+    GearboxTile tile;
+    for (const GearboxId& id : ids) {
+        tile.inputs.push_back(sampler.sample(id.group, id.index));
+    }
+    tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
+    tile.sampling_s = lap(start);
+    return tile;
+}
+
+// What the sensors see of a tile that has been marched.
+void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 GearboxTile& tile) {
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
+    }
+    auto start = WallClock::now();
+    tile.views = {static_cast<int>(tile.inputs.size()),
+                  dynamics::sources(scene.plan().layout),
+                  scene.samples_per_mesh(),
+                  {},
+                  {}};
+    for (const lockstep::MeshRecord& record : tile.march.records) {
+        tile.views.accel.push_back(record.acceleration.data());
+        tile.views.te.push_back(record.te.data());
+    }
+    // A gearbox without inertia shakes no sensor.
+    if (!scene.study().effects.quasi_static()) {
+        std::vector<double> exponents;
+        for (const InstanceInputs& instance : tile.inputs) {
+            exponents.push_back(instance.path_exponent);
+        }
+        tile.tones = draw_tones(scene, ids, tile.inputs);
+        const signals::FoldPlan plan(tile.march.content, scene.span());
+        signals::fold_squares(tile.views, plan, path, exponents, tile.tones, tile.folded);
+    }
+    signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
+                        tile.te_turn);
+    tile.signals_s = lap(start);
+}
+
+}  // namespace
+
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int lanes, bool with_motion,
+                          const MarchCache* marches) {
+    GearboxTile tile = sampled_tile(sampler, ids, lanes);
+    const MarchCache* const kept = with_motion ? nullptr : marches;
+    auto start = WallClock::now();
+    if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
+        tile.march = *before;
+        tile.march_s = lap(start);
+    } else {
+        march(scene, ids, lanes, with_motion, tile);
+        if (kept != nullptr) {
+            kept->keep(tile.inputs, tile.march);
+        }
+    }
+    add_signals(scene, path, ids, tile);
+    return tile;
+}
+
+GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult march) {
+    GearboxTile tile = sampled_tile(sampler, ids, static_cast<int>(march.status.size()));
+    tile.march = std::move(march);
+    add_signals(scene, path, ids, tile);
+    return tile;
+}
+
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
+    LaneSignals own;
+    own.folded.resize(tile.folded.size() / lanes);
+    own.te_turn.resize(tile.te_turn.size() / lanes);
+    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    if (meshes > 0) {
+        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
+                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
+                                         0, meshes, tile.tones);
+    }
+    return own;
+}
+
+}  // namespace gearpod::mc

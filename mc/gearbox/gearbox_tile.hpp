@@ -1,0 +1,57 @@
+// W gearboxes of a study from their sampled inputs to recorded motion and folded signals.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lockstep/tile/tile.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "signals/noise/tones.hpp"
+#include "signals/path/transmission_path.hpp"
+#include "signals/tile_signals.hpp"
+
+namespace gearpod::mc {
+
+class MarchCache;  // march_cache.hpp
+
+// A tile's results; `march.records` owns what `views` shows.
+struct GearboxTile {
+    std::vector<InstanceInputs> inputs;  // one per lane
+    lockstep::TileResult march;
+    std::vector<Status> status;  // of the gearboxes asked for
+    signals::TileSignals views;
+    signals::Tones tones;            // interfering; empty without
+    machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
+    machine::AlignedVector te_turn;  // [sample][lane], rad
+
+    double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    int meshes = 0;            // mesh periods marched for it, 0 if `march` was there before
+    double march_cpu_s = 0.0;  // the march's share of this thread's processor time
+};
+
+// The path's tables for a scene.
+signals::PathGrid path_grid(const Scene& scene);
+
+// Runs the gearboxes in `ids`, at most as many as there are lanes (16, 8, 4 or 1); missing lanes
+// repeat the last one. With `marches`, what was marched before is not marched again.
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int lanes, bool with_motion = false,
+                          const MarchCache* marches = nullptr);
+
+// The same from a march made elsewhere, of as many lanes as it has a status.
+GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, lockstep::TileResult march);
+
+// One lane of a tile.
+struct LaneSignals {
+    std::vector<double> folded;   // as GearboxTile::folded
+    std::vector<double> te_turn;  // as GearboxTile::te_turn
+    std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
+};
+// `meshes`: mesh periods of sensor signal, 0 for none.
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes);
+
+}  // namespace gearpod::mc

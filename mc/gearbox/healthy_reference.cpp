@@ -1,0 +1,86 @@
+#include "mc/gearbox/healthy_reference.hpp"
+
+#include <algorithm>
+
+#include "mc/gearbox/instance_features.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+double variance(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    for (const double value : values) {
+        squares += (value - sum / count) * (value - sum / count);
+    }
+    return squares / count;
+}
+
+}  // namespace
+
+HealthyRecordsMean::HealthyRecordsMean(std::size_t levels) : records_(levels, 0) {
+    sum_.residual_variance.resize(levels, 0.0);
+    sum_.envelope_variance.resize(levels, 0.0);
+    sum_.amplitude.resize(levels);
+}
+
+void HealthyRecordsMean::add(std::size_t level, const features::FeatureInput& input) {
+    ++records_[level];
+    sum_.residual_variance[level] += variance(input.sensor.residual);
+    sum_.envelope_variance[level] += variance(input.sensor.envelope);
+    std::vector<double>& amplitude = sum_.amplitude[level];
+    amplitude.resize(input.sensor.amplitude.size(), 0.0);
+    for (std::size_t k = 0; k < amplitude.size(); ++k) {
+        amplitude[k] += input.sensor.amplitude[k];
+    }
+}
+
+HealthyReference HealthyRecordsMean::mean() const {
+    HealthyReference mean = sum_;
+    for (std::size_t level = 0; level < records_.size(); ++level) {
+        mean.residual_variance[level] /= records_[level];
+        mean.envelope_variance[level] /= records_[level];
+        for (double& amplitude : mean.amplitude[level]) {
+            amplitude /= records_[level];
+        }
+    }
+    return mean;
+}
+
+HealthyReference healthy_reference(const Scene& scene, const Sampler& sampler,
+                                   const signals::PathGrid& path) {
+    if ((needs_of(used_features(scene.study())) & features::kHealthy) == 0) {
+        return {};
+    }
+    return simulated_reference(scene, sampler, path);
+}
+
+HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
+                                     const signals::PathGrid& path) {
+    const int lanes = scene.study().numerics.lanes;
+    InstanceSignals records(scene, features::kSensorTurn);
+    HealthyRecordsMean mean(scene.study().sensor.noise_levels.size());
+    for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
+        std::vector<GearboxId> ids;
+        for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
+            ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
+        }
+        const GearboxTile tile = run_gearboxes(scene, sampler, path, ids, lanes);
+        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+            if (tile.status[lane] == Status::ok) {
+                const int l = static_cast<int>(lane);
+                records.each_level(lane_signals(scene, path, tile, l, records.meshes()),
+                                   tile.inputs[lane], ids[lane],
+                                   [&](std::size_t level, const features::FeatureInput& input) {
+                                       mean.add(level, input);
+                                   });
+            }
+        }
+    }
+    return mean.mean();
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,37 @@
+// A measured signal on the mesh-phase grid of a study.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// Which columns of a signal file to take; "" for those that it may do without.
+struct SignalColumns {
+    std::string sensor;        // by default "sensor", if there is one
+    std::string te;            // by default "te", if there is one
+    double sampling_Hz = 0.0;  // 0: from the file
+};
+
+struct MeasuredSignal {
+    std::vector<double> sensor;  // m/s^2, P a mesh period; empty without the column
+    std::vector<double> te;      // rad, P_te a mesh period; empty without the column
+    int sensor_meshes = 0, te_meshes = 0;
+    std::string tracking;  // how the samples got their mesh phase
+};
+
+// Reads a file (signal_file.hpp) and resamples it where it is not on the grid already. A sample's
+// mesh phase comes from
+//
+//     column mesh_phase    mesh periods
+//     column speed_rpm     of the member whose speed the study gives, integrated over the time
+//     otherwise            the study's speed, which is then constant
+//
+// and its time from sampling_Hz, the column time (s), or the rate that the file tells. Throws
+// SignalError with every problem, one a line.
+MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
+                                    const Scene& scene);
+
+}  // namespace gearpod::mc

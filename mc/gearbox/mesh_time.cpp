@@ -1,0 +1,128 @@
+#include "mc/gearbox/mesh_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "lockstep/steps/step_pilot.hpp"
+#include "lockstep/tile/driven_march.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+#include "machine/thread_clock.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// One thread's seconds for a healthy mesh period of W nominal gearboxes, the least of some marches
+// from rest, in which the motion may well grow without bound; that costs the same.
+template <int W>
+double least_mesh_s(const Scene& scene, const lockstep::MarchPlan& plan, bool as_driven,
+                    int marches) {
+    const std::vector<InstanceInputs> instances(W, Sampler(scene.study()).nominal());
+    const std::vector<dynamics::GearboxInputs> inputs(W, scene.inputs(instances[0]));
+    const std::vector<GearboxId> ids(W);
+    const auto excitation = as_driven ? draw_excitation(scene, ids, instances) : std::nullopt;
+    lockstep::MeshRecord record = lockstep::make_record(plan, W, false);
+    std::function<void(lockstep::TileState&)> march;
+    if constexpr (W <= 8) {  // sixteen abreast nothing drives unevenly
+        if (excitation) {
+            march = [&, driven = std::shared_ptr<lockstep::DrivenMarch<W>>(
+                            lockstep::make_driven_march<W>(plan, *excitation, inputs))](
+                        lockstep::TileState& state) { (*driven)(0, {}, state, record); };
+        }
+    }
+    if (!march) {
+        march = [&, steady = std::shared_ptr<const lockstep::MeshMarch<W>>(
+                        lockstep::make_mesh_march<W>(plan, inputs))](lockstep::TileState& state) {
+            (*steady)({}, state, record);
+        };
+    }
+    const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < marches; ++i) {
+        lockstep::TileState state = lockstep::still_state(degrees, plan.channels(), W);
+        const double start = thread_processor_s();
+        march(state);
+        least = std::min(least, thread_processor_s() - start);
+    }
+    return least;
+}
+
+// The scene's plan by the classical Runge-Kutta method.
+lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
+    lockstep::MarchPlan plan = scene.plan();
+    plan.integrator = lockstep::Integrator::rk4;
+    plan.grid = lockstep::make_phase_grid(plan.grid.samples, steps, {});
+    plan.grid.stage_nodes = lockstep::stage_nodes(plan.integrator);
+    plan.nodes = lockstep::tabulate(scene.pairs(), plan.grid, scene.study().effects.mesh_damping);
+    if (plan.mesh_law != dynamics::MeshLaw::linear) {
+        lockstep::add_errors(
+            scene.pairs(), plan.grid,
+            std::vector<lockstep::MeshError>(static_cast<std::size_t>(scene.pairs().pairs())),
+            plan.nodes);
+    }
+    return plan;
+}
+
+// Mesh periods recorded beside the healthy one: all, or the passages of the fault.
+double recorded_beside_orbit(const Scene& scene) {
+    if (scene.study().numerics.horizon == Horizon::march) {
+        return scene.recorded_meshes();
+    }
+    if (scene.faulty_pair() < 0) {
+        return 0.0;
+    }
+    const double passage = std::ceil(scene.pairs().curve(scene.faulty_pair()).contact_ratio()) +
+                           approach_meshes(scene);
+    return std::min(passage * static_cast<double>(scene.pattern().passages.size()),
+                    static_cast<double>(scene.pattern().length));
+}
+
+}  // namespace
+
+double approach_meshes(const Scene& scene) {
+    if (scene.study().effects.quasi_static()) {
+        return 0.0;
+    }
+    return std::min(1.0 + scene.decay_meshes() * -std::log(settle_tolerance(scene.study())),
+                    static_cast<double>(scene.max_meshes()));
+}
+
+double marched_meshes(const Scene& scene) {
+    const bool marches_all = scene.study().numerics.horizon == Horizon::march;
+    return approach_meshes(scene) + (marches_all ? run_in_meshes(scene) : 0) +
+           recorded_beside_orbit(scene);
+}
+
+double motion_bytes(const Scene& scene) {
+    const lockstep::MeshRecord record =
+        lockstep::make_record(scene.plan(), scene.study().numerics.lanes, false);
+    return 8.0 * static_cast<double>(record.acceleration.size() + record.te.size()) *
+           (1.0 + recorded_beside_orbit(scene));
+}
+
+double mesh_period_s(const Scene& scene) {
+    constexpr int kMarches = 5;
+    switch (scene.study().numerics.lanes) {
+        case 1:
+            return least_mesh_s<1>(scene, scene.plan(), true, kMarches);
+        case 4:
+            return least_mesh_s<4>(scene, scene.plan(), true, kMarches);
+        case 8:
+            return least_mesh_s<8>(scene, scene.plan(), true, kMarches);
+        default:
+            return least_mesh_s<16>(scene, scene.plan(), true, kMarches);
+    }
+}
+
+double explicit_step_s(const Scene& scene) {
+    constexpr int kSteps = 2000, kMarches = 20;
+    const lockstep::MarchPlan plan = explicit_plan(scene, kSteps);
+    return least_mesh_s<lockstep::kPilotLanes>(scene, plan, false, kMarches) /
+           static_cast<double>(plan.grid.steps.size()) / lockstep::kPilotLanes;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,26 @@
+// How long a march is going to take and how large its records will be, before it is marched.
+#pragma once
+
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+// Mesh periods that the nominal gearboxes march until their orbit repeats; 0 if nothing is marched.
+double approach_meshes(const Scene& scene);
+// Mesh periods that a batch of gearboxes marches or solves: approach, run-in, and the passages of
+// the fault or, where every mesh is marched, all that is recorded. From the nominal damping: most
+// gearboxes march about as many.
+double marched_meshes(const Scene& scene);
+
+// Bytes of what a batch records of its motion.
+double motion_bytes(const Scene& scene);
+
+// Seconds of one thread for one healthy mesh period of as many gearboxes as there are lanes, driven
+// as the study says: the least of some marches from rest.
+double mesh_period_s(const Scene& scene);
+
+// The same of a step of the classical Runge-Kutta method, also where nobody would march by it, and
+// of one gearbox in a full tile; nothing drives it unevenly.
+double explicit_step_s(const Scene& scene);
+
+}  // namespace gearpod::mc

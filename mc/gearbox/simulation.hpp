@@ -1,0 +1,25 @@
+// One gearbox of a study with all its signals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+
+struct Simulation {
+    std::vector<SignalColumn> columns;
+    std::vector<double> noise_levels;
+    std::vector<std::string> feature_names;
+    std::vector<double> features;  // [feature * levels + level], as in a results file
+};
+
+// The gearbox in a row of the results.
+GearboxId id_of_row(const Study& study, long row);
+
+// Its first mesh periods. Throws std::runtime_error if it diverges or does not settle.
+Simulation simulate(const Scene& scene, const GearboxId& id, long meshes);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,182 @@
+#include "mc/gearbox/tile_draws.hpp"
+
+#include <algorithm>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t lane,
+                 std::string_view purpose) {
+    const GearboxId& id = ids[std::min(lane, ids.size() - 1)];
+    return {static_cast<std::uint64_t>(scene.study().ensemble.seed), id.group, id.index,
+            parameter_id(purpose)};
+}
+
+// Teeth of the gears in the order of lockstep::planetary_teeth and fixed_shaft_teeth.
+std::vector<int> flanks(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return {*study.fixed_shaft.pinion_teeth, *study.fixed_shaft.gear_teeth};
+    }
+    const Gearbox& g = study.gearbox;
+    std::vector<int> teeth{*g.sun_teeth, *g.ring_teeth};
+    teeth.resize(teeth.size() + 2 * static_cast<std::size_t>(g.planets), *g.planet_teeth);
+    return teeth;
+}
+
+// What a sine and noise are made from.
+struct SineInputs {
+    double amplitude, turns_per_mesh, turns_per_s, phase_rad;
+};
+struct NoiseInputs {
+    double rms, band_Hz;
+};
+
+void add_sine(const SineInputs& in, lockstep::Fluctuation& f) {
+    f.amplitude.push_back(in.amplitude);
+    f.turns_per_mesh.push_back(in.turns_per_mesh);
+    f.turns_per_s.push_back(in.turns_per_s);
+    f.turns.push_back(in.phase_rad / (2.0 * std::numbers::pi));
+}
+
+// Independent normal knots; lanes with fewer of them are filled up with zeros.
+void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_period_s,
+                double first_mesh, double last_mesh, std::vector<Philox> engines,
+                lockstep::Fluctuation& f) {
+    const std::size_t lanes = noise.size();
+    std::vector<std::size_t> count(lanes);
+    for (std::size_t l = 0; l < lanes; ++l) {
+        boost::random::uniform_real_distribution<double> part(0.0, 1.0);
+        const double a_mesh = lockstep::knots_per_s(noise[l].band_Hz) * mesh_period_s[l];
+        f.knots_per_s.push_back(a_mesh / mesh_period_s[l]);
+        f.first_knot.push_back(1.0 + part(engines[l]) - first_mesh * a_mesh);
+        // The spline reaches two knots further.
+        count[l] = 4 + static_cast<std::size_t>(std::ceil((last_mesh - first_mesh) * a_mesh));
+    }
+    f.knot.resize(*std::max_element(count.begin(), count.end()) * lanes);
+    for (std::size_t l = 0; l < lanes; ++l) {
+        boost::random::normal_distribution<double> unit;
+        for (std::size_t knot = 0; knot < count[l]; ++knot) {
+            f.knot[knot * lanes + l] = noise[l].rms * lockstep::knot_deviation() * unit(engines[l]);
+        }
+    }
+}
+
+}  // namespace
+
+int run_in_meshes(const Scene& scene) {
+    const bool orbit = scene.load_shares() == nullptr && why_no_mesh_repeats(scene.study()).empty();
+    return orbit ? 0 : scene.max_meshes() / 2;
+}
+
+std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+                                                    std::span<const GearboxId> ids,
+                                                    std::span<const InstanceInputs> inputs) {
+    const Study& study = scene.study();
+    if (!driven_unevenly(study)) {
+        return std::nullopt;
+    }
+    const Drive& drive = scene.drive();
+    const double input_turns = drive.input_turns_per_mesh();
+    std::vector<double> mesh_period_s;
+    lockstep::Fluctuation torque, speed;
+    std::vector<NoiseInputs> torque_noise, speed_noise;
+    std::vector<Philox> torque_engines, speed_engines;
+    lockstep::Excitation excitation;
+    for (std::size_t lane = 0; lane < inputs.size(); ++lane) {
+        const FluctuationInstance& f = inputs[lane].fluctuations;
+        mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
+        add_sine({f.torque, f.torque_order * input_turns, f.torque_Hz, f.torque_phase_rad}, torque);
+        add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
+        torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
+        speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
+        torque_engines.push_back(stream_of(scene, ids, lane, "operation.torque_noise.knots"));
+        speed_engines.push_back(stream_of(scene, ids, lane, "operation.speed_noise.knots"));
+        excitation.turning_m_s.push_back(drive.turning_m_s(inputs[lane]));
+    }
+    // The sensor's time runs on when the speed drops: some more of the torque's knots.
+    const double first = -run_in_meshes(scene), last = scene.signal_meshes();
+    if (torque_fluctuates(study)) {
+        excitation.torque = torque_has_sine(study) ? torque : lockstep::Fluctuation{};
+        if (torque_has_noise(study)) {
+            const double spare = speed_fluctuates(study) ? 0.5 * (last - first) : 0.0;
+            draw_noise(torque_noise, mesh_period_s, first, last + spare, torque_engines,
+                       *excitation.torque);
+        }
+    }
+    if (speed_fluctuates(study)) {
+        excitation.speed = speed_has_sine(study) ? speed : lockstep::Fluctuation{};
+        excitation.driving = drive.driving_degree(scene.plan().layout);
+        if (speed_has_noise(study)) {
+            draw_noise(speed_noise, mesh_period_s, first, last, speed_engines, *excitation.speed);
+        }
+    }
+    if (study.effects.gravity) {
+        excitation.gravity.emplace();
+        excitation.gravity->direction_rad = study.effects.gravity_direction_rad;
+        excitation.gravity->carrier_turns_per_mesh = drive.frame_turns_per_mesh();
+    }
+    return excitation;
+}
+
+signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
+                          std::span<const InstanceInputs> inputs) {
+    signals::Tones tones;
+    const std::vector<Tone>& wanted = scene.study().sensor.tones;
+    if (wanted.empty()) {
+        return tones;
+    }
+    const std::size_t lanes = inputs.size();
+    tones.phase_rad.resize(wanted.size() * lanes);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        tones.mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
+        Philox engine = stream_of(scene, ids, lane, "sensor.tones.phase");
+        boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            tones.phase_rad[i * lanes + lane] = turn(engine);
+        }
+    }
+    for (const Tone& tone : wanted) {
+        tones.frequency_Hz.insert(tones.frequency_Hz.end(), lanes, tone.frequency_Hz);
+        tones.amplitude_m_s2.insert(tones.amplitude_m_s2.end(), lanes, tone.amplitude_m_s2);
+    }
+    return tones;
+}
+
+std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
+                                                       std::span<const GearboxId> ids,
+                                                       std::span<const InstanceInputs> inputs) {
+    if (scene.load_shares() == nullptr) {
+        return std::nullopt;
+    }
+    const std::size_t lanes = inputs.size();
+    lockstep::ToothErrors errors;
+    errors.shares = scene.load_shares();
+    const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
+    errors.pairs =
+        planetary == nullptr
+            ? lockstep::fixed_shaft_teeth()
+            : lockstep::planetary_teeth(scene.pairs(), planetary->train(), planetary->sense());
+    for (const int teeth : flanks(scene.study())) {
+        errors.gears.push_back(
+            {teeth, machine::AlignedVector(static_cast<std::size_t>(teeth) * lanes)});
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        Philox engine = stream_of(scene, ids, lane, "gearbox.pitch_error.teeth");
+        boost::random::normal_distribution<double> unit;
+        for (lockstep::GearErrors& gear : errors.gears) {
+            for (std::size_t tooth = 0; tooth < static_cast<std::size_t>(gear.teeth); ++tooth) {
+                gear.error_m[tooth * lanes + lane] = inputs[lane].pitch_error_m * unit(engine);
+            }
+        }
+    }
+    return errors;
+}
+
+}  // namespace gearpod::mc

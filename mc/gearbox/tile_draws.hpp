@@ -1,0 +1,37 @@
+// What is drawn for a gearbox beside its inputs: the phases of interfering tones, and the pitch
+// errors of its teeth. As with the inputs, a gearbox's draws depend on nothing but itself.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "lockstep/plan/excitation.hpp"
+#include "lockstep/plan/tooth_errors.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "signals/noise/tones.hpp"
+
+namespace gearpod::mc {
+
+// `inputs` holds one gearbox a lane; lanes beyond `ids` repeat the last of them.
+
+// Nothing keeps step with the tones: each begins anywhere in its turn. Empty without tones.
+signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
+                          std::span<const InstanceInputs> inputs);
+
+// Normal pitch errors of every flank of every gear. None without pitch errors.
+std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
+                                                       std::span<const GearboxId> ids,
+                                                       std::span<const InstanceInputs> inputs);
+
+// Mesh periods that are marched before the first recorded one.
+int run_in_meshes(const Scene& scene);
+
+// Gravity, and the fluctuations of torque and speed; their noise has knots from before the run-in
+// to behind the last mesh of scene.signal_meshes(), and begins anywhere between two knots. None if
+// nothing drives the gearboxes unevenly.
+std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
+                                                    std::span<const GearboxId> ids,
+                                                    std::span<const InstanceInputs> inputs);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,276 @@
+#include "mc/input/document.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+// toml++ 3.3 asserts, and in release builds assumes, what malformed headers such as "[[[" break
+// (its pull request 301 says so). Here a broken assumption is an exception, and thereby a syntax
+// error.
+namespace gearpod::mc {
+struct BrokenAssumption {};
+constexpr void require(bool assumption) {
+    if (!assumption) {
+        throw BrokenAssumption{};
+    }
+}
+}  // namespace gearpod::mc
+#undef NDEBUG
+#define TOML_ASSERT(expression) ::gearpod::mc::require(static_cast<bool>(expression))
+#include <toml++/toml.h>
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::string_view kOverrideFile = "--set";
+
+class Converter {
+  public:
+    explicit Converter(std::string file) : file_(std::move(file)) {}
+
+    Value convert(const toml::node& node) const {
+        Value value;
+        value.position = position(node.source());
+        if (const auto* boolean = node.as_boolean()) {
+            value.kind = Value::Kind::boolean;
+            value.boolean = boolean->get();
+        } else if (const auto* integer = node.as_integer()) {
+            value.kind = Value::Kind::integer;
+            value.integer = integer->get();
+            value.number = static_cast<double>(integer->get());
+        } else if (const auto* number = node.as_floating_point()) {
+            value.kind = Value::Kind::number;
+            value.number = number->get();
+        } else if (const auto* text = node.as_string()) {
+            value.kind = Value::Kind::text;
+            value.text = text->get();
+        } else if (const auto* array = node.as_array()) {
+            value.kind = Value::Kind::array;
+            for (const toml::node& element : *array) {
+                value.elements.push_back(convert(element));
+            }
+        } else if (const auto* table = node.as_table()) {
+            for (const auto& [key, child] : *table) {
+                value.entries.push_back(
+                    {std::string(key.str()), convert(child), position(key.source())});
+            }
+        } else {
+            value.kind = Value::Kind::date;
+        }
+        return value;
+    }
+
+  private:
+    Position position(const toml::source_region& source) const {
+        return {file_, file_ == kOverrideFile ? 0 : static_cast<int>(source.begin.line)};
+    }
+    std::string file_;
+};
+
+// toml++ ends its message with the text position, which the problem states in its own way.
+std::string plain_message(std::string_view description) {
+    std::string message(description);
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message;
+}
+
+bool is_bare_word(std::string_view text) {
+    return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) &&
+           std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
+
+// The value of an assignment; a bare word is a string because shells eat quotes.
+bool parse_value(const std::string& text, Value& value, std::string& why) {
+    try {
+        const toml::table table = toml::parse("value = " + text, kOverrideFile);
+        if (table.size() != 1) {
+            why = "it holds more than one value";
+            return false;
+        }
+        value = Converter(std::string(kOverrideFile)).convert(*table.get("value"));
+        return true;
+    } catch (const toml::parse_error& error) {
+        if (is_bare_word(text)) {
+            value.kind = Value::Kind::text;
+            value.text = text;
+            value.position = {std::string(kOverrideFile), 0};
+            return true;
+        }
+        why = plain_message(error.description());
+        return false;
+    } catch (const BrokenAssumption&) {
+        why = "malformed";
+        return false;
+    }
+}
+
+// The first line with which the text breaks toml++'s assumptions.
+int breaking_line(const std::string& text) {
+    int line = 1;
+    for (std::size_t end = text.find('\n'); end != std::string::npos;
+         end = text.find('\n', end + 1), ++line) {
+        try {
+            static_cast<void>(toml::parse(std::string_view(text).substr(0, end)));
+        } catch (const toml::parse_error&) {
+        } catch (const BrokenAssumption&) {
+            return line;
+        }
+    }
+    return line;
+}
+
+std::string trimmed(std::string_view text) {
+    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+    while (!text.empty() && blank(text.front())) {
+        text.remove_prefix(1);
+    }
+    while (!text.empty() && blank(text.back())) {
+        text.remove_suffix(1);
+    }
+    return std::string(text);
+}
+
+std::vector<std::string> split_path(const std::string& path) {
+    std::vector<std::string> parts(1);
+    for (const char c : path) {
+        if (c == '.') {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+Entry* find_entry(Value& table, std::string_view name) {
+    const auto found = std::find_if(table.entries.begin(), table.entries.end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == table.entries.end() ? nullptr : &*found;
+}
+
+// The entry of that name in a table, made if absent. What is no table becomes one.
+Entry& child(Entry& parent, const std::string& name) {
+    const Position at{std::string(kOverrideFile), 0};
+    if (parent.value.kind != Value::Kind::table) {
+        parent.value = Value{};
+        parent.position = parent.value.position = at;
+    }
+    if (Entry* entry = find_entry(parent.value, name)) {
+        return *entry;
+    }
+    std::vector<Entry>& entries = parent.value.entries;
+    entries.push_back({name, {}, at});
+    // A section that only an override names is missing from the file.
+    entries.back().value.position = {parent.value.position.file, 0};
+    return entries.back();
+}
+
+// Whether an override set this entry or a part of it.
+bool overridden(const Entry& entry) {
+    return entry.position.file == kOverrideFile ||
+           std::any_of(entry.value.entries.begin(), entry.value.entries.end(), overridden);
+}
+
+}  // namespace
+
+const Entry* Value::find(std::string_view name) const {
+    const auto found = std::find_if(entries.begin(), entries.end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == entries.end() ? nullptr : &*found;
+}
+
+std::string_view Value::kind_name() const {
+    constexpr std::string_view names[] = {"true or false", "an integer", "a number", "a string",
+                                          "a list",        "a table",    "a date"};
+    return names[static_cast<int>(kind)];
+}
+
+Value parse_document(const std::string& text, const std::string& file, Problems& problems) {
+    try {
+        Value document = Converter(file).convert(toml::parse(text, file));
+        document.position = {file, 0};
+        return document;
+    } catch (const toml::parse_error& error) {
+        problems.push_back({file, static_cast<int>(error.source().begin.line), "",
+                            "not valid TOML (" + plain_message(error.description()) + ")",
+                            "correct this line; what follows it was not read"});
+    } catch (const BrokenAssumption&) {
+        problems.push_back({file, breaking_line(text), "", "not valid TOML (malformed)",
+                            "correct this line; what follows it was not read"});
+    }
+    return {};
+}
+
+void apply_override(Value& document, const std::string& assignment, Problems& problems) {
+    const std::size_t equals = assignment.find('=');
+    const std::string path = trimmed(assignment.substr(0, equals));
+    const std::vector<std::string> parts = split_path(path);
+    const bool empty_part =
+        std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
+    const std::string file(kOverrideFile);
+    if (equals == std::string::npos || empty_part) {
+        problems.push_back({file, 0, assignment, "not an assignment",
+                            "write section.key=value, e.g. ensemble.seed=1"});
+        return;
+    }
+    Value value;
+    std::string why;
+    if (!parse_value(trimmed(assignment.substr(equals + 1)), value, why)) {
+        problems.push_back({file, 0, path, "its value is not valid TOML (" + why + ")",
+                            "quote strings: section.key='\"text\"'"});
+        return;
+    }
+    Entry root{"", std::move(document), {}};
+    Entry* target = &root;
+    for (const std::string& part : parts) {
+        target = &child(*target, part);
+    }
+    target->value = std::move(value);
+    target->position = {file, 0};
+    document = std::move(root.value);
+}
+
+void drop_overridden_random(Value& document) {
+    Entry* random = find_entry(document, "random");
+    if (random == nullptr) {
+        return;
+    }
+    for (Entry& section : random->value.entries) {
+        const Entry* plain = document.find(section.name);
+        if (plain == nullptr) {
+            continue;
+        }
+        std::erase_if(section.value.entries, [&](const Entry& key) {
+            const Entry* value = plain->value.find(key.name);
+            return value != nullptr && value->position.file == kOverrideFile && !overridden(key);
+        });
+    }
+}
+
+std::string read_file(const std::string& path, Problems& problems) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        problems.push_back({path, 0, "", "is a folder", "name a study file (*.toml)"});
+        return {};
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        problems.push_back({path, 0, "",
+                            std::string("cannot be read (") + std::strerror(errno) + ")",
+                            "name an existing study file (*.toml)"});
+        return {};
+    }
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (stream.bad()) {
+        problems.push_back({path, 0, "", "cannot be read (input error)", ""});
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

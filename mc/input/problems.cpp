@@ -1,0 +1,43 @@
+#include "mc/input/problems.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace gearpod::mc {
+
+std::string format(const Problem& problem) {
+    std::string text = problem.file;
+    if (problem.line > 0) {
+        text += ":" + std::to_string(problem.line);
+    }
+    if (!problem.key.empty()) {
+        text += ": " + problem.key;
+    }
+    text += ": " + problem.what;
+    if (!problem.remedy.empty()) {
+        text += "; " + problem.remedy;
+    }
+    return text;
+}
+
+std::string format(const Problems& problems) {
+    std::string text;
+    for (const Problem& problem : problems) {
+        text += format(problem) + "\n";
+    }
+    return text;
+}
+
+void sort_problems(Problems& problems) {
+    std::map<std::string, int> order;
+    for (const Problem& problem : problems) {
+        const int next = static_cast<int>(order.size());
+        order.try_emplace(problem.file, problem.file == "--set" ? 1 << 30 : next);
+    }
+    std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
+        return std::tuple(order.at(a.file), a.line) < std::tuple(order.at(b.file), b.line);
+    });
+}
+
+}  // namespace gearpod::mc

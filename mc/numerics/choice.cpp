@@ -1,0 +1,241 @@
+#include "mc/numerics/choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "mc/numerics/ladder.hpp"
+#include "mc/numerics/pilot.hpp"
+#include "mc/numerics/reference.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// The reference moves this much less than the tolerance when its steps are halved.
+constexpr double kReferenceShare = 0.1;
+
+// Rungs go up to so many times the steps of an integrator's own rule, which aims at 0.1 %.
+constexpr double kBeyondOwnRule = 16.0;
+
+// What a rung gives on the pilot.
+struct Trial {
+    double error = kInfinity;  // of the worst feature
+    int worst = 0;             // which that is
+    double cost = kInfinity;   // rk4 steps a gearbox
+    bool marched = false;      // or could not win, or has no place in the study
+};
+
+class Search {
+  public:
+    explicit Search(const Study& study)
+        : study_(study),
+          tolerance_(study.numerics.tolerance),
+          scene_(rung_scene(study, own_rung(study))),
+          pilot_(*scene_) {
+        ReferenceRequest request;
+        request.agreement = kReferenceShare * tolerance_;
+        request.settle_tolerance = std::min(1e-10, 1e-3 * tolerance_);
+        reference_ = converged_by_itself(study, pilot_, request);
+        if (!reference_.reached) {
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format("{:g} is beyond what this study's integrator shows: its features still "
+                            "move by {:.2g} from {} steps a mesh period to twice as many",
+                            tolerance_, reference_.agreement.largest_feature(),
+                            reference_.first.steps / 2),
+                "ask for a larger tolerance");
+        }
+    }
+
+    NumericsChoice run() {
+        std::vector<Flight> all = flights(study_, kBeyondOwnRule);
+        std::erase_if(all, [&](const Flight& f) {
+            return f.size() == 0 || !step_cost(study_, f.integrator, f.other);
+        });
+        // The likeliest first: what costs more than the best so far is not tried.
+        std::stable_sort(all.begin(), all.end(), [&](const Flight& a, const Flight& b) {
+            return cost_of(a) * a.own_steps < cost_of(b) * b.own_steps;
+        });
+        for (const Flight& flight : all) {
+            flight.graded() ? search_graded(flight) : search(flight);
+        }
+        if (!std::isfinite(best_.cost)) {
+            throw SceneError("numerics.tolerance",
+                             fmt::format("no rung keeps the features within {:g} (nearest: {:.2g})",
+                                         tolerance_, least_error_),
+                             "ask for a larger tolerance, or leave out integrator and steps");
+        }
+        return choice();
+    }
+
+  private:
+    double cost_of(const Flight& flight) const {
+        return step_cost(study_, flight.integrator, flight.other).value();
+    }
+
+    Trial trial(const Flight& flight, std::size_t step, double settle) {
+        const Rung rung = flight.rung(step, settle);
+        const auto known = trials_.find(rung.text());
+        if (known != trials_.end()) {
+            return known->second;
+        }
+        const Numerics numerics = with_rung(study_, rung).numerics;
+        Trial result;
+        try {
+            scene_->use(numerics);
+            if (flight.graded() && !may_cost(flight, scene_->plan().grid.steps.size())) {
+                return trials_.emplace(rung.text(), result).first->second;
+            }
+            const PilotRecord record = pilot_.run(*scene_);
+            const PilotError error = pilot_error(record, reference_.record);
+            result.error = error.largest_feature();
+            result.worst = worst_feature(error);
+            result.cost = cost_of(flight) * record.steps * record.meshes_per_tile();
+            result.marched = true;
+            ++marches_;
+        } catch (const SceneError&) {  // not this study's: infinitely far off
+        }
+        least_error_ = std::min(least_error_, result.error);
+        if (result.error <= tolerance_ && result.cost < best_.cost) {
+            best_ = result;
+            best_rung_ = rung;
+            best_numerics_ = numerics;
+        }
+        return trials_.emplace(rung.text(), result).first->second;
+    }
+
+    int worst_feature(const PilotError& error) const {
+        int worst = 0;
+        for (int f = 1; f < reference_.record.features_used; ++f) {
+            worst = error.feature(f, reference_.record.levels) >
+                            error.feature(worst, reference_.record.levels)
+                        ? f
+                        : worst;
+        }
+        return worst;
+    }
+
+    // The fewest steps that keep the tolerance, then for these and the next the loosest settling.
+    void search(const Flight& flight) {
+        const std::vector<double>& settle = settle_tolerances();
+        if (!may_win(flight, 0)) {
+            return;
+        }
+        const auto keeps = [&](std::size_t step, double tolerance) {
+            return trial(flight, step, tolerance).error <= tolerance_;
+        };
+        std::size_t low = 0, high = flight.steps.size();
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            // What costs more than the best of all need not be tried; fewer steps may still do.
+            if (!may_win(flight, middle) || keeps(middle, settle.front())) {
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+        }
+        for (std::size_t step = low; step < std::min(low + 2, flight.steps.size()); ++step) {
+            if (may_win(flight, step) && keeps(step, settle.front())) {
+                settle_loosely(flight, step);
+            }
+        }
+    }
+
+    // The loosest settling that keeps the tolerance, with steps that do.
+    void settle_loosely(const Flight& flight, std::size_t step) {
+        const std::vector<double>& settle = settle_tolerances();
+        std::size_t tight = 0, loose = settle.size();
+        while (loose - tight > 1) {
+            const std::size_t middle = (tight + loose) / 2;
+            (trial(flight, step, settle[middle]).error <= tolerance_ ? tight : loose) = middle;
+        }
+    }
+
+    // The coarsest graded grid that keeps the tolerance. Grids cost a pilot each: only those near
+    // the tolerance, and none where the fewest steps they may have could not win.
+    void search_graded(const Flight& flight) {
+        constexpr double kNear = 30.0;
+        if (!may_cost(flight, static_cast<std::size_t>(kFewestGraded * flight.own_steps))) {
+            return;
+        }
+        for (std::size_t i = 0; i < flight.size(); ++i) {
+            const double ratio = flight.grid_tolerances[i] / tolerance_;
+            if (flight.size() > 1 && (ratio > kNear || ratio < 1.0 / kNear)) {
+                continue;
+            }
+            const Trial found = trial(flight, i, settle_tolerances().front());
+            if (found.error <= tolerance_) {
+                settle_loosely(flight, i);
+            }
+            if (found.error <= tolerance_ || !found.marched) {
+                return;
+            }
+        }
+    }
+
+    // Settled as loosely as any rung, a gearbox marches at least this many mesh periods.
+    bool may_win(const Flight& flight, std::size_t step) {
+        return may_cost(flight, static_cast<std::size_t>(flight.steps[step]));
+    }
+
+    bool may_cost(const Flight& flight, std::size_t steps) {
+        if (least_meshes_ == 0.0) {
+            Rung rung = own_rung(study_);
+            rung.settle_tolerance = settle_tolerances().back();
+            const Numerics now = scene_->study().numerics;
+            scene_->use(with_rung(study_, rung).numerics);
+            least_meshes_ = pilot_.run(*scene_).meshes_per_tile();
+            scene_->use(now);
+            ++marches_;
+        }
+        return cost_of(flight) * static_cast<double>(steps) * least_meshes_ < best_.cost;
+    }
+
+    NumericsChoice choice() const {
+        NumericsChoice made;
+        made.numerics = best_numerics_;
+        made.numerics.tolerance = tolerance_;
+        made.rung = best_rung_;
+        made.error = best_.error;
+        made.worst_feature = study_.features.use[static_cast<std::size_t>(best_.worst)];
+        made.cost = best_.cost;
+        made.reference = reference_.first.text();
+        made.reference_change = reference_.agreement.largest_feature();
+        made.gearboxes = static_cast<int>(pilot_.size());
+        made.marches = marches_;
+        return made;
+    }
+
+    const Study& study_;
+    const double tolerance_;
+    const std::unique_ptr<Scene> scene_;
+    const Pilot pilot_;
+    Reference reference_;
+    std::map<std::string, Trial> trials_;
+    Trial best_;
+    Rung best_rung_;
+    Numerics best_numerics_;
+    double least_error_ = kInfinity, least_meshes_ = 0.0;
+    int marches_ = 0;
+};
+
+}  // namespace
+
+std::string NumericsChoice::text() const {
+    return fmt::format("{} (features within {:.2g} on a pilot of {} gearboxes, {} the worst)",
+                       rung.text(), error, gearboxes, worst_feature);
+}
+
+std::optional<NumericsChoice> choose_numerics(const Study& study) {
+    if (study.numerics.tolerance == 0.0) {
+        return std::nullopt;
+    }
+    return Search(study).run();
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,31 @@
+// numerics.tolerance: the cheapest rung of the ladder that keeps every feature of a pilot within
+// it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mc/numerics/rung.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+struct NumericsChoice {
+    Numerics numerics;  // the study's, with the rung's keys
+    Rung rung;
+    double error = 0.0;             // of the pilot's worst feature, relative
+    std::string worst_feature;      // which that is
+    double cost = 0.0;              // of the pilot's march by the cost model, rk4 steps a gearbox
+    std::string reference;          // what the pilot was compared with
+    double reference_change = 0.0;  // of its worst feature when its steps were halved last
+    int gearboxes = 0;              // of the pilot
+    int marches = 0;                // of them, to find the rung
+
+    std::string text() const;
+};
+
+// Nothing without a tolerance. Depends on the study alone: neither on clocks nor on lanes, threads
+// or instruction set. Throws SceneError where no rung keeps the tolerance.
+std::optional<NumericsChoice> choose_numerics(const Study& study);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,148 @@
+#include "mc/numerics/ladder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Steps of neighbouring rungs differ by this factor, or by one step a sample.
+constexpr double kStepRatio = 1.25;
+// The choices of [numerics] that change how a step is taken, besides the integrator.
+constexpr std::string_view kWays[] = {"precision"};
+
+// All combinations of those choices that a program of this version has; the first is the default.
+std::vector<std::vector<std::string>> ways() {
+    std::vector<std::vector<std::string>> all{{}};
+    for (const std::string_view name : kWays) {
+        const Key* const key = find_key("numerics", name);
+        if (key == nullptr) {
+            continue;
+        }
+        const int normal = *std::get<ChoiceAccess>(key->access).get(Study{});
+        const std::vector<std::vector<std::string>> before = all;
+        for (const ChoiceName& choice : std::get<ChoiceAccess>(key->access).names) {
+            if (choice.value == normal) {
+                continue;
+            }
+            for (std::vector<std::string> way : before) {
+                way.push_back(key->path() + "=" + std::string(choice.text));
+                all.push_back(way);
+            }
+        }
+    }
+    return all;
+}
+
+// A grid has at least one step a sample, and as many for every sample.
+std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
+    const int samples = own_rule.samples_per_mesh();
+    const int least = (own_rule.least_steps() + samples - 1) / samples;
+    // An explicit method's rule sees to stability alone.
+    const double further = own_rule.least_steps() > 1 ? 2.0 * beyond : beyond;
+    const double most = further * static_cast<double>(own_rule.plan().grid.steps.size()) / samples;
+    std::vector<int> steps;
+    for (int a_sample = least; a_sample <= std::max<double>(most, least);
+         a_sample = std::max(a_sample + 1, static_cast<int>(std::lround(kStepRatio * a_sample)))) {
+        steps.push_back(a_sample * samples);
+    }
+    return steps;
+}
+
+// Of the signals, for graded grids; a feature's error is mostly smaller.
+const std::vector<double> kGridTolerances{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
+constexpr std::string_view kSingle = "numerics.precision=single", kGraded = "numerics.grid=graded";
+
+struct StepCost {
+    std::string_view integrator;
+    double planetary, rotations, fixed_shaft;
+};
+constexpr StepCost kStepCosts[] = {
+    {"rk4", 1.0, 1.0, 1.0},    {"newmark", 4.3, 2.0, 2.6},
+    {"sdirk3", 6.8, 4.0, 4.2}, {"generalized-alpha", 2.4, 2.0, 1.4},
+    {"bs3", 0.9, 0.9, 0.9},    {"central-difference", 0.32, 0.34, 0.34}};
+// Of singles, eight abreast, over doubles.
+constexpr double kSingleCost = 0.65;
+
+void add_flights(const Study& study, const std::string& integrator,
+                 const std::vector<std::string>& way, double beyond, std::vector<Flight>& all) {
+    const Numerics& n = study.numerics;
+    Flight flight{integrator, way, {}, {}, 0, ""};
+    bool may_be_graded = false;
+    try {
+        const auto scene =
+            rung_scene(study, {integrator, n.steps_per_mesh, n.settle_tolerance, way});
+        flight.own_steps = static_cast<int>(scene->plan().grid.steps.size());
+        if (n.grid == StepGrid::graded) {
+            flight.grid_tolerances = {n.grid_tolerance};
+        } else if (n.steps_per_mesh > 0) {
+            flight.steps = {n.steps_per_mesh};
+        } else {
+            flight.steps = step_ladder(*scene, beyond);
+        }
+        // The steps of an explicit method are bounded by stability, which is the same everywhere.
+        may_be_graded = n.steps_per_mesh == 0 && n.grid == StepGrid::uniform &&
+                        !is_explicit(scene->plan().integrator);
+    } catch (const SceneError& error) {
+        flight.refusal = error.what();
+    }
+    all.push_back(flight);
+    if (may_be_graded) {
+        flight.other.emplace_back(kGraded);
+        flight.steps.clear();
+        flight.grid_tolerances = kGridTolerances;
+        all.push_back(flight);
+    }
+}
+
+}  // namespace
+
+Rung Flight::rung(std::size_t place, double settle_tolerance) const {
+    Rung rung{integrator, graded() ? 0 : steps[place], settle_tolerance, other};
+    if (graded()) {
+        rung.other.push_back(fmt::format("numerics.grid_tolerance={:g}", grid_tolerances[place]));
+    }
+    return rung;
+}
+
+std::vector<Flight> flights(const Study& study, double beyond) {
+    std::vector<Flight> all;
+    for (const std::string& integrator : integrator_names()) {
+        if (study.numerics.integrator == Integrator::automatic ||
+            choice_text(study, "numerics", "integrator") == integrator) {
+            for (const std::vector<std::string>& way : ways()) {
+                add_flights(study, integrator, way, beyond, all);
+            }
+        }
+    }
+    return all;
+}
+
+const std::vector<double>& settle_tolerances() {
+    static const std::vector<double> all{1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+    return all;
+}
+
+std::optional<double> step_cost(const Study& study, const std::string& integrator,
+                                const std::vector<std::string>& other) {
+    const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
+                                   [&](const StepCost& c) { return c.integrator == integrator; });
+    const auto known = [](const std::string& key) {
+        return key == kSingle || key.starts_with("numerics.grid") ||
+               key.starts_with("numerics.stiffness_tolerance");
+    };
+    if (row == std::end(kStepCosts) || !std::all_of(other.begin(), other.end(), known)) {
+        return std::nullopt;
+    }
+    const bool single = std::find(other.begin(), other.end(), kSingle) != other.end();
+    return (single ? kSingleCost : 1.0) * (study.gearbox.kind == GearboxKind::fixed_shaft
+                                               ? row->fixed_shaft
+                                           : study.effects.torsional() ? row->rotations
+                                                                       : row->planetary);
+}
+
+}  // namespace gearpod::mc

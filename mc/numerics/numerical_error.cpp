@@ -1,0 +1,236 @@
+#include "mc/numerics/numerical_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "analysis/detection/size_groups.hpp"
+#include "mc/numerics/pilot.hpp"
+#include "mc/numerics/rung.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kFiner = 4;
+constexpr double kSettled = 1e-10;
+
+Rung rung_of(const Scene& scene) {
+    const Numerics& n = scene.study().numerics;
+    return {
+        std::string(choice_text(scene.study(), "numerics", "integrator")),
+        n.steps_per_mesh > 0 ? n.steps_per_mesh : static_cast<int>(scene.plan().grid.steps.size()),
+        n.settle_tolerance,
+        {}};
+}
+
+// The same with finer steps, all of one length: on a graded grid finer than its finest.
+Rung finer_than(const Scene& scene, const Rung& rung, int factor) {
+    Rung finer = rung;
+    finer.settle_tolerance = std::min(kSettled, rung.settle_tolerance);
+    double steps = rung.steps;
+    if (scene.study().numerics.grid == StepGrid::graded) {
+        finer.other.push_back("numerics.grid=uniform");
+        if (scene.calibration() && scene.calibration()->grading.first > 0.0) {
+            steps = std::ceil(1.0 / scene.calibration()->grading.first);
+        }
+    }
+    finer.steps = static_cast<int>(std::min(1e6, factor * steps));
+    return finer;
+}
+
+// Spread evenly over the graded gearboxes.
+std::vector<GearboxId> spread_gearboxes(const Study& study) {
+    const auto stride = static_cast<std::uint64_t>(std::max<std::int64_t>(
+        1, study.ensemble.instances / static_cast<std::int64_t>(pilot_gearboxes().size())));
+    return pilot_gearboxes(stride / 2, stride);
+}
+
+double standard_deviation(const std::vector<double>& values) {
+    double sum = 0.0, squares = 0.0;
+    for (const double value : values) {
+        sum += value;
+    }
+    const double n = static_cast<double>(values.size());
+    for (const double value : values) {
+        squares += (value - sum / n) * (value - sum / n);
+    }
+    return n > 1.0 ? std::sqrt(squares / (n - 1.0)) : kNaN;
+}
+
+// What the rows say of one feature at one noise level.
+struct Counts {
+    std::vector<double> healthy;
+    std::vector<long> near, tested;  // by size
+};
+
+std::vector<Counts> count_near(const Results& frame, const RowSource& rows) {
+    const RowShape shape = row_shape(frame);
+    const auto& groups = frame.request.groups;
+    std::vector<Counts> all(shape.features * shape.levels);
+    for (Counts& counts : all) {
+        counts.near.assign(groups.size(), 0);
+        counts.tested.assign(groups.size(), 0);
+    }
+    std::size_t size_at = 0;
+    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
+        size_at = frame.parameters[p].name == frame.request.size.name ? p : size_at;
+    }
+    rows.visit([&](const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const double* values = block.values.data() + row * shape.values();
+            const bool graded = block.group[row] == static_cast<int>(Group::graded);
+            const auto group = analysis::group_of(values[size_at], groups);
+            for (std::size_t at = 0; at < all.size(); ++at) {
+                const double value = values[shape.parameters + at];
+                if (!std::isfinite(value)) {
+                    continue;
+                }
+                if (!graded) {
+                    all[at].healthy.push_back(value);
+                } else if (group) {
+                    const double threshold =
+                        frame.detection[at / shape.levels].levels[at % shape.levels].threshold;
+                    const double error = 2.0 * frame.numerical->largest[at];
+                    ++all[at].tested[*group];
+                    all[at].near[*group] += std::abs(value - threshold) <= error ? 1 : 0;
+                }
+            }
+        }
+    });
+    return all;
+}
+
+void share_of_rates(const analysis::LevelDetection& level, const Counts& counts,
+                    NumericalShare& share) {
+    share.pd = share.pd_half_width = kNaN;
+    if (!std::isfinite(level.threshold)) {
+        return;
+    }
+    share.pd = share.pd_half_width = 0.0;
+    for (std::size_t c = 0; c < level.cells.size(); ++c) {
+        if (counts.tested[c] == 0) {
+            continue;
+        }
+        share.pd = std::max(
+            share.pd, static_cast<double>(counts.near[c]) / static_cast<double>(counts.tested[c]));
+        share.pd_half_width =
+            std::max(share.pd_half_width, 0.5 * (level.cells[c].upper - level.cells[c].lower));
+    }
+}
+
+void share_of_size(const analysis::HitMissPod& pod, NumericalShare& share) {
+    using Where = analysis::SizeEstimate::Where;
+    share.a90 = share.a90_interval = kNaN;
+    if (!pod.refusal.empty() || pod.a90.estimate.where != Where::reached ||
+        !std::isfinite(share.pd)) {
+        return;
+    }
+    constexpr double kStep = 1e-4;
+    const double size = pod.a90.estimate.size;
+    const analysis::PodCurve& curve = pod.chosen.curve;
+    const double slope =
+        (curve.pod(size * (1.0 + kStep)) - curve.pod(size * (1.0 - kStep))) / (2.0 * kStep * size);
+    share.a90 = share.pd / slope;
+    share.a90_interval =
+        pod.a90.upper.where == Where::reached ? pod.a90.upper.size - size : INFINITY;
+}
+
+}  // namespace
+
+FinerScene finer_scene(const Scene& scene) {
+    const Study& study = scene.study();
+    FinerScene finer;
+    if (study.effects.quasi_static() ||
+        (study.numerics.tolerance == 0.0 && !study.numerics.verify)) {
+        return finer;
+    }
+    const Rung rung = rung_of(scene);
+    for (int factor = kFiner; finer.scene == nullptr && factor > 1; factor /= 2) {
+        finer.rung = finer_than(scene, rung, factor);
+        try {
+            finer.scene = rung_scene(study, finer.rung);
+        } catch (const SceneError&) {  // more steps than the program takes
+            continue;
+        }
+    }
+    return finer;
+}
+
+std::optional<NumericalError> find_numerical_error(const Scene& scene) {
+    const FinerScene finer = finer_scene(scene);
+    if (finer.scene == nullptr) {
+        return std::nullopt;
+    }
+    const Pilot pilot(scene, spread_gearboxes(scene.study()));
+    const PilotError error = pilot_error(pilot.run(scene), pilot.run(*finer.scene));
+    return NumericalError{rung_of(scene).text(), finer.rung.text(), static_cast<int>(pilot.size()),
+                          error.rms, error.largest};
+}
+
+std::vector<NumericalShare> numerical_shares(
+    const Results& frame, const RowSource& rows,
+    const std::optional<analysis::Reliability>& reliability) {
+    std::vector<NumericalShare> shares;
+    if (!frame.numerical) {
+        return shares;
+    }
+    const std::size_t levels = frame.noise_levels.size();
+    const std::vector<Counts> counts = count_near(frame, rows);
+    for (std::size_t at = 0; at < counts.size(); ++at) {
+        const std::size_t f = at / levels, level = at % levels;
+        NumericalShare share;
+        share.feature = frame.features[f].name;
+        share.noise_level = frame.noise_levels[level];
+        share.rms = frame.numerical->rms[at];
+        share.spread = standard_deviation(counts[at].healthy);
+        share_of_rates(frame.detection[f].levels[level], counts[at], share);
+        if (reliability) {
+            share_of_size(reliability->features[f].levels[level].hit_miss, share);
+        } else {
+            share.a90 = share.a90_interval = kNaN;
+        }
+        share.numerical_dominates =
+            std::isfinite(share.pd) ? share.pd > share.pd_half_width : !(share.rms < share.spread);
+        shares.push_back(share);
+    }
+    return shares;
+}
+
+std::string numerical_text(const Results& frame, const std::vector<NumericalShare>& shares) {
+    if (!frame.numerical) {
+        return "";
+    }
+    const NumericalError& error = *frame.numerical;
+    std::string text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(
+        out,
+        "Numerical against statistical error: {} gearboxes by {}\nand by {}. Pd, a90: what "
+        "the numerical error could turn, beside what the\nnumber of gearboxes leaves "
+        "open (half interval; a90 to its upper bound)\n",
+        error.gearboxes, error.rung, error.finer);
+    const double per_unit = frame.request.size.per_unit();
+    const auto number = [](double value) {
+        return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
+    };
+    for (const double noise : frame.noise_levels) {
+        fmt::format_to(out, "noise x {:<8g} {:>10} {:>14} {:>18} {:>18}  {}\n", noise, "rms error",
+                       "healthy spread", "Pd", "a90", "larger");
+        for (const NumericalShare& s : shares) {
+            if (s.noise_level == noise) {
+                fmt::format_to(out, "{:<16} {:>10.2g} {:>14} {:>18} {:>18}  {}\n", s.feature, s.rms,
+                               number(s.spread), number(s.pd) + " / " + number(s.pd_half_width),
+                               number(s.a90 / per_unit) + " / " + number(s.a90_interval / per_unit),
+                               s.numerical_dominates ? "numerical" : "statistical");
+            }
+        }
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,191 @@
+#include "mc/numerics/pilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "lockstep/steps/step_pilot.hpp"
+#include "machine/thread_clock.hpp"
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "signals/sensor/sensor.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<double> te_without_mean(const Scene& scene, const GearboxTile& tile, int lane,
+                                    int meshes) {
+    const auto& content = tile.march.content;
+    std::vector<double> te;
+    for (int k = 0; k < meshes; ++k) {
+        const int id = content[static_cast<std::size_t>(k) % content.size()];
+        const auto& all = tile.march.records[static_cast<std::size_t>(id)].te;
+        for (int p = 0; p < scene.samples_per_mesh(); ++p) {
+            te.push_back(all[static_cast<std::size_t>(p * lockstep::kPilotLanes + lane)]);
+        }
+    }
+    const double mean = std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
+    for (double& value : te) {
+        value -= mean;
+    }
+    return te;
+}
+
+// Squares of differences and of the reference, over all gearboxes.
+struct Sums {
+    double difference = 0.0, reference = 0.0;
+    void add(std::span<const double> a, std::span<const double> b) {
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            difference += (a[i] - b[i]) * (a[i] - b[i]);
+            reference += b[i] * b[i];
+        }
+    }
+    double relative() const {
+        return reference > 0.0 ? std::sqrt(difference / reference)
+                               : (difference > 0.0 ? kInfinity : 0.0);
+    }
+};
+
+// One feature at one noise level over the gearboxes that the reference has.
+void add_feature(const PilotRecord& record, const PilotRecord& reference, std::size_t at,
+                 PilotError& error) {
+    Sums sums;
+    double largest = 0.0;
+    int compared = 0;
+    for (std::size_t g = 0; g < reference.ok.size(); ++g) {
+        if (!reference.ok[g] || !std::isfinite(reference.features[g][at])) {
+            continue;
+        }
+        const double here = record.ok[g] ? record.features[g][at] : kInfinity;
+        const double there = reference.features[g][at];
+        const double difference = std::isfinite(here) ? std::abs(here - there) : kInfinity;
+        sums.difference += difference * difference;
+        sums.reference += there * there;
+        largest = std::max(largest, difference);
+        ++compared;
+    }
+    error.relative.push_back(sums.relative());
+    error.rms.push_back(std::sqrt(sums.difference / std::max(1, compared)));
+    error.largest.push_back(largest);
+}
+
+}  // namespace
+
+double PilotRecord::meshes_per_tile() const {
+    return tile_meshes * lockstep::kPilotLanes /
+           static_cast<double>(std::max<std::size_t>(1, ok.size()));
+}
+
+double PilotRecord::mesh_s() const {
+    return tile_meshes > 0.0 ? march_s / meshes_per_tile() : 0.0;
+}
+
+double PilotError::feature(int f, int levels) const {
+    const auto first = relative.begin() + f * levels;
+    return *std::max_element(first, first + levels);
+}
+
+double PilotError::largest_feature() const {
+    return relative.empty() ? 0.0 : *std::max_element(relative.begin(), relative.end());
+}
+
+double PilotError::signals() const {
+    return std::max(sensor, te);
+}
+
+std::vector<GearboxId> pilot_gearboxes(std::uint64_t first, std::uint64_t stride) {
+    std::vector<GearboxId> ids;
+    for (int i = 0; i < lockstep::kPilotLanes; ++i) {
+        ids.push_back({Group::graded, first + static_cast<std::uint64_t>(i) * stride});
+    }
+    return ids;
+}
+
+Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
+    : ids_(std::move(ids)), sampler_(scene.study()), path_(path_grid(scene)) {}
+
+PilotRecord Pilot::run(const Scene& scene) const {
+    return record(scene, [&](std::span<const GearboxId> some) {
+        return run_gearboxes(scene, sampler_, path_, some, lockstep::kPilotLanes);
+    });
+}
+
+PilotRecord Pilot::of_march(const Scene& scene, const March& march) const {
+    return record(scene, [&](std::span<const GearboxId> some) {
+        return tile_of_march(scene, sampler_, path_, some, march(some));
+    });
+}
+
+PilotRecord Pilot::record(const Scene& scene, const Tile& tile_of) const {
+    PilotRecord record;
+    record.features_used = static_cast<int>(scene.study().features.use.size());
+    record.levels = static_cast<int>(scene.study().sensor.noise_levels.size());
+    record.steps = static_cast<int>(scene.plan().grid.steps.size());
+    const HealthyReference healthy = healthy_reference(scene, sampler_, path_);
+    InstanceFeatures features(scene, &healthy);
+    const int meshes = std::clamp(scene.pattern().length, 1, kMostSignalMeshes);
+    double signal_s = 0.0;
+    const double start = thread_processor_s();
+    for (std::size_t first = 0; first < ids_.size(); first += lockstep::kPilotLanes) {
+        const auto some = std::span(ids_).subspan(
+            first, std::min<std::size_t>(lockstep::kPilotLanes, ids_.size() - first));
+        const GearboxTile tile = tile_of(some);
+        record.tile_meshes += tile.march.marched;
+        record.march_s += tile.march_cpu_s;
+        for (std::size_t g = 0; g < some.size(); ++g) {
+            const int lane = static_cast<int>(g);
+            const InstanceInputs& inputs = tile.inputs[g];
+            const bool ok = tile.status[g] == Status::ok;
+            record.ok.push_back(ok);
+            record.sensor.emplace_back();
+            record.te.emplace_back();
+            record.features.emplace_back();
+            if (!ok) {
+                continue;
+            }
+            record.features.back() = features.compute(
+                lane_signals(scene, path_, tile, lane, features.meshes()), inputs, some[g]);
+            const double signal_start = thread_processor_s();
+            record.sensor.back() =
+                signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path_,
+                                    inputs.path_exponent, 0, meshes);
+            record.te.back() = te_without_mean(scene, tile, lane, meshes);
+            signal_s += thread_processor_s() - signal_start;
+        }
+    }
+    const double gearboxes = static_cast<double>(ids_.size());
+    record.total_s = (thread_processor_s() - start - signal_s) / gearboxes;
+    record.march_s /= gearboxes;
+    return record;
+}
+
+PilotError pilot_error(const PilotRecord& record, const PilotRecord& reference) {
+    PilotError error;
+    Sums sensor, te;
+    for (std::size_t g = 0; g < reference.ok.size(); ++g) {
+        if (!reference.ok[g]) {
+            continue;
+        }
+        if (!record.ok[g]) {
+            sensor.difference = te.difference = kInfinity;
+            continue;
+        }
+        sensor.add(record.sensor[g], reference.sensor[g]);
+        te.add(record.te[g], reference.te[g]);
+    }
+    error.sensor = sensor.relative();
+    error.te = te.relative();
+    const std::size_t values = static_cast<std::size_t>(reference.features_used) *
+                               static_cast<std::size_t>(reference.levels);
+    for (std::size_t at = 0; at < values; ++at) {
+        add_feature(record, reference, at, error);
+    }
+    return error;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,179 @@
+#include "mc/numerics/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// `fine` with the leading error term taken out; `coarse` has steps of twice the length.
+void extrapolate(const PilotRecord& coarse, double order, PilotRecord& fine) {
+    const double weight = 1.0 / (std::exp2(order) - 1.0);
+    const auto improve = [weight](const std::vector<double>& from, std::vector<double>& to) {
+        for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
+            to[i] += weight * (to[i] - from[i]);
+        }
+    };
+    for (std::size_t g = 0; g < fine.ok.size(); ++g) {
+        improve(coarse.sensor[g], fine.sensor[g]);
+        improve(coarse.te[g], fine.te[g]);
+        improve(coarse.features[g], fine.features[g]);
+    }
+}
+
+// One method with its steps halved again and again.
+class Refinement {
+  public:
+    Refinement(const Study& study, std::string integrator, const ReferenceRequest& request)
+        : study_(study),
+          rung_{std::move(integrator), 0, request.settle_tolerance, {}},
+          request_(request) {
+        try {
+            scene_ = rung_scene(study, rung_);
+            rung_.steps = static_cast<int>(scene_->plan().grid.steps.size());
+        } catch (const SceneError&) {  // an explicit method that the study is too stiff for
+            scene_ = nullptr;
+        }
+    }
+
+    bool stopped() const { return scene_ == nullptr; }
+    bool has_result() const { return best_.has_value(); }
+    const PilotRecord& finest() const { return *last_; }  // marched
+    const PilotRecord& best() const { return *best_; }    // extrapolated
+    double order() const { return order_; }
+    const Rung& rung() const { return done_; }
+    // How far the last halving moved the result.
+    double last_change() const { return change_; }
+
+    void march(const Pilot& pilot) {
+        PilotRecord record = pilot.run(*scene_);
+        done_ = rung_;
+        best_ = record;
+        order_ = 0.0;
+        if (last_) {
+            const double change = pilot_error(*last_, record).sensor;
+            const double order = std::log2(change_ / change);
+            // Where halving the steps shows a method's order, its leading error can be taken out.
+            if (change_ > 0.0 && order > 1.5 && order < 6.5) {
+                order_ = std::round(order);
+                extrapolate(*last_, order_, *best_);
+            }
+            change_ = change;
+        }
+        const double next = 2.0 * record.steps * record.tile_meshes;
+        last_ = std::move(record);
+        refine(next);
+    }
+
+  private:
+    void refine(double tile_steps) {
+        rung_.steps *= 2;
+        if (tile_steps > request_.most_tile_steps) {
+            scene_ = nullptr;
+            return;
+        }
+        try {
+            scene_->use(with_rung(study_, rung_).numerics);
+        } catch (const SceneError&) {
+            scene_ = nullptr;
+        }
+    }
+
+    const Study& study_;
+    Rung rung_, done_;
+    const ReferenceRequest request_;
+    std::unique_ptr<Scene> scene_;
+    std::optional<PilotRecord> last_, best_;
+    double change_ = 0.0, order_ = 0.0;
+};
+
+// Whether both computed the same gearboxes, and any at all.
+bool comparable(const PilotRecord& a, const PilotRecord& b) {
+    return a.ok == b.ok && std::find(a.ok.begin(), a.ok.end(), true) != a.ok.end();
+}
+
+// The pair that agrees best, the one that moved less first.
+void choose_pair(const std::vector<Refinement>& methods, const ReferenceRequest& request,
+                 double& least, Reference& reference) {
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!methods[i].has_result() || !methods[j].has_result() ||
+                !comparable(methods[i].best(), methods[j].best())) {
+                continue;
+            }
+            const bool swap = methods[i].last_change() < methods[j].last_change();
+            const Refinement& a = methods[swap ? i : j];
+            const Refinement& b = methods[swap ? j : i];
+            const PilotError error = pilot_error(b.best(), a.best());
+            const double apart = error.signals();
+            if (apart < least) {
+                least = apart;
+                reference = {a.best(),
+                             a.rung(),
+                             b.rung(),
+                             a.order(),
+                             b.order(),
+                             error,
+                             apart <= request.agreement};
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Reference converged_by_itself(const Study& study, const Pilot& pilot,
+                              const ReferenceRequest& request) {
+    // What the study would run by without a tolerance: an explicit method unless it is too stiff.
+    Refinement method(study, std::string(choice_text(study, "numerics", "integrator")), request);
+    if (method.stopped()) {
+        rung_scene(study, method.rung());
+    }
+    Reference reference;
+    while (!reference.reached && !method.stopped()) {
+        const bool first = !method.has_result();
+        PilotRecord before = first ? PilotRecord{} : method.finest();
+        method.march(pilot);
+        if (!first) {
+            reference.agreement = pilot_error(before, method.finest());
+            reference.reached = reference.agreement.largest_feature() <= request.agreement;
+        }
+        reference.record = method.best();
+        reference.first = method.rung();
+        reference.first_order = method.order();
+    }
+    return reference;
+}
+
+Reference converged_reference(const Study& study, const Pilot& pilot,
+                              const ReferenceRequest& request) {
+    std::vector<Refinement> methods;
+    for (const std::string& name : integrator_names()) {
+        methods.emplace_back(study, name, request);
+    }
+    Reference reference;
+    double least = INFINITY;
+    const auto marching = [&] {
+        return std::any_of(methods.begin(), methods.end(),
+                           [](const Refinement& m) { return !m.stopped(); });
+    };
+    while (!reference.reached && marching()) {
+        for (Refinement& method : methods) {
+            if (!method.stopped()) {
+                method.march(pilot);
+            }
+        }
+        choose_pair(methods, request, least, reference);
+    }
+    if (!std::isfinite(least)) {
+        throw SceneError("numerics.integrator",
+                         "no two integrators march this study, so none can be shown right", "");
+    }
+    return reference;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,347 @@
+#include "mc/report/example_gearboxes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "mc/commands/support.hpp"
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/simulation.hpp"
+#include "mc/report/thinning.hpp"
+#include "mc/scene/stiffness_curves.hpp"
+#include "mc/study/schema/sizes.hpp"
+#include "signals/noise/sensor_noise.hpp"
+#include "signals/sensor/sensor.hpp"
+#include "signals/spectra/order_spectrum.hpp"
+#include "signals/windowing/windowing.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostSamples = 2000;  // of a time signal as drawn
+constexpr std::size_t kMostLines = 500;     // of a spectrum as drawn
+constexpr double kZoomMeshes = 2.5;         // mesh frequencies to either side of the largest line
+constexpr int kStiffnessPoints = 160;       // in a mesh period
+
+// A row of the results file.
+struct ExampleRow {
+    std::size_t row = 0;
+    double size = 0.0;
+    std::vector<double> values;  // as in RowShape
+};
+
+struct ExampleRows {
+    std::optional<ExampleRow> healthy, faulty;
+};
+
+ExampleRows choose_rows(const Results& frame, const RowSource& rows) {
+    const RowShape shape = row_shape(frame);
+    const auto size_column = static_cast<std::size_t>(
+        std::find_if(frame.parameters.begin(), frame.parameters.end(),
+                     [&](const auto& p) { return p.name == frame.request.size.name; }) -
+        frame.parameters.begin());
+    ExampleRows chosen;
+    rows.visit([&](const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            if (block.status[row] != static_cast<int>(Status::ok)) {
+                continue;
+            }
+            const double* first = block.values.data() + row * shape.values();
+            const double size = size_column < shape.parameters ? first[size_column] : 0.0;
+            auto& place = size > 0.0 ? chosen.faulty : chosen.healthy;
+            if (!place || size > place->size) {
+                place = {block.first + row, size, {first, first + shape.values()}};
+            }
+        }
+    });
+    return chosen;
+}
+
+Json numbers(std::span<const double> values, std::span<const std::size_t> indices) {
+    Json json = Json::array();
+    for (const std::size_t i : indices) {
+        json.push_back(values[i]);
+    }
+    return json;
+}
+
+// Mesh phase of each sample that is kept, and the samples.
+Json time_json(std::span<const double> values, int samples_per_mesh) {
+    const auto kept = extremes(values, kMostSamples);
+    Json json{{"mesh", Json::array()}, {"value", numbers(values, kept)}};
+    for (const std::size_t i : kept) {
+        json["mesh"].push_back(static_cast<double>(i) / samples_per_mesh);
+    }
+    return json;
+}
+
+// The largest line of each stretch of lines first to last - 1, `resolution_Hz` apart.
+Json lines_json(std::span<const double> amplitude, std::size_t first, std::size_t last,
+                double resolution_Hz) {
+    const auto lines = amplitude.subspan(first, last - first);
+    const auto kept = maxima(lines, kMostLines);
+    Json json{{"frequency_Hz", Json::array()}, {"amplitude", numbers(lines, kept)}};
+    for (const std::size_t i : kept) {
+        json["frequency_Hz"].push_back(static_cast<double>(first + i) * resolution_Hz);
+    }
+    return json;
+}
+
+// One-sided amplitudes over the whole span.
+std::vector<double> amplitudes_of(const std::vector<double>& signal) {
+    signals::OrderSpectrum spectrum(static_cast<int>(signal.size()));
+    spectrum.load(signal);
+    std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
+    spectrum.amplitudes(0.0, amplitude);
+    return amplitude;
+}
+
+// Of the whole band, and around the largest line without noise. `meshes`: lines per mesh
+// frequency.
+Json spectrum_json(const std::vector<double>& clean, const std::vector<double>& noisy,
+                   std::size_t meshes, double period_s) {
+    const double resolution_Hz = 1.0 / (static_cast<double>(meshes) * period_s);
+    const std::vector<double> without = amplitudes_of(clean), with = amplitudes_of(noisy);
+    const auto top = static_cast<std::size_t>(std::max_element(without.begin() + 1, without.end()) -
+                                              without.begin());
+    const auto reach = static_cast<std::size_t>(kZoomMeshes * static_cast<double>(meshes));
+    const std::size_t first = top > reach ? top - reach : 1;
+    const std::size_t last = std::min(without.size(), top + reach + 1);
+    const auto both = [&](std::size_t from, std::size_t to) {
+        return Json{{"clean", lines_json(without, from, to, resolution_Hz)},
+                    {"noisy", lines_json(with, from, to, resolution_Hz)}};
+    };
+    return {{"whole", both(1, without.size())}, {"zoom", both(first, last)}};
+}
+
+// Both are computed from the same numbers, so they agree bit by bit.
+bool same_bits(std::span<const double> a, std::span<const double> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    });
+}
+
+// The mesh periods of a planet turn in which the faulty tooth is engaged.
+Json engagements(const Scene& scene, double size) {
+    Json json = Json::array();
+    const lockstep::FaultPattern& pattern = scene.pattern();
+    const int turn = scene.span().planet_teeth;
+    for (const lockstep::FaultPassage& passage : pattern.passages) {
+        const auto mesh = scene.fault().mesh(passage.curve, size);
+        if (!mesh) {
+            continue;
+        }
+        for (double start = passage.start; start < turn; start += pattern.length) {
+            json.push_back({{"pair", scene.drive().pair_name(passage.pair)},
+                            {"from", start},
+                            {"to", start + mesh->duration()}});
+        }
+    }
+    return json;
+}
+
+// Runs one gearbox at a time.
+class Examples {
+  public:
+    Examples(const Scene& scene, const Results& frame)
+        : scene_(scene),
+          frame_(frame),
+          path_(path_grid(scene)),
+          sampler_(scene.study()),
+          healthy_(healthy_reference(scene, sampler_, path_)),
+          features_(scene, &healthy_),
+          level_(reference_level(frame.noise_levels)) {}
+
+    Json run(const ExampleRow& row) {
+        const GearboxId id = id_of_row(scene_.study(), static_cast<long>(row.row));
+        const GearboxTile tile = run_gearboxes(scene_, sampler_, path_, std::span(&id, 1), 1);
+        if (tile.status[0] != Status::ok) {
+            throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +
+                                     " failed when computed again");
+        }
+        std::vector<LevelSignals> levels;
+        const auto values = features_.compute(
+            lane_signals(scene_, path_, tile, 0, features_.meshes()), tile.inputs[0], id, &levels);
+        const RowShape shape = row_shape(frame_);
+        const std::span<const double> stored(row.values.data() + shape.parameters,
+                                             shape.values() - shape.parameters);
+        const double period_s = dynamics::mesh_period_s(scene_.inputs(tile.inputs[0]));
+        Json json{{"row", row.row},
+                  {"size", row.size},
+                  {"mesh_period_s", period_s},
+                  {"same_bits", same_bits(values, stored)},
+                  {"engagements", engagements(scene_, row.size)},
+                  {"te",
+                   {{"clean", time_json(tile.te_turn, scene_.te_samples_per_mesh())},
+                    {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
+                  {"sensor", nullptr},
+                  {"spectrum", nullptr},
+                  {"tooth_rms", nullptr}};
+        for (std::size_t p = 0; p < shape.parameters; ++p) {
+            json["inputs"].push_back({{"name", frame_.parameters[p].name},
+                                      {"unit", frame_.parameters[p].unit},
+                                      {"value", row.values[p]}});
+        }
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            const double value = values[f * shape.levels + level_];
+            json["features"].push_back({{"name", frame_.features[f].name},
+                                        {"value", std::isfinite(value) ? Json(value) : Json()}});
+        }
+        if (!tile.folded.empty()) {
+            add_sensor(tile, id, period_s, levels[level_].tooth_rms, json);
+        }
+        return json;
+    }
+
+    double noise_level() const { return frame_.noise_levels[level_]; }
+
+  private:
+    void add_sensor(const GearboxTile& tile, const GearboxId& id, double period_s,
+                    const std::vector<double>& noisy_rms, Json& json) {
+        const signals::SpanLayout layout = span_layout(scene_);
+        const int samples = scene_.samples_per_mesh();
+        const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
+        auto noisy = clean;
+        add_noise(sample_noise(scene_, clean, features_.noise().sensor, id),
+                  noise_level() * tile.inputs[0].noise_m_s2, noisy);
+        const std::size_t turn =
+            static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);
+        json["sensor"] = {{"clean", time_json({clean.data(), turn}, samples)},
+                          {"noisy", time_json({noisy.data(), turn}, samples)}};
+        json["spectrum"] =
+            spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
+        std::vector<double> clean_rms(noisy_rms.size());
+        signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
+        windowing.load(tile.folded);
+        windowing.search(0.0, clean_rms);
+        json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
+    }
+
+    const Scene& scene_;
+    const Results& frame_;
+    const signals::PathGrid path_;
+    const Sampler sampler_;
+    const HealthyReference healthy_;
+    InstanceFeatures features_;
+    const std::size_t level_;
+};
+
+Json gearboxes_json(const Scene& scene, const Results& frame, const RowSource& rows) {
+    Json json{{"refusal", nullptr}, {"gearboxes", Json::array()}};
+    const ExampleRows chosen = choose_rows(frame, rows);
+    if (!chosen.healthy && !chosen.faulty) {
+        json["refusal"] = "all gearboxes failed";
+        return json;
+    }
+    Examples examples(scene, frame);
+    json["noise_level"] = examples.noise_level();
+    for (const auto& row : {chosen.healthy, chosen.faulty}) {
+        if (row) {
+            json["gearboxes"].push_back(examples.run(*row));
+        }
+    }
+    return json;
+}
+
+Json healthy_curves(const Scene& scene) {
+    Json pairs = Json::array();
+    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+        Json values = Json::array();
+        for (int i = 0; i < kStiffnessPoints; ++i) {
+            values.push_back(scene.pairs().total(pair, static_cast<double>(i) / kStiffnessPoints));
+        }
+        pairs.push_back({{"name", scene.drive().pair_name(pair)}, {"stiffness", values}});
+    }
+    return pairs;
+}
+
+// From a quarter of a mesh period before the faulty tooth engages to a quarter after.
+Json passage_json(const Scene& scene, int curve, int pair, std::vector<double> sizes) {
+    Json json{{"pair", scene.drive().pair_name(pair)},
+              {"mesh", Json::array()},
+              {"healthy", Json::array()},
+              {"faulty", Json::array()}};
+    double duration = 0.0;
+    for (const double size : sizes) {
+        duration = std::max(duration, scene.fault().mesh(curve, size)->duration());
+    }
+    const double start = scene.pairs().start[static_cast<std::size_t>(pair)];
+    const int last = static_cast<int>(std::ceil((duration + 0.25) * kStiffnessPoints));
+    const auto since = [](int i) { return static_cast<double>(i) / kStiffnessPoints; };
+    for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
+        json["mesh"].push_back(since(i));
+        json["healthy"].push_back(scene.pairs().total(pair, start + since(i)));
+    }
+    for (const double size : sizes) {
+        const auto mesh = scene.fault().mesh(curve, size);
+        Json values = Json::array();
+        for (int i = -kStiffnessPoints / 4; i <= last; ++i) {
+            values.push_back(faulty_total(scene, pair, *mesh, since(i)));
+        }
+        json["faulty"].push_back({{"size", size}, {"stiffness", values}});
+    }
+    return json;
+}
+
+Json stiffness_json(const Scene& scene) {
+    Json json{{"refusal", nullptr}, {"mesh", Json::array()}, {"passages", Json::array()}};
+    for (int i = 0; i < kStiffnessPoints; ++i) {
+        json["mesh"].push_back(static_cast<double>(i) / kStiffnessPoints);
+    }
+    json["pairs"] = healthy_curves(scene);
+    const std::vector<int> pairs = faulty_pairs(scene);
+    const std::vector<double> sizes = fault_sizes(scene.study());
+    for (int curve = 0; curve < scene.fault().curves() && !sizes.empty(); ++curve) {
+        json["passages"].push_back(
+            passage_json(scene, curve, pairs[static_cast<std::size_t>(curve)], sizes));
+    }
+    return json;
+}
+
+Json refused(const std::string& why) {
+    return {{"examples", {{"refusal", why}, {"gearboxes", Json::array()}}},
+            {"stiffness", {{"refusal", why}}}};
+}
+
+// What `make` gives, or why it gives nothing.
+template <typename Make>
+Json or_refusal(Make make) {
+    try {
+        return make();
+    } catch (const std::exception& error) {
+        return {{"refusal", error.what()}};
+    }
+}
+
+}  // namespace
+
+std::size_t reference_level(const std::vector<double>& noise_levels) {
+    const auto one = std::find(noise_levels.begin(), noise_levels.end(), 1.0);
+    const auto above = std::find_if(noise_levels.begin(), noise_levels.end(),
+                                    [](double level) { return level > 0.0; });
+    const auto found = one != noise_levels.end() ? one : above;
+    return found == noise_levels.end() ? 0 : static_cast<std::size_t>(found - noise_levels.begin());
+}
+
+nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
+    const std::string text = frame.provenance_value("study");
+    if (text.empty()) {
+        return refused("the file holds no study");
+    }
+    Problems problems;
+    const std::string name = "study of the results";
+    const auto scene = make_scene(name, read_study_text(text, name), problems);
+    if (!scene) {
+        return refused("this program cannot build the file's study: " + format(problems));
+    }
+    return {{"examples", or_refusal([&] { return gearboxes_json(*scene, frame, rows); })},
+            {"stiffness", or_refusal([&] { return stiffness_json(*scene); })}};
+}
+
+}  // namespace gearpod::mc

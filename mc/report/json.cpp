@@ -1,0 +1,139 @@
+#include "mc/report/json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/detection_json.hpp"
+#include "analysis/report/reliability_json.hpp"
+#include "features/feature.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/report/example_gearboxes.hpp"
+#include "mc/report/run_report.hpp"
+#include "mc/results/layout.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostNamedRows = 20;
+
+// Rows without values by reason, and features without a value in gearboxes that worked.
+Json failures_json(const Results& frame, const RowSource& rows) {
+    const RowShape shape = row_shape(frame);
+    std::vector<long> no_value(shape.features * shape.levels, 0);
+    Json named = Json::array();
+    rows.visit([&](const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            if (block.status[row] != static_cast<int>(Status::ok)) {
+                if (named.size() < kMostNamedRows) {
+                    named.push_back({{"row", block.first + row}, {"status", block.status[row]}});
+                }
+                continue;
+            }
+            const double* values = block.values.data() + row * shape.values() + shape.parameters;
+            for (std::size_t v = 0; v < no_value.size(); ++v) {
+                no_value[v] += std::isfinite(values[v]) ? 0 : 1;
+            }
+        }
+    });
+    Json without = Json::array();
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        const auto first = no_value.begin() + static_cast<std::ptrdiff_t>(f * shape.levels);
+        without.push_back(
+            {{"name", frame.features[f].name},
+             {"gearboxes",
+              std::vector<long>(first, first + static_cast<std::ptrdiff_t>(shape.levels))}});
+    }
+    const RowCounts counts = count_rows(rows);
+    return {{"gearboxes", counts.all},
+            {"diverged", counts.diverged},
+            {"not_settled", counts.not_settled},
+            {"status_meanings", kStatusMeanings},
+            {"first_rows", named},
+            {"no_value", without}};
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// The numerical error beside the statistical one; null if it was not verified.
+Json numerical_json(const Results& frame, const std::vector<NumericalShare>& shares) {
+    if (!frame.numerical) {
+        return nullptr;
+    }
+    Json json{{"rung", frame.numerical->rung},
+              {"finer", frame.numerical->finer},
+              {"gearboxes", frame.numerical->gearboxes},
+              {"shares", Json::array()}};
+    for (const NumericalShare& s : shares) {
+        json["shares"].push_back({{"feature", s.feature},
+                                  {"noise_level", s.noise_level},
+                                  {"rms", number(s.rms)},
+                                  {"healthy_spread", number(s.spread)},
+                                  {"pd", number(s.pd)},
+                                  {"pd_half_width", number(s.pd_half_width)},
+                                  {"a90", number(s.a90)},
+                                  {"a90_interval", number(s.a90_interval)},
+                                  {"larger", s.numerical_dominates ? "numerical" : "statistical"}});
+    }
+    return json;
+}
+
+Json features_json(const Results& frame) {
+    Json json = Json::array();
+    for (const FeatureResult& result : frame.features) {
+        const features::Feature* feature = features::find_feature(result.name);
+        json.push_back({{"name", result.name},
+                        {"unit", result.unit},
+                        {"alarm", alarm_text(result.alarm)},
+                        {"doc", feature != nullptr ? std::string(feature->doc) : ""}});
+    }
+    return json;
+}
+
+// What the noise levels are factors on, as far as the study can still be read.
+Json noise_json(const Results& frame, const std::optional<Study>& study) {
+    Json json{{"levels", frame.noise_levels},
+              {"reference", reference_level(frame.noise_levels)},
+              {"sensor_m_s2", nullptr},
+              {"encoder_rad", nullptr}};
+    if (study) {
+        json["encoder_rad"] = study->sensor.encoder_noise_rad;
+        if (!study->effects.quasi_static()) {
+            json["sensor_m_s2"] = study->sensor.noise_m_s2;
+        }
+    }
+    return json;
+}
+
+}  // namespace
+
+nlohmann::json report_json(const Results& frame, const RowSource& rows,
+                           const std::optional<analysis::Reliability>& reliability) {
+    Json json = examples_json(frame, rows);
+    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+    json["title"] = study ? study->title : "";
+    json["detection"] = analysis::detection_json(frame.detection, frame.request);
+    json["reliability"] =
+        reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
+    json["numerical"] = numerical_json(frame, numerical_shares(frame, rows, reliability));
+    json["features"] = features_json(frame);
+    json["noise"] = noise_json(frame, study);
+    json["failures"] = failures_json(frame, rows);
+    json["gearboxes"] = json["failures"]["gearboxes"];
+    json["failed"] = count_rows(rows).failed();
+    json["provenance"] = Json::object();
+    for (const auto& [name, value] : frame.provenance) {
+        json["provenance"][name] = value;
+    }
+    json["timing"] = Json::object();
+    for (const Timing& timing : frame.timing) {
+        json["timing"][timing.name] = timing.seconds;
+    }
+    return json;
+}
+
+}  // namespace gearpod::mc

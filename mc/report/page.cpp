@@ -1,0 +1,100 @@
+#include "mc/report/page.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace gearpod::mc {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error("the page cannot be made: " + what);
+}
+
+std::string from_environment(const char* name, const char* otherwise) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0' ? value : otherwise;
+}
+
+// A file without a name, which goes when it is closed.
+using TemporaryFile = std::unique_ptr<FILE, int (*)(FILE*)>;
+
+TemporaryFile temporary_file(const std::string& text) {
+    TemporaryFile file(std::tmpfile(), std::fclose);
+    if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+        std::fflush(file.get()) != 0 || lseek(fileno(file.get()), 0, SEEK_SET) != 0) {
+        fail(std::string("no temporary file: ") + std::strerror(errno));
+    }
+    return file;
+}
+
+std::string content(FILE* file) {
+    std::rewind(file);
+    std::string text;
+    std::array<char, 65536> buffer;
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) {
+        text.append(buffer.data(), count);
+    }
+    return text;
+}
+
+// The exit code, or 128 and the signal that ended the program.
+int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) {
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    }
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t streams;
+    posix_spawn_file_actions_init(&streams);
+    posix_spawn_file_actions_adddup2(&streams, fileno(input), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&streams, fileno(output), STDOUT_FILENO);
+    pid_t child = 0;
+    const int error =
+        posix_spawn(&child, words[0].c_str(), &streams, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&streams);
+    if (error != 0) {
+        fail(words[0] + ": " + std::strerror(error) +
+             "; install python3, or name another Python 3 in GEARPOD_PYTHON");
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            fail(std::strerror(errno));
+        }
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+std::string report_page(const std::string& json) {
+    const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
+    const std::filesystem::path folder = from_environment("GEARPOD_REPORT_DIR", GEARPOD_REPORT_DIR);
+    const std::string program = folder / "build_page.py";
+    if (!std::filesystem::exists(program)) {
+        fail(program +
+             " does not exist; set GEARPOD_REPORT_DIR to the folder analysis/report of gearpod's "
+             "sources");
+    }
+    const TemporaryFile input = temporary_file(json), output = temporary_file("");
+    // -B: no compiled files beside the sources; -s: no packages of the user's own.
+    const int code = run({python, "-Bs", program, "-"}, input.get(), output.get());
+    std::string page = content(output.get());
+    if (code != 0 || page.empty()) {
+        fail(python + " " + program + " ended with " + std::to_string(code));
+    }
+    return page;
+}
+
+}  // namespace gearpod::mc

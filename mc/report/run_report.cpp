@@ -1,0 +1,134 @@
+#include "mc/report/run_report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "analysis/report/detection_text.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/results/reliability_of_results.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct TimeRow {
+    const char* name;
+    double (*of)(const CrewTimes&);
+};
+constexpr TimeRow kTimeRows[] = {{"sampling", [](const CrewTimes& t) { return t.work.sampling; }},
+                                 {"stiffness", [](const CrewTimes& t) { return t.work.stiffness; }},
+                                 {"march", [](const CrewTimes& t) { return t.work.march; }},
+                                 {"signals", [](const CrewTimes& t) { return t.work.signals; }},
+                                 {"noise", [](const CrewTimes& t) { return t.work.noise; }},
+                                 {"features", [](const CrewTimes& t) { return t.work.features; }},
+                                 {"waiting", [](const CrewTimes& t) { return t.waiting; }},
+                                 {"output", [](const CrewTimes& t) { return t.output; }}};
+
+struct Spread {
+    double least = 0.0, sum = 0.0, most = 0.0;
+};
+
+Spread spread_of(const std::vector<CrewTimes>& crews, const TimeRow& row) {
+    Spread spread{row.of(crews[0]), 0.0, 0.0};
+    for (const CrewTimes& crew : crews) {
+        const double seconds = row.of(crew);
+        spread.least = std::min(spread.least, seconds);
+        spread.most = std::max(spread.most, seconds);
+        spread.sum += seconds;
+    }
+    return spread;
+}
+
+}  // namespace
+
+RowCounts count_rows(const RowSource& rows) {
+    RowCounts counts;
+    rows.visit([&](const RowBlock& block) {
+        counts.all += block.count();
+        for (const int status : block.status) {
+            if (status >= 0 && status < kStatuses) {
+                ++counts.with_status[static_cast<std::size_t>(status)];
+            }
+        }
+    });
+    counts.not_settled = counts.with_status[static_cast<std::size_t>(Status::not_settled)];
+    counts.diverged =
+        counts.all - counts.not_settled - counts.with_status[static_cast<std::size_t>(Status::ok)];
+    return counts;
+}
+
+const char* failure_text(Status status) {
+    switch (status) {
+        case Status::ok:
+            return "worked";
+        case Status::diverged:
+            return "diverged without a known reason";
+        case Status::not_settled:
+            return "did not settle";
+        case Status::supercritical:
+            return "is unstable: above a critical speed of the carrier its bearings do not hold "
+                   "what turns with it";
+        case Status::parametric:
+            return "is unstable by parametric resonance: the changing mesh stiffness makes its "
+                   "motion grow";
+        case Status::step_too_long:
+            return "is too stiff or too light for the study's step: set numerics.steps_per_mesh, "
+                   "or an implicit numerics.integrator";
+        case Status::no_equilibrium:
+            return "has no equilibrium: where its teeth are gone nothing carries the load";
+    }
+    return "";
+}
+
+std::string results_text(const Results& frame, const RowSource& rows,
+                         const std::optional<analysis::Reliability>& reliability) {
+    std::string text = analysis::detection_text(frame.detection, frame.request) + "\n" +
+                       reliability_text(reliability, frame);
+    const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
+    return numerical.empty() ? text : text + "\n" + numerical;
+}
+
+void print_failures(const RowCounts& rows, int max_meshes) {
+    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n", rows.failed(),
+               rows.all, rows.diverged, rows.not_settled);
+    for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
+                                Status::no_equilibrium}) {
+        const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
+        if (count > 0) {
+            fmt::print("  {} of them: each {}\n", count, failure_text(status));
+        }
+    }
+    if (rows.not_settled > 0) {
+        fmt::print(
+            "  (their orbit or the fault's disturbance was not back within {} mesh periods: "
+            "raise numerics.max_meshes, or numerics.settle_tolerance)\n",
+            max_meshes);
+    }
+}
+
+void print_times(const EnsembleOutcome& outcome) {
+    int threads = 0;
+    for (const CrewTimes& crew : outcome.crews) {
+        threads += crew.threads;
+    }
+    const std::size_t ranks = outcome.crews.size();
+    fmt::print("where the time went ({} rank{}, {} thread{} in all, {:.1f} s):\n", ranks,
+               ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);
+    fmt::print("  {:<10} {:>7} {:>12}{}\n", "", "share", "thread s",
+               ranks > 1 ? "   of a rank: least, mean, most" : "");
+    const double total = std::max(1e-9, threads * outcome.wall_s);
+    const auto print_row = [&](const char* name, const Spread& spread) {
+        fmt::print("  {:<10} {:5.1f} % {:12.2f}", name, 100.0 * spread.sum / total, spread.sum);
+        if (ranks > 1) {
+            fmt::print("   {:9.2f} {:9.2f} {:9.2f}", spread.least,
+                       spread.sum / static_cast<double>(ranks), spread.most);
+        }
+        fmt::print("\n");
+    };
+    for (const TimeRow& row : kTimeRows) {
+        print_row(row.name, spread_of(outcome.crews, row));
+    }
+    fmt::print("  (output: checkpoints, written by rank 0's main thread beside the others)\n");
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,297 @@
+#include "mc/results/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "mc/files/atomic_file.hpp"
+#include "mc/random/fnv.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::string_view kMagic = "gearpod tiles 1\n";
+constexpr std::uint64_t kMark = 0x454c495444504721u;  // in front of a written tile
+constexpr std::size_t kBlock = 4096;                  // tiles begin at a multiple of it
+constexpr std::size_t kMostText = 1u << 24;           // longer is damage
+
+// A record's numbers, 8 bytes each.
+constexpr std::size_t kStatusAt = 2;
+constexpr std::size_t kValuesAt = kStatusAt + kTileRows;
+
+std::string bytes_of(std::uint64_t number) {
+    std::string bytes(sizeof number, '\0');
+    std::memcpy(bytes.data(), &number, sizeof number);
+    return bytes;
+}
+
+std::uint64_t number_at(std::string_view bytes, std::size_t offset) {
+    std::uint64_t number = 0;
+    std::memcpy(&number, bytes.data() + offset, sizeof number);
+    return number;
+}
+
+std::string_view view(const std::vector<std::byte>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string text_of(const RunIdentity& identity) {
+    return fmt::format("{}\n{}\n{} {} {}\n{}", identity.version, identity.seed,
+                       identity.shape.parameters, identity.shape.features, identity.shape.levels,
+                       identity.study);
+}
+
+RunIdentity identity_of(const std::string& text) {
+    RunIdentity identity;
+    const std::size_t version = text.find('\n');
+    const std::size_t seed = text.find('\n', version + 1);
+    const std::size_t shape = text.find('\n', seed + 1);
+    identity.version = text.substr(0, version);
+    identity.seed = text.substr(version + 1, seed - version - 1);
+    std::sscanf(text.substr(seed + 1, shape - seed - 1).c_str(), "%zu %zu %zu",
+                &identity.shape.parameters, &identity.shape.features, &identity.shape.levels);
+    identity.study = text.substr(shape + 1);
+    return identity;
+}
+
+std::string header_of(const RunIdentity& identity) {
+    const std::string text = text_of(identity);
+    std::string header(kMagic);
+    header += bytes_of(text.size()) + text;
+    return header + bytes_of(fnv1a(header));
+}
+
+std::uint64_t record_sum(std::size_t tile, std::string_view record) {
+    return fnv1a(record.substr(0, record.size() - 8), fnv1a(bytes_of(tile)));
+}
+
+bool all_zero(std::string_view bytes) {
+    return bytes.find_first_not_of('\0') == std::string_view::npos;
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& identity,
+                       const TilePlan& plan)
+    : path_(std::move(path)),
+      file_(std::move(file)),
+      identity_(identity),
+      plan_(plan),
+      header_(header_of(identity)),
+      done_(plan.tiles()) {
+    if (file_.get() < 0) {
+        fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
+    }
+    // The counter follows the header.
+    const std::size_t end = header_.size() + 3 * 8;
+    begin_ = static_cast<off_t>((end + kBlock - 1) / kBlock * kBlock);
+    scratch_.resize(record_bytes());
+}
+
+void Checkpoint::fail(const std::string& what) const {
+    throw std::runtime_error(path_ + ": " + what);
+}
+
+std::size_t Checkpoint::record_bytes() const {
+    return 8 * (kValuesAt + kTileRows * identity_.shape.values() + 1);
+}
+
+off_t Checkpoint::place(std::size_t tile) const {
+    return begin_ + static_cast<off_t>(tile * record_bytes());
+}
+
+bool Checkpoint::exists(const std::string& path) {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0;
+}
+
+// The lock goes with the process that holds it, however it ends.
+void Checkpoint::lock() {
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    lock.l_whence = SEEK_SET;
+    if (::fcntl(file_.get(), F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN)) {
+        fail("another run is working on it");
+    }
+}
+
+std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const RunIdentity& identity,
+                                               const TilePlan& plan) {
+    if (exists(path)) {
+        throw std::runtime_error(path +
+                                 ": holds what an interrupted run has finished; continue it with "
+                                 "--resume, or delete this file to start again");
+    }
+    const std::string header = header_of(identity);
+    write_file(path, std::as_bytes(std::span(header)));
+    std::unique_ptr<Checkpoint> checkpoint(
+        new Checkpoint(path, Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)), identity, plan));
+    checkpoint->lock();
+    checkpoint->sync();
+    return checkpoint;
+}
+
+std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const RunIdentity& identity,
+                                               const TilePlan& plan) {
+    std::unique_ptr<Checkpoint> checkpoint(
+        new Checkpoint(path, Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)), identity, plan));
+    checkpoint->lock();
+    checkpoint->check_header();
+    checkpoint->scan();
+    checkpoint->sync();
+    return checkpoint;
+}
+
+void Checkpoint::check_header() {
+    constexpr const char* kDamaged = "is damaged (its header); delete it to start again";
+    std::vector<std::byte> head(kMagic.size() + 8);
+    const ssize_t got = read_at(file_.get(), head, 0);
+    if (got < static_cast<ssize_t>(head.size()) || !view(head).starts_with(kMagic)) {
+        fail("is not a checkpoint of this program, or damaged; delete it to start again");
+    }
+    const std::uint64_t length = number_at(view(head), kMagic.size());
+    if (length > kMostText) {
+        fail(kDamaged);
+    }
+    std::vector<std::byte> whole(head.size() + length + 8);
+    const bool read = read_at(file_.get(), whole, 0) == static_cast<ssize_t>(whole.size());
+    const std::string_view text = view(whole);
+    if (!read || number_at(text, text.size() - 8) != fnv1a(text.substr(0, text.size() - 8))) {
+        fail(kDamaged);
+    }
+    const std::string why =
+        difference(identity_of(std::string(text.substr(head.size(), length))), identity_);
+    if (!why.empty()) {
+        fail(why + "; delete it to start again");
+    }
+}
+
+// Tiles that the last sync counted; 0 if the counter was never written.
+std::uint64_t Checkpoint::synced_before() {
+    std::vector<std::byte> counter(24);
+    const auto at = static_cast<off_t>(header_.size());
+    if (read_at(file_.get(), counter, at) < 24) {
+        return 0;
+    }
+    const std::string_view bytes = view(counter);
+    if (number_at(bytes, 16) != fnv1a(bytes.substr(0, 16))) {
+        if (!all_zero(bytes)) {
+            findings_.push_back(path_ + ": its counter of finished tiles is damaged");
+        }
+        return 0;
+    }
+    if (number_at(bytes, 0) > plan_.graded_rows()) {
+        fail(
+            fmt::format("is of a run with {} graded gearboxes, more than the {} asked for; raise "
+                        "--instances, or delete it to start again",
+                        number_at(bytes, 0), plan_.graded_rows()));
+    }
+    return number_at(bytes, 8);
+}
+
+// One pass over all tiles: which are whole.
+void Checkpoint::scan() {
+    const std::uint64_t synced = synced_before();
+    std::size_t damaged = 0, partial = 0;
+    for (std::size_t tile = 0; tile < plan_.tiles(); ++tile) {
+        std::fill(scratch_.begin(), scratch_.end(), std::byte{});
+        if (read_at(file_.get(), scratch_, place(tile)) < 0) {
+            fail(fmt::format("cannot be read ({})", std::strerror(errno)));
+        }
+        const std::string_view record = view(scratch_);
+        if (all_zero(record)) {
+            continue;
+        }
+        const bool whole = number_at(record, 0) == kMark &&
+                           number_at(record, record.size() - 8) == record_sum(tile, record);
+        const std::uint64_t rows = number_at(record, 8);
+        if (!whole || rows > plan_.tile(tile).count) {
+            ++damaged;
+        } else if (rows < plan_.tile(tile).count) {
+            ++partial;  // the last one of a smaller ensemble: filling it up costs no more
+        } else {
+            done_[tile] = true;
+            ++count_;
+        }
+    }
+    if (damaged > 0) {
+        findings_.push_back(
+            fmt::format("{}: {} tile{} damaged or incomplete (the checksum does not fit); computed "
+                        "again",
+                        path_, damaged, damaged == 1 ? " is" : "s are"));
+    }
+    if (count_ + damaged + partial < synced) {
+        findings_.push_back(
+            fmt::format("{}: {} of {} tiles that it had at its last checkpoint are gone (was it "
+                        "truncated?); computed again",
+                        path_, synced - count_ - damaged - partial, synced));
+    }
+}
+
+TileRows Checkpoint::read(std::size_t tile) const {
+    std::vector<std::byte> buffer(record_bytes());
+    const ssize_t got = read_at(file_.get(), buffer, place(tile));
+    const std::string_view record = view(buffer);
+    if (got < static_cast<ssize_t>(buffer.size()) ||
+        number_at(record, record.size() - 8) != record_sum(tile, record)) {
+        fail(fmt::format("tile {} was damaged after it had been written", tile));
+    }
+    TileRows rows;
+    const std::size_t count = plan_.tile(tile).count;
+    for (std::size_t i = 0; i < count; ++i) {
+        rows.status.push_back(static_cast<int>(number_at(record, 8 * (kStatusAt + i))));
+    }
+    rows.values.resize(count * identity_.shape.values());
+    std::memcpy(rows.values.data(), buffer.data() + 8 * kValuesAt, 8 * rows.values.size());
+    return rows;
+}
+
+void Checkpoint::write(std::size_t tile, const TileRows& rows) {
+    std::fill(scratch_.begin(), scratch_.end(), std::byte{});
+    const auto put = [&](std::size_t place, std::uint64_t number) {
+        std::memcpy(scratch_.data() + 8 * place, &number, 8);
+    };
+    put(0, kMark);
+    put(1, rows.count());
+    for (std::size_t i = 0; i < rows.count(); ++i) {
+        put(kStatusAt + i, static_cast<std::uint64_t>(rows.status[i]));
+    }
+    std::memcpy(scratch_.data() + 8 * kValuesAt, rows.values.data(), 8 * rows.values.size());
+    put(scratch_.size() / 8 - 1, record_sum(tile, view(scratch_)));
+    if (!write_at(file_.get(), scratch_, place(tile))) {
+        fail(fmt::format("cannot be written ({})", std::strerror(errno)));
+    }
+    if (!done_[tile]) {
+        done_[tile] = true;
+        ++count_;
+    }
+}
+
+void Checkpoint::write_counter() {
+    std::string counter = bytes_of(plan_.graded_rows()) + bytes_of(count_);
+    counter += bytes_of(fnv1a(counter));
+    if (!write_at(file_.get(), std::as_bytes(std::span(counter)),
+                  static_cast<off_t>(header_.size())) ||
+        ::fsync(file_.get()) != 0) {
+        fail(fmt::format("cannot be written ({})", std::strerror(errno)));
+    }
+}
+
+// The tiles first: the counter never promises what is not there.
+void Checkpoint::sync() {
+    if (::fsync(file_.get()) != 0) {
+        fail(fmt::format("cannot be written ({})", std::strerror(errno)));
+    }
+    write_counter();
+}
+
+void Checkpoint::remove() {
+    ::unlink(path_.c_str());
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,49 @@
+// Names in the results file that both its writer and its reader use.
+#pragma once
+
+#include "mc/results/results_file.hpp"
+
+namespace gearpod::mc {
+
+inline constexpr const char* kResultsFormat = "gearpod results";
+inline constexpr const char* kStatusMeanings =
+    "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
+    "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
+inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded";
+
+inline const char* alarm_text(analysis::Alarm alarm) {
+    return alarm == analysis::Alarm::high ? "high" : "low";
+}
+
+// The numbers of one cell and of one level, by dataset name: long and double members in turn.
+struct CellCount {
+    const char* name;
+    long analysis::DetectionCell::*member;
+};
+struct CellNumber {
+    const char* name;
+    double analysis::DetectionCell::*member;
+};
+inline constexpr CellCount kCellCounts[] = {{"detected", &analysis::DetectionCell::detected},
+                                            {"tested", &analysis::DetectionCell::tested},
+                                            {"failed", &analysis::DetectionCell::failed}};
+inline constexpr CellNumber kCellNumbers[] = {{"pd", &analysis::DetectionCell::pd},
+                                              {"lower", &analysis::DetectionCell::lower},
+                                              {"upper", &analysis::DetectionCell::upper}};
+
+struct LevelCount {
+    const char* name;
+    long analysis::LevelDetection::*member;
+};
+struct LevelNumber {
+    const char* name;
+    double analysis::LevelDetection::*member;
+};
+inline constexpr LevelCount kLevelCounts[] = {
+    {"threshold_sample", &analysis::LevelDetection::threshold_sample},
+    {"threshold_alarms", &analysis::LevelDetection::threshold_alarms}};
+inline constexpr LevelNumber kLevelNumbers[] = {
+    {"noise_level", &analysis::LevelDetection::noise_level},
+    {"threshold", &analysis::LevelDetection::threshold}};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,279 @@
+// read_results().
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "mc/files/hdf5_data.hpp"
+#include "mc/results/layout.hpp"
+#include "mc/results/seal.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw std::runtime_error(path + ": " + why);
+}
+
+analysis::Alarm alarm_of(const std::string& text) {
+    if (text != "high" && text != "low") {
+        throw Hdf5Error("alarm");
+    }
+    return text == "high" ? analysis::Alarm::high : analysis::Alarm::low;
+}
+
+void require_count(std::size_t count, std::size_t expected, const std::string& name) {
+    if (count != expected) {
+        throw Hdf5Error(name);
+    }
+}
+
+class Reader {
+  public:
+    // No dataset holds more values than the file has bytes.
+    Reader(hid_t root, std::size_t file_size, bool with_columns)
+        : root_(root), most_(file_size), with_columns_(with_columns) {}
+
+    Results read() {
+        read_provenance();
+        read_instances();
+        read_features();
+        read_detection();
+        read_numerical();
+        const Hdf5Handle timing = open_group(root_, "timing");
+        for (const std::string& name : link_names(timing.get())) {
+            const auto seconds = numbers(timing.get(), name);
+            require_count(seconds.size(), 1, name);
+            results_.timing.push_back({name, seconds.front()});
+        }
+        return std::move(results_);
+    }
+
+  private:
+    std::vector<double> numbers(hid_t parent, const std::string& name) {
+        return read_numbers(parent, name, most_).values;
+    }
+
+    std::vector<double> column(hid_t parent, const std::string& name) {
+        return with_columns_ ? numbers(parent, name) : std::vector<double>{};
+    }
+
+    std::vector<int> small_integers(hid_t parent, const std::string& name) {
+        const auto values = read_integers(parent, name, most_);
+        std::vector<int> result;
+        for (const std::int64_t value : values) {
+            result.push_back(static_cast<int>(value));
+        }
+        return result;
+    }
+
+    void read_provenance() {
+        for (const std::string& name : attribute_names(root_)) {
+            if (name != "format" && name != "format_version") {
+                results_.provenance.emplace_back(name, read_text(root_, ".", name));
+            }
+        }
+    }
+
+    void read_instances() {
+        const Hdf5Handle group = open_group(root_, "instances");
+        if (with_columns_) {
+            results_.group = small_integers(group.get(), "group");
+            results_.status = small_integers(root_, "status");
+            require_count(results_.status.size(), results_.group.size(), "status");
+        }
+        for (const std::string& name : link_names(group.get())) {
+            if (name == "group") {
+                continue;
+            }
+            results_.parameters.push_back(
+                {name, read_text(group.get(), name, "unit"), column(group.get(), name)});
+            require_count(results_.parameters.back().values.size(), results_.group.size(), name);
+        }
+    }
+
+    void read_features() {
+        results_.noise_levels = numbers(root_, "noise_levels");
+        const Hdf5Handle group = open_group(root_, "features");
+        for (const std::string& name : link_names(group.get())) {
+            results_.features.push_back({name, read_text(group.get(), name, "unit"),
+                                         alarm_of(read_text(group.get(), name, "alarm")),
+                                         column(group.get(), name)});
+            require_count(results_.features.back().values.size(),
+                          results_.group.size() * results_.noise_levels.size(), name);
+        }
+    }
+
+    void read_numerical() {
+        const std::vector<std::string> groups = link_names(root_);
+        if (std::find(groups.begin(), groups.end(), "numerical") == groups.end()) {
+            return;
+        }
+        const Hdf5Handle group = open_group(root_, "numerical");
+        NumericalError error{read_text(group.get(), ".", "rung"),
+                             read_text(group.get(), ".", "finer"),
+                             static_cast<int>(read_number(group.get(), ".", "gearboxes")),
+                             {},
+                             {}};
+        for (const FeatureResult& result : results_.features) {
+            const Hdf5Handle feature = open_group(group.get(), result.name);
+            for (const auto& [name, all] :
+                 {std::pair{"rms", &error.rms}, std::pair{"largest", &error.largest}}) {
+                const std::vector<double> values = numbers(feature.get(), name);
+                require_count(values.size(), results_.noise_levels.size(), name);
+                all->insert(all->end(), values.begin(), values.end());
+            }
+        }
+        results_.numerical = std::move(error);
+    }
+
+    void read_detection() {
+        const Hdf5Handle group = open_group(root_, "detection");
+        results_.request.false_alarm_rate = read_number(group.get(), ".", "false_alarm_rate");
+        results_.request.confidence = read_number(group.get(), ".", "confidence");
+        results_.request.size.name = read_text(group.get(), ".", "size_name");
+        results_.request.size.unit = read_text(group.get(), ".", "size_unit");
+        results_.request.noise_levels = results_.noise_levels;
+        for (const std::string& name : link_names(group.get())) {
+            const Hdf5Handle feature = open_group(group.get(), name);
+            results_.detection.push_back(feature_detection(feature.get(), name));
+        }
+    }
+
+    analysis::FeatureDetection feature_detection(hid_t group, const std::string& name) {
+        analysis::FeatureDetection detection;
+        detection.feature = name;
+        detection.alarm = alarm_of(read_text(group, ".", "alarm"));
+        std::istringstream warnings(read_text(group, ".", "warnings"));
+        for (std::string line; std::getline(warnings, line);) {
+            detection.warnings.push_back(line);
+        }
+        results_.request.groups = sizes(group);
+        read_levels(group, detection);
+        read_cells(group, detection);
+        return detection;
+    }
+
+    std::vector<analysis::SizeGroup> sizes(hid_t group) {
+        const auto low = numbers(group, "size_low");
+        const auto high = numbers(group, "size_high");
+        require_count(high.size(), low.size(), "size_high");
+        std::vector<analysis::SizeGroup> result;
+        for (std::size_t i = 0; i < low.size(); ++i) {
+            result.push_back({low[i], high[i]});
+        }
+        return result;
+    }
+
+    void read_levels(hid_t group, analysis::FeatureDetection& detection) {
+        detection.levels.resize(numbers(group, "threshold").size());
+        const auto fill = [&](const auto& values, const char* name, auto member) {
+            require_count(values.size(), detection.levels.size(), name);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                detection.levels[i].*member = values[i];
+            }
+        };
+        for (const LevelNumber& number : kLevelNumbers) {
+            fill(numbers(group, number.name), number.name, number.member);
+        }
+        for (const LevelCount& count : kLevelCounts) {
+            fill(read_integers(group, count.name, most_), count.name, count.member);
+        }
+    }
+
+    void read_cells(hid_t group, analysis::FeatureDetection& detection) {
+        const auto& groups = results_.request.groups;
+        for (analysis::LevelDetection& level : detection.levels) {
+            level.cells.resize(groups.size());
+            for (std::size_t i = 0; i < groups.size(); ++i) {
+                level.cells[i].size = groups[i];
+            }
+        }
+        const auto fill = [&](const auto& values, const char* name, auto member) {
+            require_count(values.size(), detection.levels.size() * groups.size(), name);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                detection.levels[i / groups.size()].cells[i % groups.size()].*member = values[i];
+            }
+        };
+        for (const CellNumber& number : kCellNumbers) {
+            fill(numbers(group, number.name), number.name, number.member);
+        }
+        for (const CellCount& count : kCellCounts) {
+            fill(read_integers(group, count.name, most_), count.name, count.member);
+        }
+    }
+
+    hid_t root_;
+    std::size_t most_;
+    bool with_columns_;
+    Results results_;
+};
+
+void check_readable(const std::string& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        refuse(path, "is a folder; name a results file (*.h5)");
+    }
+    if (!std::ifstream(path)) {
+        refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+    }
+    if (H5Fis_hdf5(path.c_str()) <= 0) {
+        refuse(path, "is not a results file (it is not HDF5); `run` writes one");
+    }
+}
+
+void check_format(const std::string& path, hid_t root) {
+    std::string format, version;
+    try {
+        format = read_text(root, ".", "format");
+        version = read_text(root, ".", "format_version");
+    } catch (const Hdf5Error&) {
+        format.clear();
+    }
+    if (format != kResultsFormat) {
+        refuse(path, "is an HDF5 file, but not a gearpod results file; `run` writes one");
+    }
+    int number = 0;
+    std::from_chars(version.data(), version.data() + version.size(), number);
+    if (number != kResultsFormatVersion) {
+        refuse(path, "has results format version " + version + ", but this program reads version " +
+                         std::to_string(kResultsFormatVersion) + "; use a gearpod that fits it");
+    }
+}
+
+Results read(const std::string& path, bool with_columns) {
+    const SilentHdf5 silent;
+    check_readable(path);
+    const Seal seal = check_seal(path);
+    if (seal == Seal::broken) {
+        refuse(path, "is damaged (its checksum does not fit)");
+    }
+    try {
+        const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                              "opening the file");
+        const Hdf5Handle root = open_group(file.get(), "/");
+        check_format(path, root.get());
+        if (seal == Seal::missing) {
+            refuse(path,
+                   "is truncated, or another program has changed it (no checksum at its end)");
+        }
+        return Reader(root.get(), std::filesystem::file_size(path), with_columns).read();
+    } catch (const Hdf5Error& error) {
+        refuse(path, std::string("is damaged or truncated (at \"") + error.what() + "\")");
+    }
+}
+
+}  // namespace
+
+Results read_results(const std::string& path) {
+    return read(path, true);
+}
+
+Results read_frame(const std::string& path) {
+    return read(path, false);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,106 @@
+#include "mc/results/reliability_of_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "analysis/report/reliability_text.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// The columns of one group of gearboxes.
+struct Columns {
+    std::vector<std::vector<double>> parameters;
+    std::vector<std::vector<double>> features;  // gearboxes x noise levels
+    std::size_t rows = 0;
+
+    explicit Columns(const RowShape& shape)
+        : parameters(shape.parameters), features(shape.features) {}
+
+    void add(const double* values, const RowShape& shape) {
+        for (std::size_t p = 0; p < shape.parameters; ++p) {
+            parameters[p].push_back(values[p]);
+        }
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            const double* first = values + shape.value_of(f, 0);
+            features[f].insert(features[f].end(), first, first + shape.levels);
+        }
+        ++rows;
+    }
+};
+
+void check_condition(const Results& frame, const std::string& condition) {
+    std::string names;
+    for (const ParameterResult& parameter : frame.parameters) {
+        if (parameter.name == frame.request.size.name) {
+            continue;
+        }
+        if (parameter.name == condition) {
+            return;
+        }
+        names += (names.empty() ? "" : ", ") + parameter.name;
+    }
+    if (!condition.empty()) {
+        throw std::runtime_error("\"" + condition + "\" is no random input of this file; it has " +
+                                 (names.empty() ? "none" : names));
+    }
+}
+
+}  // namespace
+
+std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
+                                                    const std::string& condition, int threads,
+                                                    std::size_t most_values) {
+    check_condition(frame, condition);
+    const RowShape shape = row_shape(frame);
+    if (rows.rows() * shape.features * shape.levels > most_values) {
+        return std::nullopt;
+    }
+    Columns healthy(shape), graded(shape);
+    rows.visit([&](const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
+            (sets_threshold ? healthy : graded)
+                .add(block.values.data() + row * shape.values(), shape);
+        }
+    });
+    const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
+    analysis::ReliabilityData data;
+    data.healthy_size = {no_fault.data(), healthy.rows};
+    data.graded_size = {no_fault.data(), graded.rows};
+    for (std::size_t p = 0; p < shape.parameters; ++p) {
+        const ParameterResult& parameter = frame.parameters[p];
+        if (parameter.name == frame.request.size.name) {
+            data.healthy_size = healthy.parameters[p];
+            data.graded_size = graded.parameters[p];
+            continue;
+        }
+        data.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
+        if (parameter.name == condition) {
+            data.condition.push_back(
+                {parameter.name, parameter.unit, healthy.parameters[p], graded.parameters[p]});
+        }
+    }
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        data.features.push_back({frame.features[f].name, frame.features[f].alarm,
+                                 healthy.features[f], graded.features[f]});
+    }
+    return analysis::assess_reliability(data, frame.detection, frame.request, threads);
+}
+
+std::string reliability_text(const std::optional<analysis::Reliability>& reliability,
+                             const Results& frame) {
+    if (reliability) {
+        return analysis::reliability_text(*reliability, frame.request);
+    }
+    const std::size_t each =
+        std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
+    return fmt::format(
+        "no POD curves, areas and ranking: they need the values of all gearboxes at "
+        "once, at most {} gearboxes\nwith these features and noise levels\n",
+        kMostAssessedValues / each);
+}
+
+}  // namespace gearpod::mc

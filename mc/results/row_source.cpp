@@ -1,0 +1,117 @@
+#include "mc/results/row_source.hpp"
+
+#include <algorithm>
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::size_t kBlockRows = 512;
+
+// The values of some features and the fault sizes, apart for the two groups.
+struct Sample {
+    std::vector<double> size;
+    std::vector<std::vector<double>> values;  // by feature: rows x levels
+};
+
+// Where a row has its fault size, or nowhere.
+std::size_t size_column(const Results& frame) {
+    const auto found =
+        std::find_if(frame.parameters.begin(), frame.parameters.end(),
+                     [&](const auto& p) { return p.name == frame.request.size.name; });
+    return static_cast<std::size_t>(found - frame.parameters.begin());
+}
+
+void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at, std::size_t first,
+              Sample& healthy, Sample& graded) {
+    for (std::size_t row = 0; row < block.count(); ++row) {
+        const double* values = block.values.data() + row * shape.values();
+        Sample& sample = block.group[row] == static_cast<int>(Group::threshold) ? healthy : graded;
+        sample.size.push_back(size_at < shape.parameters ? values[size_at] : 0.0);
+        for (std::size_t f = 0; f < sample.values.size(); ++f) {
+            const double* feature = values + shape.value_of(first + f, 0);
+            sample.values[f].insert(sample.values[f].end(), feature, feature + shape.levels);
+        }
+    }
+}
+
+}  // namespace
+
+void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
+    for (std::size_t tile = 0; tile < tiles_; ++tile) {
+        const Tile place = plan_.tile(tile);
+        TileRows rows = store_.read(tile);
+        use({place.first_row, std::vector<int>(place.count, static_cast<int>(place.group)),
+             std::move(rows.status), std::move(rows.values)});
+    }
+}
+
+void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
+    const std::size_t levels = results_.noise_levels.size();
+    for (std::size_t first = 0; first < rows(); first += kBlockRows) {
+        RowBlock block;
+        block.first = first;
+        for (std::size_t row = first; row < std::min(first + kBlockRows, rows()); ++row) {
+            block.group.push_back(results_.group[row]);
+            block.status.push_back(results_.status[row]);
+            for (const ParameterResult& parameter : results_.parameters) {
+                block.values.push_back(parameter.values[row]);
+            }
+            for (const FeatureResult& feature : results_.features) {
+                const auto at = feature.values.begin() + static_cast<std::ptrdiff_t>(row * levels);
+                block.values.insert(block.values.end(), at,
+                                    at + static_cast<std::ptrdiff_t>(levels));
+            }
+        }
+        use(block);
+    }
+}
+
+RowShape row_shape(const Results& results) {
+    return {results.parameters.size(), results.features.size(), results.noise_levels.size()};
+}
+
+void fill_columns(Results& results, const RowSource& rows) {
+    const RowShape shape = row_shape(results);
+    rows.visit([&](const RowBlock& block) {
+        results.group.insert(results.group.end(), block.group.begin(), block.group.end());
+        results.status.insert(results.status.end(), block.status.begin(), block.status.end());
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const double* values = block.values.data() + row * shape.values();
+            for (std::size_t p = 0; p < shape.parameters; ++p) {
+                results.parameters[p].values.push_back(values[p]);
+            }
+            for (std::size_t f = 0; f < shape.features; ++f) {
+                const double* feature = values + shape.value_of(f, 0);
+                results.features[f].values.insert(results.features[f].values.end(), feature,
+                                                  feature + shape.levels);
+            }
+        }
+    });
+}
+
+std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const RowSource& rows) {
+    constexpr std::size_t kBytes = std::size_t{64} << 20;
+    const RowShape shape = row_shape(frame);
+    const std::size_t each = 8 * std::max<std::size_t>(1, rows.rows() * shape.levels);
+    const std::size_t at_once = std::max<std::size_t>(1, kBytes / each);
+    const std::size_t size_at = size_column(frame);
+    std::vector<analysis::FeatureDetection> all;
+    for (std::size_t first = 0; first < shape.features; first += at_once) {
+        const std::size_t count = std::min(at_once, shape.features - first);
+        Sample healthy, graded;
+        healthy.values.resize(count);
+        graded.values.resize(count);
+        rows.visit([&](const RowBlock& block) {
+            add_rows(block, shape, size_at, first, healthy, graded);
+        });
+        for (std::size_t f = 0; f < count; ++f) {
+            const FeatureResult& feature = frame.features[first + f];
+            all.push_back(analysis::detect(feature.name, feature.alarm,
+                                           {healthy.size, healthy.values[f]},
+                                           {graded.size, graded.values[f]}, frame.request));
+        }
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,51 @@
+#include "mc/results/run_identity.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "mc/results/provenance.hpp"
+
+namespace gearpod::mc {
+std::string line_difference(const std::string& there, const std::string& here,
+                            const std::string& where_there) {
+    std::istringstream one(there), two(here);
+    std::string a, b;
+    do {
+        const bool more_a = static_cast<bool>(std::getline(one, a));
+        const bool more_b = static_cast<bool>(std::getline(two, b));
+        if (!more_a && !more_b) {
+            return "";
+        }
+        a = more_a ? a : "nothing";
+        b = more_b ? b : "nothing";
+    } while (a == b);
+    return fmt::format("\"{}\" {}, \"{}\" here", a, where_there, b);
+}
+
+RunIdentity run_identity(const Study& study, const RowShape& shape) {
+    Study essence = study;
+    essence.title.clear();
+    essence.numerics.threads = Numerics{}.threads;
+    essence.numerics.lanes = Numerics{}.lanes;
+    essence.numerics.instruction_set = Numerics{}.instruction_set;
+    essence.ensemble = {};
+    essence.ensemble.threshold_instances = study.ensemble.threshold_instances;
+    return {version_text(), std::to_string(study.ensemble.seed), resolved_text(essence), shape};
+}
+
+std::string difference(const RunIdentity& there, const RunIdentity& here) {
+    if (there.version != here.version) {
+        return fmt::format("was made by {}, this is {}", there.version, here.version);
+    }
+    if (there.study != here.study) {
+        return fmt::format("belongs to another study ({})",
+                           line_difference(there.study, here.study));
+    }
+    if (there.seed != here.seed) {
+        return fmt::format("has seed {}, this run has {}", there.seed, here.seed);
+    }
+    return there.shape == here.shape ? "" : "has rows of another shape";
+}
+
+}  // namespace gearpod::mc

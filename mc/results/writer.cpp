@@ -1,0 +1,324 @@
+// write_results().
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <span>
+
+#include "mc/files/file_descriptor.hpp"
+#include "mc/files/hdf5_data.hpp"
+#include "mc/results/layout.hpp"
+#include "mc/results/row_source.hpp"
+#include "mc/results/seal.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void require(bool condition, const std::string& what) {
+    if (!condition) {
+        throw std::invalid_argument("results: " + what);
+    }
+}
+
+void check_shapes(const Results& results) {
+    const std::size_t rows = results.group.size();
+    require(results.status.size() == rows, "status and group differ in length");
+    for (const ParameterResult& parameter : results.parameters) {
+        require(parameter.values.size() == rows, parameter.name + " has another number of rows");
+    }
+    for (const FeatureResult& feature : results.features) {
+        require(feature.values.size() == rows * results.noise_levels.size(),
+                feature.name + " is not rows x noise levels");
+    }
+    for (const analysis::FeatureDetection& detection : results.detection) {
+        for (const analysis::LevelDetection& level : detection.levels) {
+            require(level.cells.size() == results.request.groups.size(),
+                    detection.feature + " has another number of sizes than asked for");
+        }
+    }
+}
+
+// Where a column's values go in the file.
+struct Place {
+    std::uint64_t begin;  // byte of its first row
+    std::size_t at;       // its first value in a row's values
+    std::size_t width;    // values a row
+};
+
+// The places of all that grows with the rows.
+struct Places {
+    std::vector<Place> numbers;
+    std::uint64_t group = 0, status = 0;
+};
+
+void create_instances(hid_t root, const Results& frame, hsize_t rows, Places& places) {
+    const Hdf5Handle group = create_group(root, "instances");
+    places.group = create_column(group.get(), "group", {rows}, ColumnKind::integers);
+    write_text(group.get(), "group", "meanings", kGroupMeanings);
+    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
+        const ParameterResult& parameter = frame.parameters[p];
+        places.numbers.push_back(
+            {create_column(group.get(), parameter.name, {rows}, ColumnKind::numbers), p, 1});
+        write_text(group.get(), parameter.name, "unit", parameter.unit);
+    }
+    places.status = create_column(root, "status", {rows}, ColumnKind::integers);
+    write_text(root, "status", "meanings", kStatusMeanings);
+}
+
+void create_features(hid_t root, const Results& frame, hsize_t rows, Places& places) {
+    const RowShape shape = row_shape(frame);
+    write_numbers(root, "noise_levels", {shape.levels}, frame.noise_levels);
+    const Hdf5Handle group = create_group(root, "features");
+    for (std::size_t f = 0; f < shape.features; ++f) {
+        const FeatureResult& feature = frame.features[f];
+        places.numbers.push_back(
+            {create_column(group.get(), feature.name, {rows, shape.levels}, ColumnKind::numbers),
+             shape.value_of(f, 0), shape.levels});
+        write_text(group.get(), feature.name, "unit", feature.unit);
+        write_text(group.get(), feature.name, "alarm", alarm_text(feature.alarm));
+    }
+}
+
+void write_sizes(hid_t group, const std::vector<analysis::SizeGroup>& sizes) {
+    std::vector<double> low, high;
+    for (const analysis::SizeGroup& size : sizes) {
+        low.push_back(size.low);
+        high.push_back(size.high);
+    }
+    write_numbers(group, "size_low", {sizes.size()}, low);
+    write_numbers(group, "size_high", {sizes.size()}, high);
+}
+
+// One member of every cell (levels x sizes) or of every level.
+template <class Value, class Member>
+std::vector<Value> cell_values(const analysis::FeatureDetection& detection, Member member) {
+    std::vector<Value> values;
+    for (const analysis::LevelDetection& level : detection.levels) {
+        for (const analysis::DetectionCell& cell : level.cells) {
+            values.push_back(cell.*member);
+        }
+    }
+    return values;
+}
+template <class Value, class Member>
+std::vector<Value> level_values(const analysis::FeatureDetection& detection, Member member) {
+    std::vector<Value> values;
+    for (const analysis::LevelDetection& level : detection.levels) {
+        values.push_back(level.*member);
+    }
+    return values;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) {
+        text += (text.empty() ? "" : "\n") + line;
+    }
+    return text;
+}
+
+void write_feature_detection(hid_t parent, const analysis::FeatureDetection& detection,
+                             const std::vector<analysis::SizeGroup>& sizes) {
+    const Hdf5Handle group = create_group(parent, detection.feature);
+    const hsize_t levels = detection.levels.size();
+    write_text(group.get(), ".", "alarm", alarm_text(detection.alarm));
+    write_text(group.get(), ".", "warnings", joined(detection.warnings));
+    write_sizes(group.get(), sizes);
+    for (const LevelNumber& number : kLevelNumbers) {
+        write_numbers(group.get(), number.name, {levels},
+                      level_values<double>(detection, number.member));
+    }
+    for (const LevelCount& count : kLevelCounts) {
+        write_integers(group.get(), count.name, {levels},
+                       level_values<std::int64_t>(detection, count.member));
+    }
+    const Shape shape{levels, sizes.size()};
+    for (const CellNumber& number : kCellNumbers) {
+        write_numbers(group.get(), number.name, shape,
+                      cell_values<double>(detection, number.member));
+    }
+    for (const CellCount& count : kCellCounts) {
+        write_integers(group.get(), count.name, shape,
+                       cell_values<std::int64_t>(detection, count.member));
+    }
+}
+
+void write_detection(hid_t root, const Results& results) {
+    const Hdf5Handle group = create_group(root, "detection");
+    write_number(group.get(), ".", "false_alarm_rate", results.request.false_alarm_rate);
+    write_number(group.get(), ".", "confidence", results.request.confidence);
+    write_text(group.get(), ".", "size_name", results.request.size.name);
+    write_text(group.get(), ".", "size_unit", results.request.size.unit);
+    for (const analysis::FeatureDetection& detection : results.detection) {
+        write_feature_detection(group.get(), detection, results.request.groups);
+    }
+}
+
+void write_numerical(hid_t root, const Results& frame) {
+    if (!frame.numerical) {
+        return;
+    }
+    const NumericalError& error = *frame.numerical;
+    const Hdf5Handle group = create_group(root, "numerical");
+    write_text(group.get(), ".", "rung", error.rung);
+    write_text(group.get(), ".", "finer", error.finer);
+    write_number(group.get(), ".", "gearboxes", error.gearboxes);
+    const std::size_t levels = frame.noise_levels.size();
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        const Hdf5Handle feature = create_group(group.get(), frame.features[f].name);
+        const auto part = [&](const std::vector<double>& all) {
+            const auto first = all.begin() + static_cast<std::ptrdiff_t>(f * levels);
+            return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(levels));
+        };
+        write_numbers(feature.get(), "rms", {levels}, part(error.rms));
+        write_numbers(feature.get(), "largest", {levels}, part(error.largest));
+        write_text(feature.get(), ".", "unit", frame.features[f].unit);
+    }
+}
+
+void write_all_signals(hid_t root, const Results& frame) {
+    if (frame.signals.empty()) {
+        return;
+    }
+    const Hdf5Handle group = create_group(root, "signals");
+    for (const RowSignals& signals : frame.signals) {
+        const Hdf5Handle row = create_group(group.get(), std::to_string(signals.row));
+        for (const SignalColumn& column : signals.columns) {
+            write_numbers(row.get(), column.name, {column.values.size()}, column.values);
+            write_text(row.get(), column.name, "unit", column.unit);
+        }
+    }
+}
+
+// Everything but the rows, which have their places reserved.
+Places write_frame(const std::string& path, const Results& frame, std::size_t rows) {
+    Hdf5Handle file = create_file(path);
+    Places places;
+    {
+        const Hdf5Handle root = open_group(file.get(), "/");
+        write_text(root.get(), ".", "format", kResultsFormat);
+        write_text(root.get(), ".", "format_version", std::to_string(kResultsFormatVersion));
+        for (const auto& [name, value] : frame.provenance) {
+            write_text(root.get(), ".", name, value);
+        }
+        create_instances(root.get(), frame, rows, places);
+        create_features(root.get(), frame, rows, places);
+        write_detection(root.get(), frame);
+        write_numerical(root.get(), frame);
+        write_all_signals(root.get(), frame);
+        const Hdf5Handle timing = create_group(root.get(), "timing");
+        for (const Timing& entry : frame.timing) {
+            write_numbers(timing.get(), entry.name, {}, {entry.seconds});
+            write_text(timing.get(), entry.name, "unit", "s");
+        }
+    }
+    file.close_now("file");
+    return places;
+}
+
+// Writes rows to their places, some thousand at a time.
+class RowWriter {
+  public:
+    RowWriter(const PendingFile& file, int fd, const Places& places, const RowShape& shape)
+        : file_(file), fd_(fd), places_(places), shape_(shape) {}
+
+    void add(const RowBlock& block) {
+        pending_.group.insert(pending_.group.end(), block.group.begin(), block.group.end());
+        pending_.status.insert(pending_.status.end(), block.status.begin(), block.status.end());
+        pending_.values.insert(pending_.values.end(), block.values.begin(), block.values.end());
+        constexpr std::size_t kRows = 4096;
+        if (pending_.count() >= kRows) {
+            flush();
+        }
+    }
+
+    void flush() {
+        const std::size_t rows = pending_.count();
+        for (const Place& place : places_.numbers) {
+            std::vector<double> column;
+            for (std::size_t row = 0; row < rows; ++row) {
+                const auto from = pending_.values.begin() +
+                                  static_cast<std::ptrdiff_t>(row * shape_.values() + place.at);
+                column.insert(column.end(), from, from + static_cast<std::ptrdiff_t>(place.width));
+            }
+            write(column, place.begin, place.width);
+        }
+        write(std::vector<std::int64_t>(pending_.group.begin(), pending_.group.end()),
+              places_.group, 1);
+        write(std::vector<std::int64_t>(pending_.status.begin(), pending_.status.end()),
+              places_.status, 1);
+        const std::size_t next = pending_.first + rows;
+        pending_ = {};
+        pending_.first = next;
+    }
+
+  private:
+    template <class Value>
+    void write(const std::vector<Value>& column, std::uint64_t begin, std::size_t width) {
+        const auto at = static_cast<off_t>(begin + 8 * pending_.first * width);
+        if (!write_at(fd_, std::as_bytes(std::span(column)), at)) {
+            file_.fail(errno);
+        }
+    }
+
+    const PendingFile& file_;
+    int fd_;
+    const Places& places_;
+    const RowShape shape_;
+    RowBlock pending_;
+};
+
+// HDF5 does not take a full disk well, so ask for the room first. Some file systems cannot say.
+void require_room(const PendingFile& file, const RowShape& shape, std::size_t rows) {
+    constexpr std::size_t kFrame = std::size_t{1} << 20;
+    const Descriptor trial(
+        ::open(file.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (trial.get() < 0) {
+        file.fail(errno);
+    }
+    const auto bytes = static_cast<off_t>(kFrame + 8 * rows * (shape.values() + 2));
+    if (::fallocate(trial.get(), 0, 0, bytes) != 0 && errno != EOPNOTSUPP && errno != ENOSYS &&
+        errno != EINVAL) {
+        file.fail(errno);
+    }
+}
+
+}  // namespace
+
+std::string Results::provenance_value(const std::string& name) const {
+    const auto found = std::find_if(provenance.begin(), provenance.end(),
+                                    [&](const auto& entry) { return entry.first == name; });
+    return found == provenance.end() ? "" : found->second;
+}
+
+void write_results(const std::string& path, const Results& frame, const RowSource& rows) {
+    const SilentHdf5 silent;
+    PendingFile file(path);
+    const RowShape shape = row_shape(frame);
+    require_room(file, shape, rows.rows());
+    Places places;
+    try {
+        places = write_frame(file.name(), frame, rows.rows());
+    } catch (const Hdf5Error& error) {
+        throw std::runtime_error(path + ": cannot be written (HDF5 failed at \"" + error.what() +
+                                 "\")");
+    }
+    const Descriptor opened(::open(file.name().c_str(), O_RDWR | O_CLOEXEC));
+    if (opened.get() < 0) {
+        file.fail(errno);
+    }
+    RowWriter writer(file, opened.get(), places, shape);
+    rows.visit([&](const RowBlock& block) { writer.add(block); });
+    writer.flush();
+    if (!append_seal(opened.get())) {
+        file.fail(errno);
+    }
+    file.commit(opened.get());
+}
+
+void write_results(const std::string& path, const Results& results) {
+    check_shapes(results);
+    write_results(path, results, ColumnRows(results));
+}
+
+}  // namespace gearpod::mc

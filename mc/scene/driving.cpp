@@ -1,0 +1,114 @@
+#include "mc/scene/driving.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lockstep/tile/driven_march.hpp"
+#include "mc/scene/scene_error.hpp"
+#include "mc/scene/stepping.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// In periods a mesh.
+double fastest(const Study& study, const Drive& drive, const InstanceInputs& in) {
+    const FluctuationInstance& f = in.fluctuations;
+    const double period_s = dynamics::mesh_period_s(gearbox_inputs(study, drive, in));
+    const double turns = drive.input_turns_per_mesh();
+    double result = 0.0;
+    if (torque_has_sine(study)) {
+        result = std::max(f.torque_order * turns, f.torque_Hz * period_s);
+    }
+    if (speed_has_sine(study)) {
+        result = std::max(result, f.speed_order * turns);
+    }
+    if (torque_has_noise(study)) {
+        result = std::max(result, f.torque_noise_Hz * period_s);
+    }
+    if (speed_has_noise(study)) {
+        result = std::max(result, f.speed_noise_Hz * period_s);
+    }
+    return result;
+}
+
+// Of the nominal gearbox and a pilot of the ensemble.
+double fastest(const Study& study, const Drive& drive) {
+    const Sampler sampler(study);
+    double result = fastest(study, drive, sampler.nominal());
+    constexpr std::uint64_t kPilot = 32;
+    for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
+        result = std::max(result, fastest(study, drive, sampler.sample(Group::graded, i)));
+    }
+    return result;
+}
+
+void check_kernels(const Study& study, const lockstep::MarchPlan& plan) {
+    lockstep::Excitation excitation;
+    if (speed_fluctuates(study)) {
+        excitation.speed.emplace();
+    }
+    if (lockstep::can_be_driven(plan, excitation)) {
+        return;
+    }
+    const std::string what = speed_fluctuates(study)    ? "a fluctuating speed"
+                             : torque_fluctuates(study) ? "a fluctuating torque"
+                                                        : "gravity";
+    if (plan.precision != lockstep::Precision::double_precision) {
+        throw SceneError("numerics.precision", what + " is marched in doubles",
+                         "use precision = \"double\"");
+    }
+    const bool rk4 = plan.integrator == lockstep::Integrator::rk4;
+    if (rk4) {
+        throw SceneError("numerics.grid", what + " is marched by steps that end on every sample",
+                         "use grid = \"uniform\"");
+    }
+    throw SceneError(
+        "numerics.integrator",
+        fmt::format("{} is marched by rk4{}, not by {}", what,
+                    speed_fluctuates(study) ? ", since time does not run evenly along the phase"
+                                            : " and sdirk3",
+                    lockstep::name(plan.integrator)),
+        speed_fluctuates(study)
+            ? "use integrator = \"rk4\"; a gearbox that is too stiff for it needs a steady speed"
+            : "use integrator = \"auto\"");
+}
+
+// Without inertia there are no steps, only the encoders' samples.
+void check_samples(const Study& study, const Drive& drive, int samples) {
+    const double rate = fastest(study, drive);
+    if (samples < 2.0 * rate) {
+        throw SceneError("sensor.encoder_sampling_Hz",
+                         fmt::format("{} samples a mesh period cannot show what fluctuates fastest "
+                                     "({:.3g} periods or band periods a mesh)",
+                                     samples, rate),
+                         "raise the rate, or have a slower fluctuation");
+    }
+}
+
+}  // namespace
+
+void check_driving(const Study& study, const Drive& drive, const lockstep::MarchPlan& plan) {
+    if (!driven_unevenly(study)) {
+        return;
+    }
+    if (study.effects.quasi_static()) {
+        check_samples(study, drive, plan.grid.samples);
+        return;
+    }
+    check_kernels(study, plan);
+    constexpr double kStepsPerPeriod = 20.0;
+    const double needed = kStepsPerPeriod * fastest(study, drive);
+    const auto steps = static_cast<double>(plan.grid.steps.size());
+    if (steps < needed) {
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format("{} steps a mesh period are too few to follow what fluctuates fastest "
+                        "({:.3g} periods or band periods a mesh)",
+                        steps, needed / kStepsPerPeriod),
+            fmt::format("at least {:.0f}, or a slower fluctuation", std::ceil(needed)));
+    }
+}
+
+}  // namespace gearpod::mc

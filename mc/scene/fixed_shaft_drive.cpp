@@ -1,0 +1,69 @@
+#include <numbers>
+
+#include "mc/scene/drive.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+
+using std::numbers::pi;
+
+// The gear with the fault is monitored, else the pinion.
+FixedShaftDrive::FixedShaftDrive(const Study& study)
+    : pinion_teeth_(study.fixed_shaft.pinion_teeth.value()),
+      gear_teeth_(study.fixed_shaft.gear_teeth.value()),
+      pinion_radius_m_(gear_of(study, Member::pinion).base_radius()),
+      gear_radius_m_(gear_of(study, Member::gear).base_radius()),
+      gear_monitored_(study.fault.member == Member::gear) {}
+
+double FixedShaftDrive::mesh_frequency_rad_s(double speed_rad_s) const {
+    return pinion_teeth_ * speed_rad_s;
+}
+
+double FixedShaftDrive::turning_m_s(const InstanceInputs& instance) const {
+    return pinion_radius_m_ * instance.speed_rad_s;
+}
+
+void FixedShaftDrive::set(const InstanceInputs& instance, dynamics::GearboxInputs& inputs) const {
+    auto& out = std::get<dynamics::FixedShaftInputs>(inputs);
+    out.mesh_period_s = 2.0 * pi / mesh_frequency_rad_s(instance.speed_rad_s);
+    out.motor_torque_N_m = instance.torque_N_m;
+    out.load_torque_N_m = instance.fixed_shaft.load_torque_N_m;
+}
+
+// Torques out of balance speed the train up as one body; the mesh carries the motor's force less
+// what its side takes for that.
+double FixedShaftDrive::mesh_force_N(const InstanceInputs& instance) const {
+    const FixedShaftInstance& f = instance.fixed_shaft;
+    const double motor_N = instance.torque_N_m / pinion_radius_m_;
+    const double surplus_N = motor_N - f.load_torque_N_m / gear_radius_m_;
+    const double driving_kg =
+        (f.motor_inertia_kg_m2 + f.pinion_inertia_kg_m2) / (pinion_radius_m_ * pinion_radius_m_);
+    const double driven_kg =
+        (f.load_inertia_kg_m2 + f.gear_inertia_kg_m2) / (gear_radius_m_ * gear_radius_m_);
+    const double all_kg = driving_kg + driven_kg;
+    return all_kg > 0.0 ? motor_N - surplus_N * driving_kg / all_kg : motor_N;
+}
+
+// u counts the gear's rotation against the pinion's, so that the pair turns without error while
+// u_1 = u_2.
+std::vector<double> FixedShaftDrive::te_weight(const dynamics::GearboxLayout& layout) const {
+    std::vector<double> weight(static_cast<std::size_t>(dynamics::degrees_of_freedom(layout)), 0.0);
+    weight[dynamics::u_1] = -1.0 / gear_radius_m_;
+    weight[dynamics::u_2] = 1.0 / gear_radius_m_;
+    return weight;
+}
+
+// After Z_1 Z_2 meshes every tooth of the monitored gear has met every tooth of its mate.
+signals::SpanLayout FixedShaftDrive::span() const {
+    return gear_monitored_ ? signals::SpanLayout{gear_teeth_, pinion_teeth_, 1}
+                           : signals::SpanLayout{pinion_teeth_, gear_teeth_, 1};
+}
+
+std::unique_ptr<const Drive> make_drive(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return std::make_unique<const FixedShaftDrive>(study);
+    }
+    return std::make_unique<const PlanetaryDrive>(study);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,152 @@
+#include "mc/scene/meshes.hpp"
+
+#include "dynamics/helical_pair.hpp"
+#include "mc/scene/scene_error.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/coupled_mesh.hpp"
+#include "stiffness/square_wave_mesh.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Stiffness levels as the study gives them, along the teeth's normal.
+struct Levels {
+    double low_N_m, high_N_m, contact_ratio;
+};
+
+Levels levels_of(const Study& study, Member driven) {
+    const Gearbox& g = study.gearbox;
+    const FixedShaft& f = study.fixed_shaft;
+    const auto constant = [](double stiffness) { return Levels{stiffness, stiffness, 1.0}; };
+    const bool square = g.tooth_profile == ToothProfile::square_wave;
+    switch (driven) {
+        case Member::gear:
+            return square ? Levels{f.mesh_low_stiffness_N_m.value(),
+                                   f.mesh_high_stiffness_N_m.value(), f.mesh_contact_ratio.value()}
+                          : constant(f.mesh_stiffness_N_m.value());
+        case Member::ring:
+            return square ? Levels{g.ring_planet_low_stiffness_N_m.value(),
+                                   g.ring_planet_high_stiffness_N_m.value(),
+                                   g.ring_planet_contact_ratio.value()}
+                          : constant(g.ring_planet_stiffness_N_m.value());
+        default:
+            return square ? Levels{g.sun_planet_low_stiffness_N_m.value(),
+                                   g.sun_planet_high_stiffness_N_m.value(),
+                                   g.sun_planet_contact_ratio.value()}
+                          : constant(g.sun_planet_stiffness_N_m.value());
+    }
+}
+
+// In the transverse plane, in which the gears move.
+double transverse_factor(const Gearbox& g) {
+    return g.helix_angle_rad == 0.0
+               ? 1.0
+               : dynamics::transverse_stiffness_factor(g.pressure_angle_rad, g.helix_angle_rad);
+}
+
+std::unique_ptr<const stiffness::MeshStiffness> given_mesh(const Study& study, Member driven) {
+    const Levels levels = levels_of(study, driven);
+    const double factor = transverse_factor(study.gearbox);
+    return std::make_unique<const stiffness::SquareWaveMesh>(
+        factor * levels.low_N_m, factor * levels.high_N_m, levels.contact_ratio);
+}
+
+void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
+    stiffness::CoupledMeshOptions options;
+    options.foundation = study.effects.foundation;
+    options.contact = study.effects.contact;
+    options.body_radius_1_m = body_radius_m(study, mesh.members.driver);
+    options.body_radius_2_m = body_radius_m(study, mesh.members.driven);
+    options.force_N = force_N;
+    options.tolerance = study.numerics.stiffness_tolerance;
+    try {
+        auto coupled = std::make_unique<const stiffness::CoupledMesh>(
+            *mesh.geometry, material_of(study), profile_of(study), options);
+        mesh.body[0] = coupled->body(1);
+        mesh.body[1] = coupled->body(2);
+        mesh.stiffness = std::move(coupled);
+    } catch (const std::invalid_argument& error) {
+        throw SceneError(
+            study.effects.foundation == Foundation::none ? "effects.contact" : "effects.foundation",
+            error.what(), "");
+    }
+}
+
+}  // namespace
+
+double body_radius_m(const Study& study, Member member) {
+    const auto diameter = [&] {
+        switch (member) {
+            case Member::sun:
+                return study.gearbox.sun_bore_m;
+            case Member::planet:
+                return study.gearbox.planet_bore_m;
+            case Member::ring:
+                return study.gearbox.ring_outer_m;
+            case Member::pinion:
+                return study.fixed_shaft.pinion_bore_m;
+            default:
+                return study.fixed_shaft.gear_bore_m;
+        }
+    }();
+    return 0.5 * diameter.value_or(0.0);
+}
+
+stiffness::Material material_of(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    return {g.young_modulus_Pa.value(), g.poisson_ratio.value(), g.face_width_m.value(),
+            study.effects.shear};
+}
+
+std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
+    const bool coupled =
+        study.effects.foundation != Foundation::none || study.effects.contact != Contact::linear;
+    std::vector<SceneMesh> meshes;
+    for (const MeshMembers& members : meshes_of(study.gearbox.kind)) {
+        SceneMesh mesh;
+        mesh.members = members;
+        if (stiffness_given(study)) {
+            mesh.stiffness = given_mesh(study, members.driven);
+        } else {
+            mesh.geometry.emplace(gear_of(study, members.driver), gear_of(study, members.driven));
+            if (coupled) {
+                make_coupled(study, force_N, mesh);
+            } else {
+                mesh.stiffness = std::make_unique<const stiffness::AdditiveMesh>(
+                    *mesh.geometry, material_of(study), profile_of(study),
+                    study.numerics.stiffness_tolerance);
+            }
+        }
+        meshes.push_back(std::move(mesh));
+    }
+    return meshes;
+}
+
+lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drive& drive) {
+    lockstep::PairSet pairs;
+    // A tooth pair that is touched in the reverse order begins where it used to end.
+    pairs.reversed = drive.reversed();
+    for (const SceneMesh& mesh : meshes) {
+        const stiffness::MeshStiffness& curve = *mesh.stiffness;
+        const double since = pairs.reversed ? curve.contact_ratio() - curve.pitch_position()
+                                            : curve.pitch_position();
+        for (int i = 0; i < drive.pairs_per_mesh(); ++i) {
+            pairs.start.push_back(
+                lockstep::phase_in_period(drive.pitch_phase(pairs.pairs()) - since));
+            pairs.mesh.push_back(&curve);
+        }
+    }
+    return pairs;
+}
+
+std::vector<double> constant_pairs(const Study& study) {
+    const bool planetary = study.gearbox.kind == GearboxKind::planetary;
+    std::vector<double> k;
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        k.insert(k.end(), static_cast<std::size_t>(planetary ? study.gearbox.planets : 1),
+                 transverse_factor(study.gearbox) * levels_of(study, mesh.driven).low_N_m);
+    }
+    return k;
+}
+
+}  // namespace gearpod::mc

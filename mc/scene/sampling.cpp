@@ -1,0 +1,232 @@
+#include "mc/scene/sampling.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Of a fault only the size may be random.
+bool is_fault_size(const RandomInput& input) {
+    return input.key.starts_with("fault.");
+}
+
+const Key& key_of(const RandomInput& input) {
+    const std::size_t dot = input.key.find('.');
+    return *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+}
+
+// J / r^2 from whichever of J / r^2, J and the mass of a solid disc is given. For a disc on the
+// pitch radius r_p, J = m r_p^2 / 2, and r_p = r_b / cos a.
+double over_r2(const std::optional<double>& inertia_over_r2, const std::optional<double>& inertia,
+               double radius_m, double disc_over_r2) {
+    if (inertia_over_r2) {
+        return *inertia_over_r2;
+    }
+    return inertia ? *inertia / (radius_m * radius_m) : disc_over_r2;
+}
+
+void resolve_masses(const Study& study, InstanceInputs& inputs) {
+    const Gearbox& g = study.gearbox;
+    // A quasi-static gearbox may leave the masses out.
+    inputs.sun_mass_kg = g.sun_mass_kg.value_or(0.0);
+    inputs.planet_mass_kg = g.planet_mass_kg.value_or(0.0);
+    inputs.ring_mass_kg = g.ring_mass_kg.value_or(0.0);
+    inputs.carrier_mass_kg = g.carrier_mass_kg.value_or(0.0);
+    double sun_m = 0.0, planet_m = 0.0, ring_m = 0.0, centre_m = 0.0;
+    if (has_gears(study)) {
+        sun_m = gear_of(study, Member::sun).base_radius();
+        planet_m = gear_of(study, Member::planet).base_radius();
+        ring_m = gear_of(study, Member::ring).base_radius();
+        centre_m = 0.5 * *g.module_m * (*g.sun_teeth + *g.planet_teeth);
+    }
+    const double cosine = std::cos(transverse_pressure_angle_rad(g));
+    const double disc = 0.5 / (cosine * cosine);
+    inputs.sun_inertia_over_r2_kg =
+        over_r2(g.sun_inertia_over_r2_kg, g.sun_inertia_kg_m2, sun_m, disc * inputs.sun_mass_kg);
+    inputs.planet_inertia_over_r2_kg = over_r2(g.planet_inertia_over_r2_kg, g.planet_inertia_kg_m2,
+                                               planet_m, disc * inputs.planet_mass_kg);
+    inputs.ring_inertia_over_r2_kg = over_r2(g.ring_inertia_over_r2_kg, g.ring_inertia_kg_m2,
+                                             ring_m, disc * inputs.ring_mass_kg);
+    inputs.carrier_inertia_over_r2_kg =
+        over_r2(g.carrier_inertia_over_r2_kg, g.carrier_inertia_kg_m2, centre_m,
+                0.5 * inputs.carrier_mass_kg);
+}
+
+// A disc of the pitch radius: I = m R_p^2 / 2 (Tian, Table 4.1).
+double inertia_or_disc(const std::optional<double>& inertia, double mass_kg, double radius_m) {
+    return inertia.value_or(0.5 * mass_kg * radius_m * radius_m);
+}
+
+void resolve_fixed_shaft(const Study& study, FixedShaftInstance& out) {
+    const FixedShaft& f = study.fixed_shaft;
+    out.pinion_mass_kg = f.pinion_mass_kg.value_or(0.0);
+    out.gear_mass_kg = f.gear_mass_kg.value_or(0.0);
+    out.pinion_inertia_kg_m2 = inertia_or_disc(f.pinion_inertia_kg_m2, out.pinion_mass_kg,
+                                               gear_of(study, Member::pinion).pitch_radius());
+    out.gear_inertia_kg_m2 = inertia_or_disc(f.gear_inertia_kg_m2, out.gear_mass_kg,
+                                             gear_of(study, Member::gear).pitch_radius());
+    out.motor_inertia_kg_m2 = f.motor_inertia_kg_m2.value_or(0.0);
+    out.load_inertia_kg_m2 = f.load_inertia_kg_m2.value_or(0.0);
+    out.pinion_bearing_stiffness_N_m = f.pinion_bearing_stiffness_N_m.value_or(0.0);
+    out.gear_bearing_stiffness_N_m = f.gear_bearing_stiffness_N_m.value_or(0.0);
+    out.pinion_bearing_damping_N_s_m = f.pinion_bearing_damping_N_s_m;
+    out.gear_bearing_damping_N_s_m = f.gear_bearing_damping_N_s_m;
+    out.motor_coupling_stiffness_N_m_rad = f.motor_coupling_stiffness_N_m_rad;
+    out.load_coupling_stiffness_N_m_rad = f.load_coupling_stiffness_N_m_rad;
+    out.motor_coupling_damping_N_m_s_rad = f.motor_coupling_damping_N_m_s_rad;
+    out.load_coupling_damping_N_m_s_rad = f.load_coupling_damping_N_m_s_rad;
+    const double ratio = static_cast<double>(*f.gear_teeth) / *f.pinion_teeth;
+    out.load_torque_N_m =
+        study.operation.load_torque_N_m.value_or(study.operation.torque_N_m * ratio);
+}
+
+double mesh_damping(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    switch (study.effects.mesh_damping) {
+        case MeshDamping::ratio:
+            return g.mesh_damping_ratio.value_or(0.0);
+        case MeshDamping::proportional:
+            return g.mesh_damping_time_s.value_or(0.0);
+        case MeshDamping::constant:
+            return g.mesh_damping_N_s_m.value_or(0.0);
+    }
+    return 0.0;
+}
+
+FluctuationInstance fluctuations(const Fluctuations& f) {
+    return {
+        f.torque.value_or(0.0),      f.torque_order.value_or(0.0),  f.torque_Hz.value_or(0.0),
+        f.torque_phase_rad,          f.torque_noise.value_or(0.0),  f.torque_noise_Hz.value_or(0.0),
+        f.speed.value_or(0.0),       f.speed_order.value_or(0.0),   f.speed_phase_rad,
+        f.speed_noise.value_or(0.0), f.speed_noise_Hz.value_or(0.0)};
+}
+
+double speed(const Operation& o) {
+    for (const auto& given :
+         {o.pinion_speed_rad_s, o.sun_speed_rad_s, o.ring_speed_rad_s, o.carrier_speed_rad_s}) {
+        if (given) {
+            return *given;
+        }
+    }
+    return 0.0;
+}
+
+// The value of each random input's digit: the product of the numbers of values before it.
+std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    std::vector<std::uint64_t> lengths(inputs.size(), 1);
+    std::uint64_t length = 1;
+    for (const bool size : {true, false}) {
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const std::uint64_t count = inputs[i].distribution.levels().size();
+            if (is_fault_size(inputs[i]) == size && count > 0) {
+                lengths[i] = length;
+                length = length > kMost / count ? kMost : length * count;
+            }
+        }
+    }
+    return lengths;
+}
+
+}  // namespace
+
+InstanceInputs resolve_inputs(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    InstanceInputs inputs{};
+    if (g.kind == GearboxKind::fixed_shaft) {
+        resolve_fixed_shaft(study, inputs.fixed_shaft);
+    } else {
+        resolve_masses(study, inputs);
+    }
+    inputs.backlash_m = g.backlash_m.value_or(0.0);
+    inputs.pitch_error_m = study.errors.pitch_error_m;
+    inputs.sun_bearing_stiffness_N_m = g.sun_bearing_stiffness_N_m.value_or(0.0);
+    inputs.planet_bearing_stiffness_N_m = g.planet_bearing_stiffness_N_m.value_or(0.0);
+    inputs.ring_bearing_stiffness_N_m = g.ring_bearing_stiffness_N_m.value_or(0.0);
+    inputs.carrier_bearing_stiffness_N_m = g.carrier_bearing_stiffness_N_m.value_or(0.0);
+    inputs.sun_bearing_damping_N_s_m = g.sun_bearing_damping_N_s_m;
+    inputs.planet_bearing_damping_N_s_m = g.planet_bearing_damping_N_s_m;
+    inputs.ring_bearing_damping_N_s_m = g.ring_bearing_damping_N_s_m;
+    inputs.carrier_bearing_damping_N_s_m = g.carrier_bearing_damping_N_s_m;
+    inputs.support_stiffness_N_m = g.support_stiffness_N_m;
+    inputs.support_damping_N_s_m = g.support_damping_N_s_m;
+    inputs.mesh_damping = mesh_damping(study);
+    inputs.torque_N_m = study.operation.torque_N_m;
+    inputs.speed_rad_s = speed(study.operation);
+    inputs.fluctuations = fluctuations(study.fluctuations);
+    // No path weighs the sensor of a fixed-shaft gearbox.
+    inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
+    inputs.noise_m_s2 = study.sensor.noise_m_s2;
+    inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
+    inputs.fault_size = fault_size(study);
+    return inputs;
+}
+
+Sampler::Sampler(const Study& study) : study_(study), turn_lengths_(turn_lengths(study.random)) {}
+
+Study Sampler::draw(Group group, std::uint64_t index) const {
+    Study drawn = study_;
+    for (std::size_t i = 0; i < study_.random.size(); ++i) {
+        const RandomInput& input = study_.random[i];
+        Philox engine(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
+                      parameter_id(input.key));
+        const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
+        std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
+    }
+    if (group == Group::threshold) {
+        std::get<NumberAccess>(fault_size_key(study_).access).set(drawn, 0.0);
+    }
+    return drawn;
+}
+
+InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
+    return resolve_inputs(draw(group, index));
+}
+
+InstanceInputs Sampler::nominal() const {
+    return resolve_inputs(study_);
+}
+
+Member Sampler::speed_member() const {
+    return study_.operation.pinion_speed_rad_s ? Member::pinion
+           : study_.operation.sun_speed_rad_s  ? Member::sun
+           : study_.operation.ring_speed_rad_s ? Member::ring
+                                               : Member::carrier;
+}
+
+std::vector<ParameterColumn> Sampler::columns() const {
+    std::vector<ParameterColumn> columns;
+    for (const RandomInput& input : study_.random) {
+        if (is_fault_size(input)) {
+            continue;
+        }
+        const Key& key = key_of(input);
+        std::string name(key.stem());
+        if (!key.unit.si_suffix.empty()) {
+            name += "_" + std::string(key.unit.si_suffix);
+        }
+        columns.push_back({name, std::string(key.unit.si_name)});
+    }
+    columns.push_back(
+        {fault_size_column(study_), std::string(fault_size_key(study_).unit.si_name)});
+    return columns;
+}
+
+std::vector<double> Sampler::row(Group group, std::uint64_t index) const {
+    const Study drawn = draw(group, index);
+    std::vector<double> row;
+    for (const RandomInput& input : study_.random) {
+        if (!is_fault_size(input)) {
+            row.push_back(std::get<NumberAccess>(key_of(input).access).get(drawn).value_or(0.0));
+        }
+    }
+    row.push_back(fault_size(drawn));
+    return row;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,102 @@
+// The gearboxes of an ensemble: which values instance k of a group has.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mc/random/philox.hpp"
+#include "mc/study/study.hpp"
+
+namespace gearpod::mc {
+
+// Of a fixed-shaft gearbox; all 0 in a planetary one.
+struct FixedShaftInstance {
+    double pinion_mass_kg, gear_mass_kg;
+    double pinion_inertia_kg_m2, gear_inertia_kg_m2;  // resolved
+    double motor_inertia_kg_m2, load_inertia_kg_m2;
+    double pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;  // 0 if left out
+    double pinion_bearing_damping_N_s_m, gear_bearing_damping_N_s_m;
+    double motor_coupling_stiffness_N_m_rad, load_coupling_stiffness_N_m_rad;
+    double motor_coupling_damping_N_m_s_rad, load_coupling_damping_N_m_s_rad;
+    double load_torque_N_m;  // resolved
+};
+
+// As in Fluctuations, with 0 for what is not given. Orders and frequencies are turns of the sine.
+struct FluctuationInstance {
+    double torque, torque_order, torque_Hz, torque_phase_rad;
+    double torque_noise, torque_noise_Hz;
+    double speed, speed_order, speed_phase_rad;
+    double speed_noise, speed_noise_Hz;
+};
+
+// All inputs that may differ between gearboxes, SI. Names as in Study.
+struct InstanceInputs {
+    double sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
+    // J / r^2, r: base radius, carrier: centre distance; resolved whichever way the study gives it.
+    double sun_inertia_over_r2_kg, planet_inertia_over_r2_kg, ring_inertia_over_r2_kg,
+        carrier_inertia_over_r2_kg;
+    // 0 where a torsional study leaves them out.
+    double sun_bearing_stiffness_N_m, planet_bearing_stiffness_N_m, ring_bearing_stiffness_N_m,
+        carrier_bearing_stiffness_N_m;
+    double sun_bearing_damping_N_s_m, planet_bearing_damping_N_s_m, ring_bearing_damping_N_s_m,
+        carrier_bearing_damping_N_s_m;
+    double support_stiffness_N_m, support_damping_N_s_m;
+    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
+    FixedShaftInstance fixed_shaft;
+    double backlash_m;     // 2b
+    double pitch_error_m;  // rms
+    double torque_N_m;
+    double speed_rad_s;  // of Sampler::speed_member()
+    FluctuationInstance fluctuations;
+    double path_exponent;
+    double noise_m_s2;         // rms
+    double encoder_noise_rad;  // rms
+    double fault_size;         // 0 in the threshold group and without a fault
+};
+
+// Which gearbox: row `index` of its group.
+struct GearboxId {
+    Group group = Group::graded;
+    std::uint64_t index = 0;
+};
+
+struct ParameterColumn {
+    std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
+    std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
+};
+
+// Instances of both groups of one study. Immutable; safe to share between threads.
+//
+// `levels` and `grid` inputs take their values in turn, all combinations of them: instance i has
+// the digits of i in a mixed radix whose bases are the numbers of values. The lowest digit is
+// the fault's size, so that each size gets equally many gearboxes, then come the others in the
+// order of the schema. n gearboxes hold all combinations alike if n is a multiple of their number.
+class Sampler {
+  public:
+    explicit Sampler(const Study& study);
+
+    // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
+    InstanceInputs sample(Group group, std::uint64_t index) const;
+    // Nominal values; fault_size is the nominal size.
+    InstanceInputs nominal() const;
+
+    // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier, or the pinion.
+    Member speed_member() const;
+
+    // Every random input, and the fault's size last: what /instances holds.
+    std::vector<ParameterColumn> columns() const;
+    // The values of one instance in that order, SI.
+    std::vector<double> row(Group group, std::uint64_t index) const;
+
+  private:
+    Study draw(Group group, std::uint64_t index) const;
+    Study study_;
+    // By random input: how many instances have the same turn in succession.
+    std::vector<std::uint64_t> turn_lengths_;
+};
+
+// J / r^2 and the rest of one gearbox, from the nominal values of a study.
+InstanceInputs resolve_inputs(const Study& study);
+
+}  // namespace gearpod::mc

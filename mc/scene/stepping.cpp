@@ -1,0 +1,271 @@
+#include "mc/scene/stepping.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lockstep/steps/step_limit.hpp"
+#include "mc/scene/body.hpp"
+#include "mc/scene/scene_error.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kMostSteps = 1'000'000;  // and samples, in a mesh period
+constexpr int kFewestSamples = 4;
+
+// The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
+// whole planet turn stay fast.
+int round_up_to_smooth(int least) {
+    for (int n = std::max(least, 1);; ++n) {
+        int rest = n;
+        for (const int prime : {2, 3, 5}) {
+            while (rest % prime == 0) {
+                rest /= prime;
+            }
+        }
+        if (rest == 1) {
+            return n;
+        }
+    }
+}
+
+// Samples a mesh period at least, for a rate of `key`.
+int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) {
+    const double samples = std::ceil(rate_Hz / mesh_frequency_Hz - 1e-9);
+    if (samples > kMostSteps) {
+        throw SceneError(key,
+                         fmt::format("{:.3g} samples a mesh period are too many (at most {})",
+                                     samples, kMostSteps),
+                         "lower the rate or raise the speed");
+    }
+    return std::max(1, static_cast<int>(samples));
+}
+
+// What the steps of a mesh period have to follow.
+class StepNeeds {
+  public:
+    StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
+              const std::vector<double>& stiffest_N_m)
+        : study_(study),
+          layout_(layout),
+          stiffest_(stiffest_N_m),
+          low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
+        const Sampler sampler(study);
+        gearboxes_.push_back(gearbox_inputs(study, drive, sampler.nominal()));
+        // A pilot of the ensemble, the same for every run of the study, stands for the rest.
+        constexpr int kPilot = 32;
+        for (int i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
+            gearboxes_.push_back(gearbox_inputs(
+                study, drive, sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
+        }
+        decay_meshes_ =
+            1.0 / (lockstep::runge_kutta_limit(system(0)).slowest_decay_1_s * period(0));
+        runge_kutta_ = stable_steps(lockstep::Integrator::rk4);
+    }
+
+    double decay_meshes() const { return decay_meshes_; }
+    // Steps with which an explicit method is stable for all of them.
+    double stable(lockstep::Integrator integrator) const {
+        return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
+    }
+    double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(0); }
+    // Steps with which an implicit method is accurate for all of them.
+    double implicit(lockstep::Integrator integrator) const {
+        double steps = 1.0;
+        for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
+            steps = std::max(
+                steps, lockstep::implicit_steps(integrator, system(i), period(i), low_pass_rad_s_));
+        }
+        return steps;
+    }
+    lockstep::StiffPart stiffest_part() const {
+        return lockstep::stiffest_part(layout_, gearboxes_[0], stiffest_);
+    }
+
+  private:
+    dynamics::GearboxMatrices system(std::size_t i) const {
+        return dynamics::assemble(layout_, gearboxes_[i], stiffest_);
+    }
+    double stable_steps(lockstep::Integrator integrator) const {
+        double steps = 0.0;
+        for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
+            steps =
+                std::max(steps, period(i) / lockstep::longest_stable_step(system(i), integrator));
+        }
+        return steps;
+    }
+    double period(std::size_t i) const { return dynamics::mesh_period_s(gearboxes_[i]); }
+
+    const Study& study_;
+    const dynamics::GearboxLayout& layout_;
+    const std::vector<double>& stiffest_;
+    double low_pass_rad_s_;
+    std::vector<dynamics::GearboxInputs> gearboxes_;  // the nominal one first
+    double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
+};
+
+[[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
+    const lockstep::StiffPart stiff = needs.stiffest_part();
+    throw SceneError("numerics.integrator",
+                     fmt::format("the explicit method would need {:.3g} steps a mesh period ({} "
+                                 "moves {} at a rate of {:.3g} 1/s)",
+                                 steps, stiff.part, stiff.motion, stiff.rate_1_s),
+                     "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
+}
+
+// Steps that the sensor's low-pass takes of an explicit method: so many in a period of its band
+// edge, and at least so many.
+struct BandSteps {
+    double chosen, fewest;
+};
+BandSteps band_steps(lockstep::Integrator integrator) {
+    // Central differences: their low-pass is off by (2 pi / steps)^2 / 12 there, 7e-4 and 3e-3.
+    return integrator == lockstep::Integrator::central_difference ? BandSteps{70.0, 35.0}
+                                                                  : BandSteps{20.0, 10.0};
+}
+
+// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. The
+// margin covers what the pilot misses, and a gearbox beyond it is reported as diverged.
+Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
+    constexpr double kMargin = 1.2;
+    const double stable = needs.stable(integrator);
+    const BandSteps band = band_steps(integrator);
+    const double least = std::ceil(std::max(stable, band.fewest * needs.band_periods()));
+    const double chosen = std::ceil(std::max(kMargin * stable, band.chosen * needs.band_periods()));
+    const bool asked_for = given >= least && given <= kMostSteps;
+    if (!asked_for && stable > lockstep::kMostExplicitSteps) {
+        refuse_explicit(needs, chosen);
+    }
+    if (!(chosen <= kMostSteps)) {
+        throw SceneError("numerics.steps_per_mesh",
+                         fmt::format("the sensor's low-pass would need {:.3g} steps a mesh period "
+                                     "(at most {})",
+                                     chosen, kMostSteps),
+                         "lower sensor.low_pass_Hz or raise the speed");
+    }
+    if (given > 0 && given < least) {
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format("{} steps are too few (below {}, {} is unstable for this study's stiffest "
+                        "gearbox, or its sensor's low-pass inaccurate)",
+                        given, least, name(integrator)),
+            "leave the key out to have the steps chosen");
+    }
+    return {integrator,
+            given > 0 ? given : static_cast<int>(chosen),
+            static_cast<int>(least),
+            needs.decay_meshes(),
+            1.0 / std::max({1.0, kMargin * stable, band.fewest * needs.band_periods()}),
+            0.0};
+}
+
+Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
+    const double chosen = given > 0 ? given : std::ceil(needs.implicit(integrator));
+    if (!(chosen <= kMostSteps)) {
+        throw SceneError("numerics.steps_per_mesh",
+                         fmt::format("{:.3g} steps a mesh period would be needed (at most {})",
+                                     chosen, kMostSteps),
+                         "lower sensor.low_pass_Hz or raise the speed");
+    }
+    return {integrator, static_cast<int>(chosen), 1, needs.decay_meshes(), 1.0, 0.0};
+}
+
+lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
+    switch (study.numerics.integrator) {
+        case Integrator::rk4:
+            return lockstep::Integrator::rk4;
+        case Integrator::newmark:
+            return lockstep::Integrator::newmark;
+        case Integrator::sdirk3:
+            return lockstep::Integrator::sdirk3;
+        case Integrator::generalized_alpha:
+            return lockstep::Integrator::generalized_alpha;
+        case Integrator::bs3:
+            return lockstep::Integrator::bs3;
+        case Integrator::central_difference:
+            return lockstep::Integrator::central_difference;
+        case Integrator::automatic:
+            break;
+    }
+    const lockstep::Integrator chosen =
+        lockstep::choose_integrator(needs.stable(lockstep::Integrator::rk4));
+    if (study.numerics.precision == Precision::single_precision && !is_explicit(chosen)) {
+        const lockstep::StiffPart stiff = needs.stiffest_part();
+        throw SceneError("numerics.precision",
+                         fmt::format("\"single\" is for explicit integrators, and this gearbox is "
+                                     "too stiff for one ({} moves {} at a rate of {:.3g} 1/s)",
+                                     stiff.part, stiff.motion, stiff.rate_1_s),
+                         "use precision = \"double\"");
+    }
+    return chosen;
+}
+
+}  // namespace
+
+Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
+    const bool sensor = !study.effects.quasi_static();
+    const char* const key = sensor ? "sensor.sampling_Hz" : "sensor.encoder_sampling_Hz";
+    const double rate = sensor ? study.sensor.sampling_Hz : study.sensor.encoder_sampling_Hz;
+    Sampling result;
+    result.samples = round_up_to_smooth(samples_at_least(rate, mesh_frequency_Hz, key));
+    if (result.samples < kFewestSamples) {
+        throw SceneError(
+            key,
+            fmt::format("{} sample(s) a mesh period leave nothing to {} (mesh "
+                        "frequency {:.4g} Hz)",
+                        result.samples, sensor ? "window" : "average", mesh_frequency_Hz),
+            fmt::format("at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
+    }
+    result.te_samples = std::min(samples_at_least(study.sensor.encoder_sampling_Hz,
+                                                  mesh_frequency_Hz, "sensor.encoder_sampling_Hz"),
+                                 result.samples);
+    while (result.samples % result.te_samples != 0) {
+        ++result.te_samples;
+    }
+    return result;
+}
+
+Stepping choose_stepping(const Study& study, const Drive& drive,
+                         const dynamics::GearboxLayout& layout,
+                         const std::vector<double>& stiffest_N_m) {
+    const StepNeeds needs(study, drive, layout, stiffest_N_m);
+    const lockstep::Integrator integrator = integrator_of(study, needs);
+    const int given = study.numerics.steps_per_mesh;
+    Stepping stepping = is_explicit(integrator) ? explicit_stepping(needs, integrator, given)
+                                                : implicit_stepping(needs, integrator, given);
+    stepping.explicit_steps = needs.stable(lockstep::Integrator::rk4);
+    return stepping;
+}
+
+double settle_tolerance(const Study& study) {
+    constexpr double kFinestInSingle = 1e-5;
+    const double asked = study.numerics.settle_tolerance;
+    return study.numerics.precision == Precision::single_precision
+               ? std::max(asked, kFinestInSingle)
+               : asked;
+}
+
+// Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the
+// tolerance.
+int choose_max_meshes(const Study& study, double decay_meshes) {
+    constexpr double kFewest = 200.0, kMost = 1e6;
+    const double decay = -2.0 * decay_meshes * std::log(settle_tolerance(study));
+    const int given = study.numerics.max_meshes;
+    return given > 0 ? given
+                     : static_cast<int>(std::isfinite(decay) ? std::clamp(decay, kFewest, kMost)
+                                                             : kFewest);
+}
+
+dynamics::GearboxInputs gearbox_inputs(const Study& study, const Drive& drive,
+                                       const InstanceInputs& instance) {
+    dynamics::GearboxInputs inputs = body_inputs(study, instance);
+    drive.set(instance, inputs);
+    return inputs;
+}
+
+}  // namespace gearpod::mc

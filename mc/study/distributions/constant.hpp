@@ -1,0 +1,28 @@
+// One value for all gearboxes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+struct Constant {
+    static constexpr std::string_view kName = "constant";
+    double value = 0.0;
+
+    static constexpr auto fields() { return std::tuple{Field{"value", &Constant::value}}; }
+    std::string problem() const { return ""; }
+    double median() const { return value; }
+    Support support() const { return {value, value, false, false}; }
+    std::vector<double> levels() const { return {value}; }
+    double draw(Philox&, std::uint64_t) const { return value; }
+    bool operator==(const Constant&) const = default;
+};
+
+}  // namespace gearpod::mc

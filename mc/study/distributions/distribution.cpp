@@ -1,0 +1,263 @@
+#include "mc/study/distributions/distribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "mc/input/document.hpp"
+#include "mc/input/spelling.hpp"
+#include "mc/study/distributions/constant.hpp"
+#include "mc/study/distributions/grid.hpp"
+#include "mc/study/distributions/levels.hpp"
+#include "mc/study/distributions/lognormal.hpp"
+#include "mc/study/distributions/normal.hpp"
+#include "mc/study/distributions/triangular.hpp"
+#include "mc/study/distributions/truncated_normal.hpp"
+#include "mc/study/distributions/uniform.hpp"
+
+namespace gearpod::mc {
+
+// The registration line.
+using AnyLaw =
+    std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNormal, Triangular, Levels, Grid>;
+
+struct DistributionKind {
+    AnyLaw law;
+};
+
+namespace {
+
+// One call for each registered law, with a default-constructed object.
+template <class Visit, std::size_t... I>
+void for_each_law(Visit visit, std::index_sequence<I...>) {
+    (visit(std::variant_alternative_t<I, AnyLaw>{}), ...);
+}
+template <class Visit>
+void for_each_law(Visit visit) {
+    for_each_law(visit, std::make_index_sequence<std::variant_size_v<AnyLaw>>{});
+}
+
+// Reads the fields of one distribution from its table.
+class FieldReader {
+  public:
+    FieldReader(const Value& table, const std::string& key, Problems& problems)
+        : table_(table), key_(key), problems_(problems) {}
+
+    template <class Law>
+    bool read(Law& law) {
+        bool good = reject_unknown<Law>();
+        // A misspelt parameter is not reported as missing as well.
+        const bool spelled = good;
+        std::apply(
+            [&](const auto&... field) { ((good = read_field(law, field, spelled) && good), ...); },
+            Law::fields());
+        // What the parameters contradict one another in; a bad one is NaN and contradicts none.
+        if (!law.problem().empty()) {
+            good = add(table_.position, "", law.problem(), "");
+        }
+        return good;
+    }
+
+  private:
+    template <class Law>
+    bool reject_unknown() {
+        std::vector<std::string_view> known;
+        std::apply([&](const auto&... field) { (known.push_back(field.name), ...); },
+                   Law::fields());
+        bool good = true;
+        for (const Entry& entry : table_.entries) {
+            if (entry.name != "distribution" &&
+                std::find(known.begin(), known.end(), entry.name) == known.end()) {
+                good = add(entry.position, entry.name,
+                           fmt::format("unknown parameter of {}", Law::kName),
+                           suggest(entry.name, known));
+            }
+        }
+        return good;
+    }
+
+    template <class Law, class Type>
+    bool read_field(Law& law, const Field<Law, Type>& field, bool report_missing) {
+        Type& target = law.*(field.member);
+        const Entry* entry = table_.find(field.name);
+        if (entry != nullptr) {
+            return convert(*entry, field.range, target);
+        }
+        make_bad(target);
+        return report_missing ? add(table_.position, std::string(field.name), "missing",
+                                    fmt::format("{} needs it", Law::kName))
+                              : false;
+    }
+
+    static void make_bad(double& target) { target = std::numeric_limits<double>::quiet_NaN(); }
+    template <class Type>
+    static void make_bad(Type&) {}
+
+    bool convert(const Entry& entry, const Range& range, double& target) {
+        target = entry.value.number;
+        const bool good = check_number(entry, entry.value, range);
+        if (!good) {
+            make_bad(target);
+        }
+        return good;
+    }
+
+    // The range must fit into an int.
+    bool convert(const Entry& entry, const Range& range, int& target) {
+        const Value& value = entry.value;
+        if (value.kind != Value::Kind::integer) {
+            return add(entry.position, entry.name,
+                       fmt::format("must be an integer, but is {}", value.kind_name()),
+                       range.hint());
+        }
+        if (!range.contains(value.number)) {
+            return add(entry.position, entry.name,
+                       fmt::format("must be an integer {}, but is {}", range.text(), value.integer),
+                       "");
+        }
+        target = static_cast<int>(value.integer);
+        return true;
+    }
+
+    bool convert(const Entry& entry, const Range& range, std::vector<double>& target) {
+        if (entry.value.kind != Value::Kind::array) {
+            return add(entry.position, entry.name,
+                       fmt::format("must be a list of numbers, but is {}", entry.value.kind_name()),
+                       "write values = [0, 1, 2]");
+        }
+        if (entry.value.elements.empty()) {
+            return add(entry.position, entry.name, "has no values", "give at least one");
+        }
+        bool good = true;
+        for (const Value& element : entry.value.elements) {
+            good = check_number(entry, element, range) && good;
+            target.push_back(element.number);
+        }
+        return good;
+    }
+
+    bool check_number(const Entry& entry, const Value& value, const Range& range) {
+        std::string what;
+        if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
+            what = fmt::format("must be a number, but is {}", value.kind_name());
+        } else if (!std::isfinite(value.number)) {
+            what = fmt::format("must be a finite number, but is {}", value.number);
+        } else if (!range.contains(value.number)) {
+            what = fmt::format("must be {}, but is {}", range.text(), value.number);
+        }
+        return what.empty() || add(entry.position, entry.name, std::move(what), "");
+    }
+
+    bool add(const Position& at, const std::string& name, std::string what, std::string remedy) {
+        problems_.push_back({at.file, at.line, name.empty() ? key_ : key_ + "." + name,
+                             std::move(what), std::move(remedy)});
+        return false;
+    }
+
+    const Value& table_;
+    const std::string& key_;
+    Problems& problems_;
+};
+
+std::string text_of(double value) {
+    return fmt::format("{}", value);
+}
+std::string text_of(int value) {
+    return fmt::format("{}", value);
+}
+std::string text_of(const std::vector<double>& values) {
+    return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+}  // namespace
+
+Distribution::Distribution(std::shared_ptr<const DistributionKind> kind) : kind_(std::move(kind)) {}
+
+std::string_view Distribution::name() const {
+    return std::visit([](const auto& law) { return law.kName; }, kind_->law);
+}
+
+double Distribution::median() const {
+    return std::visit([](const auto& law) { return law.median(); }, kind_->law);
+}
+
+Support Distribution::support() const {
+    return std::visit([](const auto& law) { return law.support(); }, kind_->law);
+}
+
+std::vector<double> Distribution::levels() const {
+    return std::visit([](const auto& law) { return law.levels(); }, kind_->law);
+}
+
+double Distribution::draw(Philox& engine, std::uint64_t turn) const {
+    return std::visit([&](const auto& law) { return law.draw(engine, turn); }, kind_->law);
+}
+
+std::string Distribution::toml() const {
+    return std::visit(
+        [](const auto& law) {
+            std::string text = fmt::format("{{ distribution = \"{}\"", law.kName);
+            std::apply(
+                [&](const auto&... field) {
+                    ((text += fmt::format(", {} = {}", field.name, text_of(law.*(field.member)))),
+                     ...);
+                },
+                law.fields());
+            return text + " }";
+        },
+        kind_->law);
+}
+
+bool Distribution::operator==(const Distribution& other) const {
+    return kind_->law == other.kind_->law;
+}
+
+std::optional<Distribution> Distribution::read(const Value& table, const std::string& key,
+                                               Problems& problems) {
+    const std::string choices = fmt::format("one of {}", fmt::join(distribution_names(), ", "));
+    const Entry* kind = table.kind == Value::Kind::table ? table.find("distribution") : nullptr;
+    if (kind == nullptr) {
+        problems.push_back({table.position.file, table.position.line, key,
+                            table.kind == Value::Kind::table
+                                ? "has no distribution"
+                                : fmt::format("must be a table, but is {}", table.kind_name()),
+                            "write { distribution = \"...\", ... } with " + choices});
+        return std::nullopt;
+    }
+    if (kind->value.kind != Value::Kind::text) {
+        problems.push_back({kind->position.file, kind->position.line, key + ".distribution",
+                            fmt::format("must be a string, but is {}", kind->value.kind_name()),
+                            choices});
+        return std::nullopt;
+    }
+    std::optional<Distribution> distribution;
+    bool known = false;
+    for_each_law([&](auto law) {
+        if (law.kName == kind->value.text) {
+            known = true;
+            if (FieldReader(table, key, problems).read(law)) {
+                distribution = Distribution(
+                    std::make_shared<const DistributionKind>(DistributionKind{std::move(law)}));
+            }
+        }
+    });
+    if (!known) {
+        problems.push_back({kind->position.file, kind->position.line, key,
+                            fmt::format("unknown distribution \"{}\"", kind->value.text),
+                            suggest(kind->value.text, distribution_names())});
+    }
+    return distribution;
+}
+
+std::vector<std::string_view> distribution_names() {
+    std::vector<std::string_view> names;
+    for_each_law([&](const auto& law) { names.push_back(law.kName); });
+    return names;
+}
+
+}  // namespace gearpod::mc

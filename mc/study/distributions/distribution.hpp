@@ -1,0 +1,55 @@
+// Distributions of random inputs. Each is a short struct in distributions/, registered in one line
+// of distribution.cpp.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mc/input/problems.hpp"
+#include "mc/random/philox.hpp"
+
+namespace gearpod::mc {
+
+struct Value;             // mc/input/document.hpp
+struct DistributionKind;  // distribution.cpp
+
+// Smallest and largest value that can be drawn; +-infinity where unbounded.
+struct Support {
+    double low = 0.0;
+    double high = 0.0;
+    bool low_open = false;  // the bound itself is never drawn
+    bool high_open = false;
+};
+
+// An immutable distribution; copies share it. Values are in the unit of the study file's key.
+class Distribution {
+  public:
+    std::string_view name() const;
+    double median() const;
+    Support support() const;
+    // The values in turn of `levels` and `grid`, the value of `constant`; empty if continuous.
+    std::vector<double> levels() const;
+    // One value. `levels` and `grid` give value `turn` mod count and use no randomness; for all
+    // others `turn` means nothing.
+    double draw(Philox& engine, std::uint64_t turn) const;
+    // As an inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
+    std::string toml() const;
+    bool operator==(const Distribution& other) const;
+
+    // From its TOML table. Problems are appended under `key`; then there is no distribution.
+    static std::optional<Distribution> read(const Value& table, const std::string& key,
+                                            Problems& problems);
+
+  private:
+    explicit Distribution(std::shared_ptr<const DistributionKind> kind);
+    std::shared_ptr<const DistributionKind> kind_;
+};
+
+// Names of all distributions, for help and spelling.
+std::vector<std::string_view> distribution_names();
+
+}  // namespace gearpod::mc

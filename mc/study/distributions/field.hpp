@@ -1,0 +1,25 @@
+// A parameter of a distribution: its name in the study file, where it is stored, and its range.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "mc/study/distributions/range.hpp"
+
+namespace gearpod::mc {
+
+template <class Law, class Type>
+struct Field {
+    std::string_view name;
+    Type Law::*member;
+    Range range = {};
+};
+
+template <class Law, class Type>
+Field(std::string_view, Type Law::*) -> Field<Law, Type>;
+template <class Law, class Type>
+Field(std::string_view, Type Law::*, Range) -> Field<Law, Type>;
+
+constexpr Range kPositiveField{0.0, std::numeric_limits<double>::infinity(), true, false};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,37 @@
+// Given values in turn: turn t has values[t mod count]. A repeated value is a heavier one.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+struct Levels {
+    static constexpr std::string_view kName = "levels";
+    std::vector<double> values;
+
+    static constexpr auto fields() { return std::tuple{Field{"values", &Levels::values}}; }
+    std::string problem() const { return ""; }
+    // The lower of the two middle values, so that it is one of the levels.
+    double median() const {
+        std::vector<double> sorted = values;
+        std::sort(sorted.begin(), sorted.end());
+        return sorted[(sorted.size() - 1) / 2];
+    }
+    Support support() const {
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        return {*low, *high, false, false};
+    }
+    std::vector<double> levels() const { return values; }
+    double draw(Philox&, std::uint64_t turn) const { return values[turn % values.size()]; }
+    bool operator==(const Levels&) const = default;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,40 @@
+// A positive value whose logarithm is Gaussian, by its median and its coefficient of variation
+// cv = sd / mean: sigma^2 = ln(1 + cv^2), mu = ln(median).
+#pragma once
+
+#include <boost/random/lognormal_distribution.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+// The median keeps its name in the study file; the member may not hide the function.
+struct Lognormal {
+    static constexpr std::string_view kName = "lognormal";
+    double middle = 0.0;
+    double cv = 0.0;
+
+    static constexpr auto fields() {
+        return std::tuple{Field{"median", &Lognormal::middle, kPositiveField},
+                          Field{"cv", &Lognormal::cv, kPositiveField}};
+    }
+    std::string problem() const { return ""; }
+    double median() const { return middle; }
+    Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
+    std::vector<double> levels() const { return {}; }
+    double draw(Philox& engine, std::uint64_t) const {
+        const double sigma = std::sqrt(std::log1p(cv * cv));
+        return boost::random::lognormal_distribution<double>(std::log(middle), sigma)(engine);
+    }
+    bool operator==(const Lognormal&) const = default;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,42 @@
+// Gaussian. Values beyond 8.3 standard deviations (probability 1e-16) are drawn again, so that an
+// input with a bound may be normal if the bound is that far away.
+#pragma once
+
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+struct Normal {
+    static constexpr std::string_view kName = "normal";
+    double mean = 0.0;
+    double sd = 0.0;
+
+    static constexpr auto fields() {
+        return std::tuple{Field{"mean", &Normal::mean}, Field{"sd", &Normal::sd, kPositiveField}};
+    }
+    std::string problem() const { return ""; }
+    double median() const { return mean; }
+    static constexpr double kReach = 8.3;  // standard deviations
+    Support support() const { return {mean - kReach * sd, mean + kReach * sd}; }
+    std::vector<double> levels() const { return {}; }
+    double draw(Philox& engine, std::uint64_t) const {
+        boost::random::normal_distribution<double> normal;
+        double z = normal(engine);
+        while (std::abs(z) > kReach) {
+            z = normal(engine);
+        }
+        return mean + sd * z;
+    }
+    bool operator==(const Normal&) const = default;
+};
+
+}  // namespace gearpod::mc

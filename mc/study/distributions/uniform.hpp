@@ -1,0 +1,34 @@
+// Equally likely anywhere in [low, high).
+#pragma once
+
+#include <boost/random/uniform_real_distribution.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/study/distributions/distribution.hpp"
+#include "mc/study/distributions/field.hpp"
+
+namespace gearpod::mc {
+
+struct Uniform {
+    static constexpr std::string_view kName = "uniform";
+    double low = 0.0;
+    double high = 0.0;
+
+    static constexpr auto fields() {
+        return std::tuple{Field{"low", &Uniform::low}, Field{"high", &Uniform::high}};
+    }
+    std::string problem() const { return low >= high ? "low must be below high" : ""; }
+    double median() const { return 0.5 * low + 0.5 * high; }
+    Support support() const { return {low, high, false, false}; }
+    std::vector<double> levels() const { return {}; }
+    double draw(Philox& engine, std::uint64_t) const {
+        return boost::random::uniform_real_distribution<double>(low, high)(engine);
+    }
+    bool operator==(const Uniform&) const = default;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,48 @@
+#include "mc/study/fluctuations.hpp"
+
+#include <cmath>
+
+namespace gearpod::mc {
+namespace {
+
+bool any(const Study& study, const std::optional<double>& value, const char* key) {
+    return value.value_or(0.0) > 0.0 || study.find_random(key) != nullptr;
+}
+
+}  // namespace
+
+bool torque_has_sine(const Study& study) {
+    return any(study, study.fluctuations.torque, "operation.torque_fluctuation");
+}
+bool torque_has_noise(const Study& study) {
+    return any(study, study.fluctuations.torque_noise, "operation.torque_noise");
+}
+bool speed_has_sine(const Study& study) {
+    return any(study, study.fluctuations.speed, "operation.speed_fluctuation");
+}
+bool speed_has_noise(const Study& study) {
+    return any(study, study.fluctuations.speed_noise, "operation.speed_noise");
+}
+
+bool planets_balance(const Study& study) {
+    double x = 0.0, y = 0.0;
+    for (const double position : study.gearbox.planet_positions_rad) {
+        x += std::cos(position);
+        y += std::sin(position);
+    }
+    return std::hypot(x, y) < 1e-9;
+}
+
+bool gravity_turns(const Study& study) {
+    return study.effects.gravity && study.gearbox.kind == GearboxKind::planetary &&
+           study.operation.fixed != Member::carrier;
+}
+
+std::string why_no_mesh_repeats(const Study& study) {
+    return torque_fluctuates(study)  ? "the torque fluctuates"
+           : speed_fluctuates(study) ? "the speed fluctuates"
+           : gravity_turns(study)    ? "gravity turns past the carrier"
+                                     : "";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,155 @@
+#include "mc/study/gears.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dynamics/helical_pair.hpp"
+#include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::array kPlanetaryMeshes{MeshMembers{Member::sun, Member::planet},
+                                      MeshMembers{Member::planet, Member::ring}};
+constexpr std::array kFixedShaftMeshes{MeshMembers{Member::pinion, Member::gear}};
+
+// The mate against which the faulty flank works.
+Member mate_of(const Fault& fault) {
+    switch (*fault.member) {
+        case Member::planet:
+            return fault.side == FaultSide::sun ? Member::sun : Member::ring;
+        case Member::pinion:
+            return Member::gear;
+        case Member::gear:
+            return Member::pinion;
+        default:
+            return Member::planet;
+    }
+}
+
+// Distance along the line of action from the base circle to the contact at radius r.
+double along_line_of_action(const gears::Gear& gear, double radius_m) {
+    const double base = gear.base_radius();
+    return std::sqrt(std::max(0.0, radius_m * radius_m - base * base));
+}
+
+}  // namespace
+
+std::string_view member_name(Member member) {
+    constexpr std::string_view kNames[] = {"sun", "planet", "ring", "carrier", "pinion", "gear"};
+    return kNames[static_cast<int>(member)];
+}
+
+std::span<const MeshMembers> meshes_of(GearboxKind kind) {
+    if (kind == GearboxKind::fixed_shaft) {
+        return kFixedShaftMeshes;
+    }
+    return kPlanetaryMeshes;
+}
+
+std::string mesh_name(const MeshMembers& mesh) {
+    const bool ring = mesh.driven == Member::ring;
+    const std::string first(member_name(ring ? mesh.driven : mesh.driver));
+    return first + "-" + std::string(member_name(ring ? mesh.driver : mesh.driven));
+}
+
+bool has_toothed_member(GearboxKind kind, Member member) {
+    const auto meshes = meshes_of(kind);
+    return std::any_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+        return mesh.driver == member || mesh.driven == member;
+    });
+}
+
+std::optional<int> teeth_of(const Study& study, Member member) {
+    switch (member) {
+        case Member::sun:
+            return study.gearbox.sun_teeth;
+        case Member::planet:
+            return study.gearbox.planet_teeth;
+        case Member::ring:
+            return study.gearbox.ring_teeth;
+        case Member::pinion:
+            return study.fixed_shaft.pinion_teeth;
+        case Member::gear:
+            return study.fixed_shaft.gear_teeth;
+        case Member::carrier:
+            break;
+    }
+    return std::nullopt;
+}
+
+bool has_static_errors(const Study& study) {
+    const MeshErrors& e = study.errors;
+    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
+}
+
+bool has_pitch_errors(const Study& study) {
+    return study.errors.pitch_error_m > 0.0 ||
+           study.find_random("gearbox.pitch_error_um") != nullptr;
+}
+
+bool stiffness_given(const Study& study) {
+    return study.gearbox.tooth_profile == ToothProfile::constant ||
+           study.gearbox.tooth_profile == ToothProfile::square_wave;
+}
+
+bool has_gears(const Study& study) {
+    const auto meshes = meshes_of(study.gearbox.kind);
+    return study.gearbox.module_m &&
+           std::all_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
+               return teeth_of(study, mesh.driver) && teeth_of(study, mesh.driven);
+           });
+}
+
+double transverse_pressure_angle_rad(const Gearbox& gearbox) {
+    return gearbox.helix_angle_rad == 0.0
+               ? gearbox.pressure_angle_rad
+               : dynamics::transverse_pressure_angle(gearbox.pressure_angle_rad,
+                                                     gearbox.helix_angle_rad);
+}
+
+gears::Gear gear_of(const Study& study, Member member) {
+    const Gearbox& gearbox = study.gearbox;
+    gears::Gear gear;
+    gear.teeth = teeth_of(study, member).value();
+    gear.internal = member == Member::ring;
+    gear.module_m = gearbox.module_m.value();
+    gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
+    gear.addendum_coefficient = gearbox.addendum_coefficient;
+    gear.dedendum_coefficient = gearbox.dedendum_coefficient;
+    return gear;
+}
+
+stiffness::Profile profile_of(const Study& study) {
+    switch (study.gearbox.tooth_profile) {
+        case ToothProfile::base_circle:
+            return stiffness::Profile::base_circle;
+        case ToothProfile::fillet:
+            return stiffness::Profile::fillet;
+        default:
+            return stiffness::Profile::root_circle;
+    }
+}
+
+double max_crack_depth_m(const Study& study) {
+    const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()),
+                                        profile_of(study));
+    return stiffness::max_crack_depth(tooth, study.fault.angle_rad);
+}
+
+ActiveFlank active_flank(const Study& study) {
+    const gears::Gear gear = gear_of(study, *study.fault.member);
+    const gears::Gear mate = gear_of(study, mate_of(study.fault));
+    const double sine = std::sin(gear.pressure_angle_rad);
+    const double reach = along_line_of_action(mate, mate.tip_radius());
+    // The flank is touched between its own tip and where the mate's tip touches it.
+    const double other = gear.internal || mate.internal
+                             ? reach + (gear.pitch_radius() - mate.pitch_radius()) * sine
+                             : (gear.pitch_radius() + mate.pitch_radius()) * sine - reach;
+    const double end = std::hypot(gear.base_radius(), other);
+    return {std::min(end, gear.tip_radius()), std::max(end, gear.tip_radius())};
+}
+
+}  // namespace gearpod::mc

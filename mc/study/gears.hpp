@@ -1,0 +1,66 @@
+// The gears that a study describes.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gears/gear.hpp"
+#include "mc/study/study.hpp"
+#include "stiffness/teeth/tooth_profile.hpp"
+
+namespace gearpod::mc {
+
+std::string_view member_name(Member member);
+
+// Two meshing members; the first drives and is external.
+struct MeshMembers {
+    Member driver, driven;
+};
+
+// The meshes of a kind of gearbox: sun-planet and planet-ring, or pinion-gear.
+std::span<const MeshMembers> meshes_of(GearboxKind kind);
+
+// "sun-planet", "ring-planet", "pinion-gear".
+std::string mesh_name(const MeshMembers& mesh);
+
+// Whether a gearbox of that kind has that member, and it has teeth.
+bool has_toothed_member(GearboxKind kind, Member member);
+
+// Its tooth number, if given.
+std::optional<int> teeth_of(const Study& study, Member member);
+
+// Whether the study gives the meshes' stiffness instead of the teeth that make it.
+bool stiffness_given(const Study& study);
+
+// Whether any mesh has a static transmission error, whether the teeth of any gearbox have pitch
+// errors.
+bool has_static_errors(const Study& study);
+bool has_pitch_errors(const Study& study);
+
+// Whether all tooth numbers and the module are given.
+bool has_gears(const Study& study);
+
+// The pressure angle in the plane in which the gears turn.
+double transverse_pressure_angle_rad(const Gearbox& gearbox);
+
+// A toothed member of the study's gearbox, whose tooth number and module must be given. Helical
+// gears stand for the spur gears that they are in the transverse plane.
+gears::Gear gear_of(const Study& study, Member member);
+
+// Where the beams of its teeth begin; of no meaning where the stiffness is given.
+stiffness::Profile profile_of(const Study& study);
+
+// Length of the longest crack that the faulty member's tooth holds, m: there it breaks. The study
+// must have the tooth geometry and a crack.
+double max_crack_depth_m(const Study& study);
+
+// Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
+// on the faulty side.
+struct ActiveFlank {
+    double low_m, high_m;
+};
+ActiveFlank active_flank(const Study& study);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "features/feature.hpp"
+#include "machine/lanes.hpp"
+#include "mc/input/spelling.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// "sun" or "carrier": the central members that turn.
+std::string turning_members(Member fixed) {
+    std::string names;
+    for (const Member member : {Member::sun, Member::ring, Member::carrier}) {
+        if (member != fixed) {
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", member_name(member));
+        }
+    }
+    return names;
+}
+
+void check_operation(StudyDraft& draft) {
+    const Operation& o = draft.study.operation;
+    if (draft.study.gearbox.kind != GearboxKind::planetary ||
+        !draft.all_usable({"gearbox.kind", "operation.fixed"})) {
+        return;
+    }
+    const std::string_view fixed = member_name(o.fixed);
+    const auto check_turns = [&](const std::string& key, Member member) {
+        if (draft.all_usable({key}) && member == o.fixed) {
+            draft.reject(key, fmt::format("is \"{}\", which stands still (operation.fixed)", fixed),
+                         "use " + turning_members(o.fixed));
+        }
+    };
+    check_turns("operation.input", o.input);
+    check_turns("operation.torque_on", o.torque_on);
+    const std::string speed = fmt::format("operation.{}_speed_rpm", fixed);
+    if (draft.is_given(speed)) {
+        draft.reject(speed, fmt::format("the {} stands still (operation.fixed)", fixed),
+                     "give the speed of another member");
+    }
+}
+
+void check_path(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!draft.all_usable({"gearbox.kind", "effects.motion", "effects.path"})) {
+        return;
+    }
+    const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
+    const bool none = s.effects.path == PathWindow::none;
+    if (s.effects.quasi_static() && !none) {
+        draft.reject("effects.path",
+                     "leads nothing to a sensor (a quasi-static gearbox has no accelerations: "
+                     "effects.motion)",
+                     "use path = \"none\", or leave the key out");
+    } else if (fixed_shaft && !none) {
+        draft.reject("effects.path",
+                     "has nothing to weigh (the sensor of a fixed-shaft gearbox sits on a bearing, "
+                     "which does not move past it)",
+                     "use path = \"none\", or leave the key out");
+    } else if (!fixed_shaft && !s.effects.quasi_static() && none) {
+        draft.reject("effects.path",
+                     "is \"none\" (a planetary gearbox's planets move past the sensor)",
+                     "use path = \"rectangular\" to weigh them all alike");
+    }
+}
+
+// Tian's model has no other degrees of freedom.
+void check_fixed_shaft_motion(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
+        draft.all_usable({"gearbox.kind", "effects.motion"})) {
+        draft.reject("effects.motion",
+                     "has rotations only (a fixed-shaft gearbox's gears move on their bearings, "
+                     "too)",
+                     "use motion = \"translational-torsional\" or \"quasi-static\"");
+    }
+}
+
+void check_sampling(StudyDraft& draft) {
+    const Sensor& s = draft.study.sensor;
+    if (draft.study.effects.quasi_static() || !draft.all_usable({"sensor.sampling_Hz"}) ||
+        s.sampling_Hz <= 0.0) {
+        return;
+    }
+    if (draft.all_usable({"sensor.low_pass_Hz"}) && s.low_pass_Hz >= 0.5 * s.sampling_Hz) {
+        draft.reject(
+            "sensor.low_pass_Hz",
+            fmt::format("{} Hz is not below half of sampling_Hz, {} Hz (frequencies above it fold "
+                        "back)",
+                        s.low_pass_Hz, 0.5 * s.sampling_Hz),
+            "lower low_pass_Hz or raise sampling_Hz");
+    }
+    if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
+        draft.reject(
+            "sensor.encoder_sampling_Hz",
+            fmt::format("{} Hz is above sampling_Hz, {} Hz (the encoders use a part of the "
+                        "sensor's samples)",
+                        s.encoder_sampling_Hz, s.sampling_Hz),
+            "lower encoder_sampling_Hz or raise sampling_Hz");
+    }
+    for (std::size_t i = 0; i < s.tones.size() && draft.all_usable({"sensor.tones"}); ++i) {
+        if (s.tones[i].frequency_Hz >= 0.5 * s.sampling_Hz) {
+            draft.reject("sensor.tones",
+                         fmt::format("tone {}: {} Hz is not below half of sampling_Hz, {} Hz",
+                                     i + 1, s.tones[i].frequency_Hz, 0.5 * s.sampling_Hz),
+                         "lower its frequency or raise sampling_Hz");
+        }
+    }
+}
+
+void check_feature(StudyDraft& draft, const std::string& name) {
+    const features::Feature* feature = features::find_feature(name);
+    if (feature == nullptr) {
+        std::vector<std::string_view> known;
+        for (const features::Feature& other : features::all_features()) {
+            known.push_back(other.name);
+        }
+        draft.reject("features.use", fmt::format("unknown feature \"{}\"", name),
+                     suggest(name, known));
+    } else if (feature->from_sensor && draft.study.effects.quasi_static() &&
+               draft.usable("effects.motion")) {
+        draft.reject("features.use",
+                     fmt::format("\"{}\" needs the sensor (a quasi-static gearbox has no "
+                                 "accelerations: effects.motion)",
+                                 name),
+                     "use features of the transmission error");
+    } else if ((feature->needs & (features::kSun | features::kRing)) != 0 &&
+               draft.study.gearbox.kind == GearboxKind::fixed_shaft &&
+               draft.usable("gearbox.kind")) {
+        draft.reject(
+            "features.use", fmt::format("\"{}\" needs a sun and a ring (gearbox.kind)", name),
+            "use window features without sun_ or ring_: they look at the teeth of the gear "
+            "with the fault, else of the pinion");
+    }
+}
+
+void check_features(StudyDraft& draft) {
+    const std::vector<std::string> use = draft.study.features.use;
+    for (auto name = use.begin(); name != use.end(); ++name) {
+        if (std::find(use.begin(), name, *name) != name) {
+            draft.reject("features.use", fmt::format("names \"{}\" twice", *name),
+                         "remove one of them");
+        } else {
+            check_feature(draft, *name);
+        }
+    }
+}
+
+void check_lanes(StudyDraft& draft) {
+    const Numerics& n = draft.study.numerics;
+    const bool single = n.precision == Precision::single_precision;
+    if (!machine::is_lane_count(n.lanes) || (n.lanes == 16 && !single)) {
+        draft.reject("numerics.lanes",
+                     fmt::format("must be {}8, 4 or 1, but is {}", single ? "16, " : "", n.lanes),
+                     single ? "16 fills AVX-512 registers, 8 those of AVX2; 1 is for comparison"
+                            : "8 fills AVX-512 registers, 4 those of AVX2; 1 is for comparison");
+    }
+}
+
+void check_precision(StudyDraft& draft) {
+    const Numerics& n = draft.study.numerics;
+    const bool doubles_only = n.integrator != Integrator::automatic &&
+                              n.integrator != Integrator::rk4 &&
+                              n.integrator != Integrator::central_difference;
+    if (n.precision == Precision::single_precision && doubles_only &&
+        draft.all_usable({"numerics.precision", "numerics.integrator"})) {
+        draft.reject(
+            "numerics.precision",
+            fmt::format("\"single\" is for the integrators rk4 and central-difference, but "
+                        "numerics.integrator is \"{}\"",
+                        choice_text(draft.study, "numerics", "integrator")),
+            "use precision = \"double\", or integrator = \"rk4\"");
+    }
+}
+
+}  // namespace
+
+void check_consistency(StudyDraft& draft) {
+    check_operation(draft);
+    check_path(draft);
+    check_fixed_shaft_motion(draft);
+    check_sampling(draft);
+    check_features(draft);
+    check_lanes(draft);
+    check_precision(draft);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void check_torque_sine(StudyDraft& draft) {
+    const std::string key = "operation.torque_fluctuation";
+    const std::string order = key + "_order", frequency = key + "_Hz";
+    if (!draft.is_given(key) || !draft.all_usable({key, order, frequency})) {
+        return;
+    }
+    if (draft.is_given(order) && draft.is_given(frequency)) {
+        draft.reject(frequency,
+                     fmt::format("conflicts with {} (both say how fast it varies)", order),
+                     "remove one of them");
+    } else if (!draft.is_given(order) && !draft.is_given(frequency)) {
+        draft.reject(key, "does not say how fast the torque varies",
+                     "add torque_fluctuation_order or torque_fluctuation_Hz");
+    }
+}
+
+void check_gravity(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.effects.gravity && s.effects.torsional() && planets_balance(s) &&
+        draft.all_usable({"gearbox.kind", "gearbox.planet_positions_deg", "effects.motion",
+                          "effects.gravity"}) &&
+        s.gearbox.kind == GearboxKind::planetary) {
+        draft.reject("effects.gravity",
+                     "would do nothing (rotations alone feel only the planets' weights, and these "
+                     "balance each other about the carrier's axis: effects.motion)",
+                     "remove it, or use a motion in x and y");
+    }
+}
+
+void check_horizon(StudyDraft& draft) {
+    const std::string why = why_no_mesh_repeats(draft.study);
+    if (draft.study.numerics.horizon == Horizon::reuse && !why.empty() &&
+        draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {
+        draft.reject("numerics.horizon", fmt::format("is \"reuse\", but {}", why),
+                     "use horizon = \"march\", or leave the key out");
+    }
+}
+
+}  // namespace
+
+void check_fluctuations(StudyDraft& draft) {
+    check_torque_sine(draft);
+    check_gravity(draft);
+    check_horizon(draft);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,231 @@
+// Checks of the gears: that they exist, mesh, fit together and have sound bodies and errors.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gears/mesh_geometry.hpp"
+#include "gears/planetary.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kMmPerM = 1e3;
+
+std::string teeth_key(Member member) {
+    return fmt::format("gearbox.{}_teeth", member_name(member));
+}
+
+// Those that the meshes of this kind of gearbox need, each once.
+std::vector<Member> toothed_members(const Study& study) {
+    std::vector<Member> members;
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        if (members.empty() || members.back() != mesh.driver) {
+            members.push_back(mesh.driver);
+        }
+        members.push_back(mesh.driven);
+    }
+    return members;
+}
+
+bool teeth_usable(const StudyDraft& draft) {
+    for (const Member member : toothed_members(draft.study)) {
+        if (!draft.all_usable({teeth_key(member)})) {
+            return false;
+        }
+    }
+    return draft.usable("gearbox.kind");
+}
+
+void check_positions(StudyDraft& draft, int planets) {
+    const std::string key = "gearbox.planet_positions_deg";
+    const std::vector<double>& positions = draft.study.gearbox.planet_positions_rad;
+    if (static_cast<int>(positions.size()) != planets) {
+        draft.reject(
+            key,
+            fmt::format("names {} positions, but there are {} planets", positions.size(), planets),
+            "give one angle for each planet, or leave the key out for equal spacing");
+    } else if (positions.front() != 0.0) {
+        draft.reject(key, "does not begin with 0 (angles count from the first planet)",
+                     "turn all positions by the first one");
+    }
+}
+
+// Planet n fits where (Z_s + Z_r) psi_n / 2 pi is whole, Parker and Lin (2004).
+void check_positions_fit(StudyDraft& draft, const gears::PlanetaryTrain& train) {
+    constexpr double kSameAngle = 1e-3;  // of the angle between two possible positions
+    const double places = train.sun_teeth + train.ring_teeth;
+    for (const double position : draft.study.gearbox.planet_positions_rad) {
+        const double place = position * places / (2.0 * pi);
+        if (std::abs(place - std::round(place)) > kSameAngle) {
+            draft.reject(
+                "gearbox.planet_positions_deg",
+                fmt::format("a planet at {:.6g} deg does not mesh (positions are multiples "
+                            "of 360 / (sun + ring teeth) = {:.6g} deg)",
+                            position * 180.0 / pi, 360.0 / places),
+                fmt::format("the nearest one is {:.9g}", std::round(place) * 360.0 / places));
+        }
+    }
+}
+
+void check_train(StudyDraft& draft) {
+    const Gearbox& g = draft.study.gearbox;
+    if (g.kind != GearboxKind::planetary || !teeth_usable(draft)) {
+        return;
+    }
+    const bool planets_known = draft.all_usable({"gearbox.planets"}) && g.planets >= 1;
+    const bool placed = !g.planet_positions_rad.empty() &&
+                        draft.all_usable({"gearbox.planet_positions_deg"}) && planets_known;
+    if (placed) {
+        check_positions(draft, g.planets);
+    }
+    const int given = int{g.sun_teeth.has_value()} + int{g.planet_teeth.has_value()} +
+                      int{g.ring_teeth.has_value()};
+    if (given == 1 || given == 2) {
+        draft.reject("gearbox", "some tooth numbers are missing",
+                     "give sun_teeth, planet_teeth and ring_teeth, or none of them");
+    }
+    if (given != 3 || !draft.all_usable({"gearbox.addendum_coefficient"}) || !planets_known) {
+        return;
+    }
+    // Planets of given positions are checked one by one, not as equally spaced.
+    const gears::PlanetaryTrain train{*g.sun_teeth, *g.planet_teeth, *g.ring_teeth,
+                                      g.planet_positions_rad.empty() ? g.planets : 1};
+    const auto problems = gears::assembly_problems(train, g.addendum_coefficient);
+    for (const std::string& what : problems) {
+        draft.reject("gearbox.ring_teeth", "the gears cannot be assembled (" + what + ")", "");
+    }
+    if (placed && problems.empty()) {
+        check_positions_fit(draft, train);
+    }
+}
+
+// Two gears, each of them possible, that do not mesh. Below the standard pressure angle it is
+// named, else the smaller gear's teeth.
+void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
+    const gears::Gear gear_1 = gear_of(draft.study, mesh.driver);
+    const gears::Gear gear_2 = gear_of(draft.study, mesh.driven);
+    if (!gears::gear_problems(gear_1).empty() || !gears::gear_problems(gear_2).empty()) {
+        return;
+    }
+    constexpr double kStandardAngle = 20.0 * pi / 180.0;
+    const Member smaller = gear_2.teeth < gear_1.teeth ? mesh.driven : mesh.driver;
+    const std::string key = gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12)
+                                ? "gearbox.pressure_angle_deg"
+                                : teeth_key(smaller);
+    for (const std::string& what : gears::mesh_problems(gear_1, gear_2)) {
+        draft.reject(key,
+                     fmt::format("{} and {} do not mesh ({})", member_name(mesh.driver),
+                                 member_name(mesh.driven), what),
+                     "");
+    }
+}
+
+// Where the stiffness is given, the teeth need not be possible ones.
+void check_gear_shapes(StudyDraft& draft) {
+    if (stiffness_given(draft.study) || !teeth_usable(draft) || !has_gears(draft.study) ||
+        !draft.all_usable({"gearbox.module_mm", "gearbox.pressure_angle_deg",
+                           "gearbox.addendum_coefficient", "gearbox.dedendum_coefficient",
+                           "gearbox.tooth_profile"})) {
+        return;
+    }
+    for (const Member member : toothed_members(draft.study)) {
+        for (const std::string& what : gears::gear_problems(gear_of(draft.study, member))) {
+            draft.reject(teeth_key(member), "the gear is not possible (" + what + ")", "");
+        }
+    }
+    for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
+        check_mesh(draft, mesh);
+    }
+}
+
+void check_body(StudyDraft& draft, Member member, const std::optional<double>& diameter_m) {
+    const bool ring = member == Member::ring;
+    const std::string key =
+        fmt::format("gearbox.{}_{}_mm", member_name(member), ring ? "outer" : "bore");
+    if (!diameter_m || !draft.all_usable({key})) {
+        return;
+    }
+    const double root_mm = 2.0 * kMmPerM * gear_of(draft.study, member).root_radius();
+    const double given_mm = *diameter_m * kMmPerM;
+    if (ring ? given_mm <= root_mm : given_mm >= root_mm) {
+        draft.reject(key,
+                     fmt::format("{:.6g} mm leaves no body under the teeth (the root circle's "
+                                 "diameter is {:.6g} mm)",
+                                 given_mm, root_mm),
+                     ring ? "give a larger outer diameter" : "give a smaller bore");
+    }
+}
+
+void check_bodies(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (!teeth_usable(draft) || !has_gears(s) ||
+        !draft.all_usable({"gearbox.module_mm", "gearbox.dedendum_coefficient"})) {
+        return;
+    }
+    if (s.gearbox.kind == GearboxKind::planetary) {
+        check_body(draft, Member::sun, s.gearbox.sun_bore_m);
+        check_body(draft, Member::planet, s.gearbox.planet_bore_m);
+        check_body(draft, Member::ring, s.gearbox.ring_outer_m);
+    } else {
+        check_body(draft, Member::pinion, s.fixed_shaft.pinion_bore_m);
+        check_body(draft, Member::gear, s.fixed_shaft.gear_bore_m);
+    }
+}
+
+void check_levels(StudyDraft& draft, const std::string& mesh, const std::optional<double>& low,
+                  const std::optional<double>& high) {
+    const std::string low_key = fmt::format("gearbox.{}_low_stiffness_N_m", mesh),
+                      high_key = fmt::format("gearbox.{}_high_stiffness_N_m", mesh);
+    if (low && high && draft.all_usable({low_key, high_key}) && *low > *high) {
+        draft.reject(low_key,
+                     fmt::format("{} N/m is above the high stiffness, {} N/m", *low, *high),
+                     "exchange the two");
+    }
+}
+
+void check_square_waves(StudyDraft& draft) {
+    const Gearbox& g = draft.study.gearbox;
+    const FixedShaft& f = draft.study.fixed_shaft;
+    check_levels(draft, "sun_planet", g.sun_planet_low_stiffness_N_m,
+                 g.sun_planet_high_stiffness_N_m);
+    check_levels(draft, "ring_planet", g.ring_planet_low_stiffness_N_m,
+                 g.ring_planet_high_stiffness_N_m);
+    check_levels(draft, "mesh", f.mesh_low_stiffness_N_m, f.mesh_high_stiffness_N_m);
+}
+
+void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<double>& error,
+                  const std::vector<double>& phase) {
+    const std::string error_key = fmt::format("gearbox.{}_error_um", mesh),
+                      phase_key = fmt::format("gearbox.{}_error_phase_deg", mesh);
+    if (!phase.empty() && phase.size() != error.size() &&
+        draft.all_usable({error_key, phase_key})) {
+        draft.reject(phase_key,
+                     fmt::format("has {} phases for {} amplitudes in {}_error_um", phase.size(),
+                                 error.size(), mesh),
+                     "give one phase for each amplitude, or none");
+    }
+}
+
+void check_errors(StudyDraft& draft) {
+    const MeshErrors& e = draft.study.errors;
+    check_phases(draft, "sun_planet", e.sun_planet_m, e.sun_planet_phase_rad);
+    check_phases(draft, "ring_planet", e.ring_planet_m, e.ring_planet_phase_rad);
+    check_phases(draft, "mesh", e.mesh_m, e.mesh_phase_rad);
+}
+
+}  // namespace
+
+void check_gears(StudyDraft& draft) {
+    check_train(draft);
+    check_gear_shapes(draft);
+    check_bodies(draft);
+    check_square_waves(draft);
+    check_errors(draft);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::string_view kMembers[] = {"sun", "planet", "ring", "carrier"};
+
+std::vector<std::string> given_of(const StudyDraft& draft, const std::vector<std::string>& paths) {
+    std::vector<std::string> given;
+    for (const std::string& path : paths) {
+        if (draft.is_given(path)) {
+            given.push_back(path);
+        }
+    }
+    return given;
+}
+
+void reject_second(StudyDraft& draft, const std::vector<std::string>& given,
+                   const std::string& rule) {
+    if (given.size() > 1) {
+        draft.reject(draft.position(given[1]), given[1],
+                     fmt::format("conflicts with {} ({})", given[0], rule), "remove one of them");
+    }
+}
+
+void check_key(StudyDraft& draft, const Key& key) {
+    const Presence presence = key.presence(draft.study);
+    const std::string path = key.path();
+    if (!draft.usable(path)) {
+        return;
+    }
+    for (const std::string_view governor : presence.governors) {
+        if (!draft.usable(std::string(governor))) {
+            return;
+        }
+    }
+    const std::string because = presence.why.empty() ? "" : fmt::format(" ({})", presence.why);
+    if (presence.need == Need::required && !draft.is_given(path)) {
+        draft.reject(draft.position(path), path, "missing" + because,
+                     fmt::format("add {} to [{}]: {}", key.name, key.section, key.doc));
+    }
+    if (presence.need == Need::forbidden && draft.is_given(path)) {
+        draft.reject(draft.position(path), path, "has no place here" + because, "remove it");
+    }
+}
+
+void check_exclusive_keys(StudyDraft& draft) {
+    for (const std::string_view member : kMembers) {
+        reject_second(draft,
+                      given_of(draft, {fmt::format("gearbox.{}_inertia_kg_m2", member),
+                                       fmt::format("gearbox.{}_inertia_over_r2_kg", member)}),
+                      "both say the moment of inertia");
+    }
+    if (draft.study.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.kind")) {
+        return;
+    }
+    const auto speeds = given_of(draft, {"operation.sun_speed_rpm", "operation.ring_speed_rpm",
+                                         "operation.carrier_speed_rpm"});
+    reject_second(draft, speeds, "one speed sets all others");
+    if (speeds.empty() && draft.usable("operation")) {
+        draft.reject(draft.position("operation"), "operation", "no speed is given",
+                     "add one of sun_speed_rpm, ring_speed_rpm, carrier_speed_rpm");
+    }
+}
+
+// All of a missing section's required keys in one message.
+void check_sections(StudyDraft& draft) {
+    for (const std::string_view name : section_names()) {
+        const std::string section(name);
+        std::vector<std::string_view> required;
+        for (const Key& key : schema()) {
+            const bool needed = key.presence(draft.study).need == Need::required;
+            if (key.section == name && needed && !draft.is_given(key.path())) {
+                required.push_back(key.name);
+            }
+        }
+        if (!draft.sections.contains(section) && draft.usable(section) && !required.empty()) {
+            draft.reject(draft.position(section), section, "the section is missing",
+                         fmt::format("add [{}] with {}", section, fmt::join(required, ", ")));
+        }
+    }
+}
+
+}  // namespace
+
+void check_presence(StudyDraft& draft) {
+    check_sections(draft);
+    for (const Key& key : schema()) {
+        if (draft.usable(std::string(key.section))) {
+            check_key(draft, key);
+        }
+    }
+    check_exclusive_keys(draft);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mc/input/spelling.hpp"
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+void reject(StudyDraft& draft, const Entry& entry, const std::string& path, std::string what,
+            std::string remedy) {
+    draft.reject(entry.position, "random." + path, std::move(what), std::move(remedy));
+}
+
+void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
+                   const Distribution& distribution) {
+    const Support support = distribution.support();
+    if (key.range.contains(support)) {
+        return;
+    }
+    const auto bound = [](double value) { return fmt::format("{}", value); };
+    std::string what =
+        fmt::format("{} draws values from {} to {}, but {} must be {}", distribution.name(),
+                    bound(support.low), bound(support.high), key.name, key.range.text());
+    reject(draft, entry, key.path(), std::move(what),
+           distribution.name() == "normal" ? "use lognormal or truncated-normal"
+                                           : "narrow the distribution");
+}
+
+void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
+    const std::string path = key.path();
+    if (!key.may_be_random()) {
+        const bool numeric = std::holds_alternative<NumberAccess>(key.access) ||
+                             std::holds_alternative<IntegerAccess>(key.access);
+        const std::string why = numeric ? std::string(key.fixed_because) : "it is not a number";
+        reject(draft, entry, path, "may not be random (" + why + ")",
+               fmt::format("give one value in [{}]", key.section));
+        return;
+    }
+    draft.given_random[path] = entry.position;
+    const auto distribution = Distribution::read(entry.value, "random." + path, draft.problems);
+    if (!distribution) {
+        draft.bad.insert(path);
+        draft.bad.insert("random." + path);
+        return;
+    }
+    check_support(draft, key, entry, *distribution);
+    draft.study.random.push_back({path, std::string(key.unit.name), *distribution, key.unit.to_si});
+    if (!draft.given.contains(path)) {
+        std::get<NumberAccess>(key.access)
+            .set(draft.study, distribution->median() * key.unit.to_si);
+    }
+}
+
+void read_random_section(StudyDraft& draft, const Entry& section) {
+    for (const Entry& entry : section.value.entries) {
+        const Key* key = find_key(section.name, entry.name);
+        if (key != nullptr) {
+            add_random(draft, *key, entry);
+        } else {
+            reject_unknown_key(draft, "random.", section.name, entry);
+        }
+    }
+}
+
+}  // namespace
+
+void read_random(StudyDraft& draft, const Value& section) {
+    for (const Entry& entry : section.entries) {
+        const auto names = section_names();
+        const bool known = std::find(names.begin(), names.end(), entry.name) != names.end() &&
+                           entry.name != "random";
+        if (!known) {
+            reject(draft, entry, entry.name, "unknown section",
+                   suggest(entry.name, {names.begin(), names.end()}) +
+                       " (write section.key = { distribution = \"...\", ... })");
+        } else if (entry.value.kind != Value::Kind::table) {
+            reject(draft, entry, entry.name,
+                   fmt::format("must be a table, but is {}", entry.value.kind_name()),
+                   "write section.key = { distribution = \"...\", ... }");
+        } else {
+            read_random_section(draft, entry);
+        }
+    }
+    // In the order of the schema, whatever the order in the file.
+    const auto rank = [](const RandomInput& input) {
+        const auto keys = schema();
+        return std::find_if(keys.begin(), keys.end(),
+                            [&](const Key& key) { return key.path() == input.key; }) -
+               keys.begin();
+    };
+    std::sort(draft.study.random.begin(), draft.study.random.end(),
+              [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "features/feature.hpp"
+#include "mc/input/spelling.hpp"
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/reading/draft.hpp"
+
+namespace gearpod::mc {
+
+Position StudyDraft::position(const std::string& path) const {
+    if (const auto found = given.find(path); found != given.end()) {
+        return found->second;
+    }
+    if (const auto found = given_random.find(path); found != given_random.end()) {
+        return found->second;
+    }
+    if (const auto found = sections.find(path.substr(0, path.find('.'))); found != sections.end()) {
+        return found->second;
+    }
+    return sections.at("");
+}
+
+void StudyDraft::reject(const Position& at, const std::string& path, std::string what,
+                        std::string remedy) {
+    problems.push_back({at.file, at.line, path, std::move(what), std::move(remedy)});
+    bad.insert(path);
+    if (path.starts_with("random.")) {
+        bad.insert(path.substr(7));
+    }
+}
+
+void StudyDraft::reject(const std::string& path, std::string what, std::string remedy) {
+    reject(position(path), path, std::move(what), std::move(remedy));
+}
+
+bool StudyDraft::all_usable(const std::vector<std::string>& paths) const {
+    return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
+        return usable(path) && usable(path.substr(0, path.find('.')));
+    });
+}
+
+namespace {
+
+struct Guess {
+    const Key* key = nullptr;  // what was probably meant
+    std::string words;
+};
+
+Guess guess_by_unit(const std::string& section, const std::string& name) {
+    for (const Key& key : schema()) {
+        if (key.section != section || key.unit.suffix.empty()) {
+            continue;
+        }
+        if (key.stem() == name) {
+            return {&key, fmt::format("did you mean {}? (unit missing)", key.name)};
+        }
+        if (key.stem() == without_unit(name)) {
+            return {&key,
+                    fmt::format("did you mean {}? (its unit is {})", key.name, key.unit.name)};
+        }
+    }
+    return {};
+}
+
+Guess guess_key(const std::string& section, const std::string& name) {
+    if (Guess guess = guess_by_unit(section, name); guess.key != nullptr) {
+        return guess;
+    }
+    std::vector<std::string_view> names;
+    for (const Key& key : schema()) {
+        if (key.name == name) {
+            return {nullptr, fmt::format("it belongs in [{}]", key.section)};
+        }
+        if (key.section == section) {
+            names.push_back(key.name);
+        }
+    }
+    const std::string words = suggest(name, names);
+    const bool near = words.starts_with("did you mean");
+    return {near ? find_key(section, nearest(name, names)) : nullptr, words};
+}
+
+}  // namespace
+
+void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
+                        const Entry& entry) {
+    const Guess guess = guess_key(section, entry.name);
+    draft.reject(entry.position, prefix + section + "." + entry.name, "unknown key", guess.words);
+    if (guess.key != nullptr) {
+        draft.bad.insert(guess.key->path());
+    }
+}
+
+namespace {
+
+// Whether keys of the section begin with `name` and a dot: a table within the section.
+bool is_subsection(const std::string& section, const std::string& name) {
+    const auto keys = schema();
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+        return key.section == section && key.name.starts_with(name + ".");
+    });
+}
+
+// `prefix` is that of a table within the section, with its dot.
+void read_entries(StudyDraft& draft, const std::string& section, const std::string& prefix,
+                  const std::vector<Entry>& entries) {
+    for (Entry entry : entries) {
+        entry.name = prefix + entry.name;
+        const Key* key = find_key(section, entry.name);
+        if (key != nullptr) {
+            read_value(draft, *key, entry);
+        } else if (!is_subsection(section, entry.name)) {
+            reject_unknown_key(draft, "", section, entry);
+        } else if (entry.value.kind == Value::Kind::table) {
+            read_entries(draft, section, entry.name + ".", entry.value.entries);
+        } else {
+            draft.reject(entry.position, section + "." + entry.name,
+                         fmt::format("must be a table, but is {}", entry.value.kind_name()),
+                         fmt::format("write {} = {{ key = value, ... }}", entry.name));
+        }
+    }
+}
+
+void read_section(StudyDraft& draft, const Entry& section) {
+    read_entries(draft, section.name, "", section.value.entries);
+}
+
+void read_title(StudyDraft& draft, const Entry& entry) {
+    if (entry.value.kind == Value::Kind::text) {
+        draft.study.title = entry.value.text;
+    } else {
+        draft.reject(entry.position, "title",
+                     fmt::format("must be a string, but is {}", entry.value.kind_name()), "");
+    }
+}
+
+// A top-level name that is no section: a key outside its section, or a misspelling.
+void reject_unknown_section(StudyDraft& draft, const Entry& entry) {
+    for (const Key& key : schema()) {
+        if (key.name == entry.name) {
+            draft.reject(entry.position, entry.name, "unknown section",
+                         fmt::format("the key belongs in [{}]", key.section));
+            return;
+        }
+    }
+    const auto names = section_names();
+    std::vector<std::string_view> candidates(names.begin(), names.end());
+    candidates.push_back("title");
+    const std::string words = suggest(entry.name, candidates);
+    draft.reject(entry.position, entry.name, "unknown section", words);
+    if (words.starts_with("did you mean")) {
+        // Not missing as well.
+        draft.bad.insert(std::string(nearest(entry.name, candidates)));
+    }
+}
+
+void read_sections(StudyDraft& draft, const Value& document) {
+    const auto names = section_names();
+    for (const Entry& entry : document.entries) {
+        if (entry.name == "title") {
+            read_title(draft, entry);
+            continue;
+        }
+        if (std::find(names.begin(), names.end(), entry.name) == names.end()) {
+            reject_unknown_section(draft, entry);
+            continue;
+        }
+        draft.sections[entry.name] = entry.value.position;
+        if (entry.value.kind != Value::Kind::table) {
+            draft.reject(entry.position, entry.name,
+                         fmt::format("must be a section, but is {}", entry.value.kind_name()),
+                         fmt::format("write [{}]", entry.name));
+        } else if (entry.name != "random") {
+            read_section(draft, entry);
+        }
+    }
+    // After all nominal values, because it fills in those that are absent.
+    const Entry* random = document.find("random");
+    if (random != nullptr && random->value.kind == Value::Kind::table) {
+        read_random(draft, random->value);
+    }
+}
+
+// The basic ones that the motion has signals for.
+void fill_features(Study& study) {
+    if (study.features.use.empty()) {
+        for (const features::Feature& feature : features::all_features()) {
+            if (feature.basic() && (!feature.from_sensor || !study.effects.quasi_static())) {
+                study.features.use.emplace_back(feature.name);
+            }
+        }
+    }
+}
+
+// Of a held sun's gearbox the ring is driven and has the torque, else the sun.
+void fill_operation(StudyDraft& draft) {
+    Operation& o = draft.study.operation;
+    const Member usual = o.fixed == Member::sun ? Member::ring : Member::sun;
+    if (!draft.is_given("operation.input")) {
+        o.input = usual;
+    }
+    if (!draft.is_given("operation.torque_on")) {
+        o.torque_on = usual;
+    }
+}
+
+// No path leads to a sensor that sits on a bearing, or that has nothing to measure.
+void fill_path(StudyDraft& draft) {
+    Study& study = draft.study;
+    if (!draft.is_given("effects.path") &&
+        (study.gearbox.kind == GearboxKind::fixed_shaft || study.effects.quasi_static())) {
+        study.effects.path = PathWindow::none;
+    }
+}
+
+// As many as fill a 512-bit register.
+void fill_lanes(StudyDraft& draft) {
+    Numerics& n = draft.study.numerics;
+    if (!draft.is_given("numerics.lanes") && n.precision == Precision::single_precision) {
+        n.lanes = 16;
+    }
+}
+
+// Where no mesh repeats, all are marched.
+void fill_horizon(StudyDraft& draft) {
+    if (!draft.is_given("numerics.horizon") && !why_no_mesh_repeats(draft.study).empty()) {
+        draft.study.numerics.horizon = Horizon::march;
+    }
+}
+
+StudyReading read_document(const Value& document, Problems problems) {
+    StudyDraft draft;
+    draft.problems = std::move(problems);
+    draft.sections[""] = document.position;
+    read_sections(draft, document);
+    fill_horizon(draft);
+    check_presence(draft);
+    fill_features(draft.study);
+    fill_operation(draft);
+    fill_path(draft);
+    fill_lanes(draft);
+    check_gears(draft);
+    check_consistency(draft);
+    check_fluctuations(draft);
+    check_fault(draft);
+    check_until(draft);
+    sort_problems(draft.problems);
+    StudyReading reading;
+    if (draft.problems.empty()) {
+        reading.study = std::move(draft.study);
+    }
+    reading.problems = std::move(draft.problems);
+    return reading;
+}
+
+}  // namespace
+
+const RandomInput* Study::find_random(const std::string& key) const {
+    const auto found = std::find_if(random.begin(), random.end(),
+                                    [&](const RandomInput& input) { return input.key == key; });
+    return found == random.end() ? nullptr : &*found;
+}
+
+StudyReading read_study_text(const std::string& text, const std::string& name,
+                             const std::vector<std::string>& overrides) {
+    Problems problems;
+    Value document = parse_document(text, name, problems);
+    if (!problems.empty()) {
+        return {std::nullopt, std::move(problems)};
+    }
+    for (const std::string& assignment : overrides) {
+        apply_override(document, assignment, problems);
+    }
+    drop_overridden_random(document);
+    return read_document(document, std::move(problems));
+}
+
+StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides) {
+    Problems problems;
+    const std::string text = read_file(path, problems);
+    if (!problems.empty()) {
+        return {std::nullopt, std::move(problems)};
+    }
+    return read_study_text(text, path, overrides);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,143 @@
+// resolved_text(): a study as TOML.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// The shortest decimal number in the file's unit that converts back to exactly `si`.
+std::string number_text(double si, double to_si) {
+    if (si == 0.0) {
+        return "0";  // without the sign, which "-0", an integer, would lose
+    }
+    const double near = si / to_si;
+    for (const int digits : {15, 16, 17}) {
+        const std::string text = fmt::format("{:.{}g}", near, digits);
+        double rounded = near;
+        std::from_chars(text.data(), text.data() + text.size(), rounded);
+        if (rounded * to_si == si) {
+            return fmt::format("{}", rounded);
+        }
+    }
+    for (const double neighbour :
+         {std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)}) {
+        if (neighbour * to_si == si) {
+            return fmt::format("{}", neighbour);
+        }
+    }
+    return fmt::format("{}", near);
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            result += '\\';
+            result += c;
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            result += fmt::format("\\u{:04X}", static_cast<int>(c));
+        } else {
+            result += c;
+        }
+    }
+    return result + "\"";
+}
+
+// The value of one key as TOML, "" if it is not given.
+class ValueText {
+  public:
+    ValueText(const Study& study, const Key& key) : study_(study), key_(key) {}
+
+    std::string operator()(const NumberAccess& access) const {
+        const auto value = access.get(study_);
+        return value ? number_text(*value, key_.unit.to_si) : "";
+    }
+    std::string operator()(const IntegerAccess& access) const {
+        const auto value = access.get(study_);
+        return value ? fmt::format("{}", *value) : "";
+    }
+    std::string operator()(const BooleanAccess& access) const {
+        const auto value = access.get(study_);
+        return value ? fmt::format("{}", *value) : "";
+    }
+    std::string operator()(const ChoiceAccess&) const {
+        const std::string_view text = choice_text(study_, key_.section, key_.name);
+        return text.empty() ? "" : quoted(std::string(text));
+    }
+    std::string operator()(const NumbersAccess& access) const {
+        std::vector<std::string> texts;
+        for (const double value : access.get(study_)) {
+            texts.push_back(number_text(value, key_.unit.to_si));
+        }
+        return in_brackets(texts);
+    }
+    std::string operator()(const TextsAccess& access) const {
+        std::vector<std::string> texts;
+        for (const std::string& value : access.get(study_)) {
+            texts.push_back(quoted(value));
+        }
+        return in_brackets(texts);
+    }
+
+    std::string operator()(const TonesAccess& access) const {
+        std::vector<std::string> texts;
+        for (const Tone& tone : access.get(study_)) {
+            texts.push_back(fmt::format("{{ frequency_Hz = {}, amplitude_m_s2 = {} }}",
+                                        tone.frequency_Hz, tone.amplitude_m_s2));
+        }
+        return in_brackets(texts);
+    }
+
+  private:
+    static std::string in_brackets(const std::vector<std::string>& texts) {
+        return texts.empty() ? "" : fmt::format("[{}]", fmt::join(texts, ", "));
+    }
+
+    const Study& study_;
+    const Key& key_;
+};
+
+std::string section_text(const Study& study, std::string_view section) {
+    std::string text;
+    for (const Key& key : schema()) {
+        if (key.section != section || key.presence(study).need == Need::forbidden) {
+            continue;
+        }
+        const std::string value = std::visit(ValueText(study, key), key.access);
+        if (!value.empty()) {
+            text += fmt::format("{} = {}\n", key.name, value);
+        }
+    }
+    return text;
+}
+
+std::string random_text(const Study& study) {
+    std::string text;
+    for (const RandomInput& input : study.random) {
+        text += fmt::format("{} = {}\n", input.key, input.distribution.toml());
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string resolved_text(const Study& study) {
+    std::string text =
+        study.title.empty() ? "" : fmt::format("title = {}\n\n", quoted(study.title));
+    std::string gap;
+    for (const std::string_view section : section_names()) {
+        const std::string body =
+            section == "random" ? random_text(study) : section_text(study, section);
+        if (!body.empty()) {
+            text += fmt::format("{}[{}]\n{}", gap, section, body);
+            gap = "\n";
+        }
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

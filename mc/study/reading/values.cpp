@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mc/input/spelling.hpp"
+#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/tones.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+class ValueReader {
+  public:
+    ValueReader(StudyDraft& draft, const Key& key, const Entry& entry)
+        : draft_(draft), key_(key), value_(entry.value), at_(entry.position) {}
+
+    void operator()(const NumberAccess& access) {
+        if (finite(value_) && in_range(value_.number)) {
+            access.set(draft_.study, value_.number * key_.unit.to_si);
+        }
+    }
+
+    void operator()(const IntegerAccess& access) {
+        if (value_.kind != Value::Kind::integer) {
+            reject(fmt::format("must be an integer, but is {}", value_.kind_name()),
+                   key_.range.hint());
+        } else if (in_range(value_.number)) {
+            access.set(draft_.study, value_.integer);
+        }
+    }
+
+    void operator()(const BooleanAccess& access) {
+        if (value_.kind != Value::Kind::boolean) {
+            reject(fmt::format("must be true or false, but is {}", value_.kind_name()), "");
+        } else {
+            access.set(draft_.study, value_.boolean);
+        }
+    }
+
+    void operator()(const ChoiceAccess& access) {
+        std::vector<std::string_view> names;
+        for (const ChoiceName& name : access.names) {
+            names.push_back(name.text);
+            if (value_.kind == Value::Kind::text && value_.text == name.text) {
+                access.set(draft_.study, name.value);
+                return;
+            }
+        }
+        const std::string choices = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
+        if (value_.kind != Value::Kind::text) {
+            reject(fmt::format("must be a string, but is {}", value_.kind_name()), choices);
+        } else {
+            reject(fmt::format("unknown value \"{}\" ({})", value_.text, choices),
+                   suggest(value_.text, names));
+        }
+    }
+
+    void operator()(const NumbersAccess& access) {
+        std::vector<double> numbers;
+        if (!nonempty_list("numbers")) {
+            return;
+        }
+        for (const Value& element : value_.elements) {
+            if (!finite(element) || !in_range(element.number)) {
+                continue;
+            }
+            if (access.ascending && !numbers.empty() && !(numbers.back() < element.number)) {
+                reject(fmt::format("must ascend, but {} is not above {}, the value before it",
+                                   element.number, numbers.back()),
+                       "sort the list and remove repeated values");
+            }
+            numbers.push_back(element.number);
+        }
+        for (double& number : numbers) {
+            number *= key_.unit.to_si;
+        }
+        if (draft_.usable(key_.path())) {
+            access.set(draft_.study, numbers);
+        }
+    }
+
+    void operator()(const TextsAccess& access) {
+        std::vector<std::string> texts;
+        if (!nonempty_list("strings")) {
+            return;
+        }
+        for (const Value& element : value_.elements) {
+            if (element.kind != Value::Kind::text) {
+                reject(fmt::format("must be a list of strings, but holds {}", element.kind_name()),
+                       "");
+            } else {
+                texts.push_back(element.text);
+            }
+        }
+        access.set(draft_.study, texts);
+    }
+
+    void operator()(const TonesAccess& access) {
+        if (is_list("tones")) {
+            access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
+                           reject(std::move(what), std::move(remedy));
+                       }));
+        }
+    }
+
+  private:
+    bool finite(const Value& value) {
+        if (value.kind != Value::Kind::number && value.kind != Value::Kind::integer) {
+            reject(fmt::format("must be a number, but is {}", value.kind_name()),
+                   key_.range.hint());
+            return false;
+        }
+        if (!std::isfinite(value.number)) {
+            reject(fmt::format("must be a finite number, but is {}", value.number),
+                   key_.range.hint());
+            return false;
+        }
+        const double si = value.number * key_.unit.to_si;
+        if (!std::isfinite(si) || (value.number != 0.0 && !std::isnormal(si))) {
+            reject(fmt::format("{} is beyond the numbers that can be computed with", value.number),
+                   key_.range.hint());
+            return false;
+        }
+        return true;
+    }
+
+    bool in_range(double number) {
+        if (key_.range.contains(number)) {
+            return true;
+        }
+        reject(fmt::format("must be {}, but is {}", key_.range.text(), number), "");
+        return false;
+    }
+
+    bool is_list(std::string_view of) {
+        if (value_.kind == Value::Kind::array) {
+            return true;
+        }
+        reject(fmt::format("must be a list of {}, but is {}", of, value_.kind_name()),
+               "write it in [brackets]");
+        return false;
+    }
+
+    bool nonempty_list(std::string_view of) {
+        if (!is_list(of)) {
+            return false;
+        }
+        if (value_.elements.empty()) {
+            reject("is an empty list", "give at least one value, or leave the key out");
+            return false;
+        }
+        return true;
+    }
+
+    void reject(std::string what, std::string remedy) {
+        draft_.reject(at_, key_.path(), std::move(what), std::move(remedy));
+    }
+
+    StudyDraft& draft_;
+    const Key& key_;
+    const Value& value_;
+    const Position& at_;
+};
+
+}  // namespace
+
+void read_value(StudyDraft& draft, const Key& key, const Entry& entry) {
+    draft.given[key.path()] = entry.position;
+    std::visit(ValueReader(draft, key, entry), key.access);
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,81 @@
+// Turns a member of one of Study's parts into the access that a schema line holds:
+// number<&Gearbox::module_m>.
+#pragma once
+
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+
+template <class AnyStudy>
+auto parts(AnyStudy& s) {
+    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.operation, s.fluctuations, s.effects,
+                    s.fault, s.sensor, s.features, s.detection, s.numerics, s.ensemble,
+                    s.ensemble.until);
+}
+template <class Part>
+Part& part_of(Study& s) {
+    return std::get<Part&>(parts(s));
+}
+template <class Part>
+const Part& part_of(const Study& s) {
+    return std::get<const Part&>(parts(s));
+}
+
+template <class Part, class Type>
+Part part_type(Type Part::*);
+
+template <auto Member>
+using PartOf = decltype(part_type(Member));
+
+template <class Type>
+struct Inner {
+    using type = Type;
+};
+template <class Type>
+struct Inner<std::optional<Type>> {
+    using type = Type;
+};
+// The type of a member, without its std::optional.
+template <auto Member>
+using MemberType =
+    typename Inner<std::remove_cvref_t<decltype(std::declval<PartOf<Member>>().*Member)>>::type;
+
+// `Shown` is the schema's type for the member's: int64 for an int, int for an enumeration.
+template <auto Member, class Shown>
+std::optional<Shown> get_member(const Study& s) {
+    const std::optional<MemberType<Member>> stored = part_of<PartOf<Member>>(s).*Member;
+    return stored ? std::optional<Shown>(static_cast<Shown>(*stored)) : std::nullopt;
+}
+template <auto Member, class Shown>
+void set_member(Study& s, Shown value) {
+    part_of<PartOf<Member>>(s).*Member = static_cast<MemberType<Member>>(value);
+}
+
+template <auto Member>
+constexpr NumberAccess number{get_member<Member, double>, set_member<Member, double>};
+template <auto Member>
+constexpr IntegerAccess integer{get_member<Member, std::int64_t>, set_member<Member, std::int64_t>};
+template <auto Member>
+constexpr BooleanAccess boolean{get_member<Member, bool>, set_member<Member, bool>};
+template <auto Member>
+constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
+    return {get_member<Member, int>, set_member<Member, int>, names};
+}
+
+template <auto Member>
+MemberType<Member> get_list(const Study& s) {
+    return part_of<PartOf<Member>>(s).*Member;
+}
+template <auto Member>
+void set_list(Study& s, MemberType<Member> value) {
+    part_of<PartOf<Member>>(s).*Member = std::move(value);
+}
+// Strings or tones.
+template <auto Member>
+constexpr Access<MemberType<Member>, MemberType<Member>> list{get_list<Member>, set_list<Member>};
+template <auto Member>
+constexpr NumbersAccess numbers{get_list<Member>, set_list<Member>, false};
+template <auto Member>
+constexpr NumbersAccess ascending{get_list<Member>, set_list<Member>, true};
+
+}  // namespace gearpod::mc

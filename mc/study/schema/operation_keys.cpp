@@ -1,0 +1,76 @@
+// Keys of [operation] and [effects].
+#include "mc/study/schema/table.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr ChoiceName kCentral[] = {name("ring", Member::ring), name("sun", Member::sun),
+                                   name("carrier", Member::carrier)};
+constexpr ChoiceName kMotions[] = {name("translational-torsional", Motion::translational_torsional),
+                                   name("torsional", Motion::torsional),
+                                   name("quasi-static", Motion::quasi_static),
+                                   name("quasi-static-torsional", Motion::quasi_static_torsional)};
+constexpr ChoiceName kFoundations[] = {name("none", Foundation::none),
+                                       name("sainsot", Foundation::sainsot),
+                                       name("elastic-ring", Foundation::elastic_ring)};
+constexpr ChoiceName kContacts[] = {name("linear", Contact::linear),
+                                    name("load-dependent", Contact::load_dependent)};
+constexpr ChoiceName kSeparations[] = {name("none", Separation::none),
+                                       name("one-sided", Separation::one_sided),
+                                       name("two-sided", Separation::two_sided)};
+constexpr ChoiceName kDampings[] = {name("ratio", MeshDamping::ratio),
+                                    name("proportional", MeshDamping::proportional),
+                                    name("constant", MeshDamping::constant)};
+constexpr ChoiceName kPaths[] = {
+    name("hamming", PathWindow::hamming), name("hann", PathWindow::hann),
+    name("rectangular", PathWindow::rectangular), name("none", PathWindow::none)};
+
+using F = Fluctuations;
+// A speed that comes near zero is no speed to march in mesh phase; noise reaches six times its rms.
+constexpr Range kSpeedAmplitude = from_to(0, 0.3);
+constexpr Range kSpeedNoise = from_to(0, 0.05);
+
+// clang-format off
+const Key kKeys[] = {
+    {"operation", "fixed", choice<&Operation::fixed>(kCentral), kNone, kAny, planetary<may>, kShared, "member that stands still"},
+    {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, planetary<may>, kShared, "member that is driven; the sun by default, or the ring if the sun is fixed"},
+    {"operation", "torque_on", choice<&Operation::torque_on>(kCentral), kNone, kAny, planetary<may>, kShared, "member whose torque is given; the sun by default, or the ring if the sun is fixed"},
+    {"operation", "torque_N_m", number<&Operation::torque_N_m>, kNm, kNotNegative, always, kRandom, "torque on that member, or of a fixed-shaft gearbox's motor"},
+    {"operation", "sun_speed_rpm", number<&Operation::sun_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the sun"},
+    {"operation", "ring_speed_rpm", number<&Operation::ring_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the ring"},
+    {"operation", "carrier_speed_rpm", number<&Operation::carrier_speed_rad_s>, kRpm, kPositive, planetary<may>, kRandom, "speed of the carrier"},
+    {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; in balance with the motor's by default"},
+    {"operation", "pinion_speed_rpm", number<&Operation::pinion_speed_rad_s>, kRpm, kPositive, fixed_shaft<always>, kRandom, "speed of the pinion"},
+
+    {"operation", "torque_fluctuation", number<&F::torque>, kNone, from_to(0, 10), may, kRandom, "amplitude of a sine by which all torques vary, relative to them; contacts and static equilibrium keep the mean torque"},
+    {"operation", "torque_fluctuation_order", number<&F::torque_order>, kNone, kPositive, torque_sine, kRandom, "its periods in a turn of the input member (the pinion); or give torque_fluctuation_Hz"},
+    {"operation", "torque_fluctuation_Hz", number<&F::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "its frequency; or give torque_fluctuation_order"},
+    {"operation", "torque_fluctuation_phase_deg", number<&F::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "its phase at the first recorded mesh"},
+    {"operation", "torque_noise", number<&F::torque_noise>, kNone, from_to(0, 10), may, kRandom, "rms by which all torques vary at random, relative to them: Gaussian, every gearbox differently"},
+    {"operation", "torque_noise_band_Hz", number<&F::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which its spectrum has fallen to half (to a twentieth at twice that): white noise shaped by cubic B-splines"},
+    {"operation", "speed_fluctuation", number<&F::speed>, kNone, kSpeedAmplitude, integration, kRandom, "amplitude of a sine by which the speed varies, relative to it; the input's torque speeds all masses up"},
+    {"operation", "speed_fluctuation_order", number<&F::speed_order>, kNone, kPositive, speed_sine, kRandom, "its periods in a turn of the input member (the pinion)"},
+    {"operation", "speed_fluctuation_phase_deg", number<&F::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "its phase at the first recorded mesh"},
+    {"operation", "speed_noise", number<&F::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "rms by which the speed varies at random, relative to it"},
+    {"operation", "speed_noise_band_Hz", number<&F::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which its spectrum has fallen to half, at the mean speed"},
+
+    {"effects", "motion", choice<&Effects::motion>(kMotions), kNone, kAny, may, kShared, "degrees of freedom"},
+    {"effects", "foundation", choice<&Effects::foundation>(kFoundations), kNone, kAny, tooth_model, kShared, "compliance of the gear bodies under the teeth"},
+    {"effects", "contact", choice<&Effects::contact>(kContacts), kNone, kAny, tooth_model, kShared, "law of the contact between teeth"},
+    {"effects", "shear", boolean<&Effects::shear>, kNone, kAny, tooth_model, kShared, "shear energy of the teeth"},
+    {"effects", "separation", choice<&Effects::separation>(kSeparations), kNone, kAny, may, kShared, "whether teeth lose contact: one-sided, or two-sided with contact of the back flanks"},
+    {"effects", "inertial_terms", boolean<&Effects::inertial_terms>, kNone, kAny, planetary<may>, kShared, "Coriolis and centrifugal terms of the turning carrier"},
+    {"effects", "mesh_damping", choice<&Effects::mesh_damping>(kDampings), kNone, kAny, may, kShared, "law of mesh damping"},
+    {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies; it turns in the frame of a turning carrier"},
+    {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, from_to(-360, 360), gravity, kShared, "where it pulls, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
+    {"effects", "path", choice<&Effects::path>(kPaths), kNone, kAny, may, kShared, "window of the transmission path"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> operation_keys() {
+    return kKeys;
+}
+
+}  // namespace gearpod::mc

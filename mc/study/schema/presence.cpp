@@ -1,0 +1,335 @@
+#include "mc/study/schema/presence.hpp"
+
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr Presence kOptional{Need::optional, "", {}};
+constexpr std::string_view kProfile = "gearbox.tooth_profile";
+constexpr std::string_view kMotion = "effects.motion";
+
+bool is(const Study& s, ToothProfile profile) {
+    return s.gearbox.tooth_profile == profile;
+}
+
+bool planet_fault(const Study& s) {
+    return s.fault.kind != FaultKind::none && s.fault.member == Member::planet;
+}
+
+Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
+    if (s.effects.quasi_static()) {
+        return kOptional;
+    }
+    const Need need = s.effects.mesh_damping == kind ? Need::required : Need::forbidden;
+    return {need, why, {"effects.mesh_damping", kMotion}};
+}
+
+// Required with that key, and else forbidden.
+Presence with(const std::optional<double>& given, std::string_view because, std::string_view only,
+              std::string_view governor) {
+    return given ? Presence{Need::required, because, {governor}}
+                 : Presence{Need::forbidden, only, {governor}};
+}
+
+struct FaultWords {
+    FaultKind kind;
+    std::string_view only, because;
+};
+constexpr FaultWords kFaultWords[] = {
+    {FaultKind::crack, "only for fault.kind = \"crack\"", "fault.kind is \"crack\""},
+    {FaultKind::spatial_crack, "only for fault.kind = \"spatial-crack\"",
+     "fault.kind is \"spatial-crack\""},
+    {FaultKind::chip, "only for fault.kind = \"chip\"", "fault.kind is \"chip\""},
+    {FaultKind::pitting, "only for fault.kind = \"pitting\"", "fault.kind is \"pitting\""},
+    {FaultKind::broken, "only for fault.kind = \"broken\"", "fault.kind is \"broken\""},
+    {FaultKind::reduction, "only for fault.kind = \"reduction\"", "fault.kind is \"reduction\""},
+};
+
+const FaultWords& words_of(FaultKind kind) {
+    for (const FaultWords& words : kFaultWords) {
+        if (words.kind == kind) {
+            return words;
+        }
+    }
+    return kFaultWords[0];
+}
+
+}  // namespace
+
+Presence always(const Study&) {
+    return {Need::required, "", {}};
+}
+Presence may(const Study&) {
+    return kOptional;
+}
+
+Presence of_kind(const Study& s, GearboxKind kind, PresenceRule rule) {
+    if (s.gearbox.kind != kind) {
+        return {Need::forbidden,
+                kind == GearboxKind::planetary ? "only for gearbox.kind = \"planetary\""
+                                               : "only for gearbox.kind = \"fixed-shaft\"",
+                {"gearbox.kind"}};
+    }
+    Presence presence = rule(s);
+    if (presence.governors[0].empty()) {
+        presence.governors[0] = "gearbox.kind";
+    } else if (presence.governors[1].empty()) {
+        presence.governors[1] = "gearbox.kind";
+    }
+    return presence;
+}
+
+Presence tooth_numbers(const Study& s) {
+    return is(s, ToothProfile::constant)
+               ? kOptional
+               : Presence{Need::required, "gearbox.tooth_profile is not \"constant\"", {kProfile}};
+}
+
+Presence tooth_module(const Study& s) {
+    return s.gearbox.kind == GearboxKind::fixed_shaft
+               ? Presence{Need::required, "gearbox.kind is \"fixed-shaft\"", {"gearbox.kind"}}
+               : tooth_numbers(s);
+}
+
+Presence tooth_body(const Study& s) {
+    return stiffness_given(s)
+               ? kOptional
+               : Presence{Need::required,
+                          "gearbox.tooth_profile is neither \"constant\" nor \"square-wave\"",
+                          {kProfile}};
+}
+
+Presence tooth_model(const Study& s) {
+    return stiffness_given(s) ? Presence{Need::forbidden,
+                                         "the stiffness is given, not computed from the teeth: "
+                                         "gearbox.tooth_profile",
+                                         {kProfile}}
+                              : kOptional;
+}
+
+Presence helix(const Study& s) {
+    return stiffness_given(s)
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for gearbox.tooth_profile = \"constant\" or \"square-wave\": "
+                          "the tooth profiles are those of spur gears",
+                          {kProfile}};
+}
+
+Presence constant_stiffness(const Study& s) {
+    return is(s, ToothProfile::constant)
+               ? Presence{Need::required, "gearbox.tooth_profile is \"constant\"", {kProfile}}
+               : Presence{Need::forbidden,
+                          "only for gearbox.tooth_profile = \"constant\": the teeth give it",
+                          {kProfile}};
+}
+
+Presence square_wave(const Study& s) {
+    return is(s, ToothProfile::square_wave)
+               ? Presence{Need::required, "gearbox.tooth_profile is \"square-wave\"", {kProfile}}
+               : Presence{Need::forbidden,
+                          "only for gearbox.tooth_profile = \"square-wave\"",
+                          {kProfile}};
+}
+
+Presence foundation(const Study& s) {
+    return s.effects.foundation == Foundation::none || stiffness_given(s)
+               ? kOptional
+               : Presence{
+                     Need::required, "effects.foundation is not \"none\"", {"effects.foundation"}};
+}
+
+Presence ring_foundation(const Study& s) {
+    // Sainsot's formula is fitted to external gears.
+    return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
+               ? Presence{Need::required,
+                          "effects.foundation is \"elastic-ring\"",
+                          {"effects.foundation"}}
+               : kOptional;
+}
+
+Presence backlash(const Study& s) {
+    return s.effects.separation == Separation::two_sided
+               ? Presence{Need::required,
+                          "effects.separation is \"two-sided\"",
+                          {"effects.separation"}}
+               : Presence{Need::forbidden,
+                          "only for effects.separation = \"two-sided\"",
+                          {"effects.separation"}};
+}
+
+Presence pitch_error(const Study& s) {
+    return s.numerics.horizon == Horizon::march
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for numerics.horizon = \"march\": every tooth differs, so that "
+                          "no mesh repeats",
+                          {"numerics.horizon"}};
+}
+
+Presence torque_sine(const Study& s) {
+    return s.fluctuations.torque ? kOptional
+                                 : Presence{Need::forbidden,
+                                            "only with operation.torque_fluctuation",
+                                            {"operation.torque_fluctuation"}};
+}
+
+Presence torque_noise(const Study& s) {
+    return with(s.fluctuations.torque_noise, "operation.torque_noise is given",
+                "only with operation.torque_noise", "operation.torque_noise");
+}
+
+Presence speed_sine(const Study& s) {
+    return with(s.fluctuations.speed, "operation.speed_fluctuation is given",
+                "only with operation.speed_fluctuation", "operation.speed_fluctuation");
+}
+
+Presence speed_phase(const Study& s) {
+    return s.fluctuations.speed ? kOptional : speed_sine(s);
+}
+
+Presence speed_noise(const Study& s) {
+    return with(s.fluctuations.speed_noise, "operation.speed_noise is given",
+                "only with operation.speed_noise", "operation.speed_noise");
+}
+
+Presence gravity(const Study& s) {
+    return s.effects.gravity
+               ? kOptional
+               : Presence{Need::forbidden, "only with effects.gravity = true", {"effects.gravity"}};
+}
+
+Presence mass(const Study& s) {
+    // Without inertia, but not without weight.
+    if (s.effects.quasi_static() && s.effects.gravity) {
+        return {Need::required, "effects.gravity = true", {kMotion, "effects.gravity"}};
+    }
+    return s.effects.quasi_static() ? kOptional : Presence{Need::required, "", {kMotion}};
+}
+
+Presence inertia(const Study& s) {
+    return s.gearbox.has_teeth() && s.gearbox.module_m
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "its radius is unknown without tooth numbers and module",
+                          {kProfile}};
+}
+
+Presence inertia_over_r2(const Study& s) {
+    const bool no_disc = is(s, ToothProfile::constant) && !s.gearbox.has_teeth();
+    return no_disc && !s.effects.quasi_static()
+               ? Presence{Need::required,
+                          "without tooth numbers no disc can be assumed",
+                          {kProfile, kMotion}}
+               : kOptional;
+}
+
+Presence bearing(const Study& s) {
+    switch (s.effects.motion) {
+        case Motion::translational_torsional:
+            return {Need::required, "effects.motion is \"translational-torsional\"", {kMotion}};
+        case Motion::quasi_static:
+            return {Need::required, "effects.motion is \"quasi-static\"", {kMotion}};
+        default:
+            return kOptional;
+    }
+}
+
+Presence damping_ratio(const Study& s) {
+    return damping(s, MeshDamping::ratio, "effects.mesh_damping = \"ratio\" goes with it");
+}
+Presence damping_time(const Study& s) {
+    return damping(s, MeshDamping::proportional,
+                   "effects.mesh_damping = \"proportional\" goes with it");
+}
+Presence damping_constant(const Study& s) {
+    return damping(s, MeshDamping::constant, "effects.mesh_damping = \"constant\" goes with it");
+}
+
+Presence acceleration_detail(const Study& s) {
+    return s.effects.quasi_static()
+               ? Presence{Need::forbidden,
+                          "a quasi-static gearbox has no accelerations: effects.motion",
+                          {kMotion}}
+               : kOptional;
+}
+
+Presence acceleration(const Study& s) {
+    const Presence detail = acceleration_detail(s);
+    return detail.need == Need::forbidden ? detail : Presence{Need::required, "", {kMotion}};
+}
+
+Presence integration(const Study& s) {
+    return s.effects.quasi_static()
+               ? Presence{Need::forbidden,
+                          "a quasi-static gearbox is not integrated in time: effects.motion",
+                          {kMotion}}
+               : kOptional;
+}
+
+Presence faulty_member(const Study& s) {
+    return s.fault.kind == FaultKind::none
+               ? kOptional
+               : Presence{Need::required, words_of(s.fault.kind).because, {"fault.kind"}};
+}
+
+Presence planet_side(const Study& s) {
+    return planet_fault(s)
+               ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}
+               : planet_number(s);
+}
+
+Presence planet_number(const Study& s) {
+    return s.fault.kind == FaultKind::none || planet_fault(s)
+               ? kOptional
+               : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
+}
+
+Presence crack_angle(const Study& s) {
+    const FaultKind kind = s.fault.kind;
+    return kind == FaultKind::none || kind == FaultKind::crack || kind == FaultKind::spatial_crack
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only for fault.kind = \"crack\" or \"spatial-crack\"",
+                          {"fault.kind"}};
+}
+
+Presence of_fault(const Study& s, FaultKind kind, Need need) {
+    if (s.fault.kind == FaultKind::none) {
+        return kOptional;
+    }
+    if (s.fault.kind != kind) {
+        return {Need::forbidden, words_of(kind).only, {"fault.kind"}};
+    }
+    return {need, words_of(kind).because, {"fault.kind"}};
+}
+
+Presence length_edges(const Study& s) {
+    return s.fault.kind == FaultKind::none || !fault_size_key(s).unit.suffix.empty()
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "the fault's size is a pure number: size_edges groups it",
+                          {"fault.kind"}};
+}
+
+Presence number_edges(const Study& s) {
+    return s.fault.kind == FaultKind::none || fault_size_key(s).unit.suffix.empty()
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "the fault's size is a length: size_edges_mm groups it",
+                          {"fault.kind"}};
+}
+
+Presence until_part(const Study& s) {
+    constexpr std::string_view governor = "ensemble.until.half_width";
+    return s.ensemble.until.half_width
+               ? Presence{Need::required, "until.half_width is given", governor}
+               : Presence{Need::forbidden, "only with until.half_width", governor};
+}
+Presence until_level(const Study& s) {
+    return s.ensemble.until.half_width ? may(s) : until_part(s);
+}
+
+}  // namespace gearpod::mc

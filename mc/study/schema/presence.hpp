@@ -1,0 +1,74 @@
+// Which keys must, may or must not be given, depending on the choices of a study.
+#pragma once
+
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+
+Presence always(const Study&);
+Presence may(const Study&);
+
+// A key of one kind of gearbox only; there Rule decides.
+Presence of_kind(const Study&, GearboxKind kind, PresenceRule rule);
+template <PresenceRule Rule>
+Presence planetary(const Study& s) {
+    return of_kind(s, GearboxKind::planetary, Rule);
+}
+template <PresenceRule Rule>
+Presence fixed_shaft(const Study& s) {
+    return of_kind(s, GearboxKind::fixed_shaft, Rule);
+}
+
+Presence tooth_numbers(const Study&);       // unless the stiffness is constant
+Presence tooth_module(const Study&);        // as these; a fixed-shaft gearbox always needs it
+Presence tooth_body(const Study&);          // unless the stiffness is given
+Presence tooth_model(const Study&);         // only if it is not
+Presence helix(const Study&);               // only if the stiffness is given
+Presence constant_stiffness(const Study&);  // only if it is
+Presence square_wave(const Study&);         // only if it is
+Presence foundation(const Study&);          // required for one
+Presence ring_foundation(const Study&);     // required for one of which rings have one
+Presence backlash(const Study&);            // only for two-sided separation
+Presence pitch_error(const Study&);         // only where every mesh is marched
+
+Presence torque_sine(const Study&);   // only with operation.torque_fluctuation
+Presence torque_noise(const Study&);  // only with operation.torque_noise, and then required
+Presence speed_sine(const Study&);    // likewise
+Presence speed_phase(const Study&);
+Presence speed_noise(const Study&);
+Presence gravity(const Study&);  // only with effects.gravity
+
+Presence mass(const Study&);             // unless the motion is quasi-static
+Presence inertia(const Study&);          // J needs the radii
+Presence inertia_over_r2(const Study&);  // required where no disc can be assumed
+Presence bearing(const Study&);          // unless the motion is torsional
+Presence damping_ratio(const Study&);
+Presence damping_time(const Study&);
+Presence damping_constant(const Study&);
+
+Presence acceleration(const Study&);         // required unless the motion is quasi-static
+Presence acceleration_detail(const Study&);  // has no place where it is
+Presence integration(const Study&);          // has no place where nothing is integrated
+
+Presence faulty_member(const Study&);  // required for a fault
+Presence planet_side(const Study&);    // required for a fault in a planet
+Presence planet_number(const Study&);  // only for a fault in a planet
+Presence crack_angle(const Study&);    // only for the two kinds of crack
+Presence length_edges(const Study&);   // only if the fault's size is a length
+Presence number_edges(const Study&);   // only if it is none
+
+// A key of one kind of fault, which must or may be given with it. Without a fault all may.
+Presence of_fault(const Study&, FaultKind kind, Need need);
+template <FaultKind Kind>
+Presence fault_needs(const Study& s) {
+    return of_fault(s, Kind, Need::required);
+}
+template <FaultKind Kind>
+Presence fault_may(const Study& s) {
+    return of_fault(s, Kind, Need::optional);
+}
+
+Presence until_part(const Study&);   // only with until.half_width, and then required
+Presence until_level(const Study&);  // only with until.half_width
+
+}  // namespace gearpod::mc

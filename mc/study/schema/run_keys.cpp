@@ -1,0 +1,92 @@
+// Keys of [sensor], [features], [detection], [numerics] and [ensemble].
+#include "features/feature.hpp"
+#include "mc/study/schema/table.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
+constexpr ChoiceName kIntegrators[] = {name("auto", Integrator::automatic),
+                                       name("rk4", Integrator::rk4),
+                                       name("newmark", Integrator::newmark),
+                                       name("sdirk3", Integrator::sdirk3),
+                                       name("generalized-alpha", Integrator::generalized_alpha),
+                                       name("bs3", Integrator::bs3),
+                                       name("central-difference", Integrator::central_difference)};
+constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
+                                     name("graded", StepGrid::graded)};
+constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
+                                      name("single", Precision::single_precision)};
+constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
+constexpr ChoiceName kInstructionSets[] = {
+    name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
+    name("x86-64-v3", InstructionSet::x86_64_v3), name("x86-64-v4", InstructionSet::x86_64_v4)};
+
+constexpr Range kTolerance = {0.0, 1.0, false, true};
+
+std::span<const ChoiceName> feature_names() {
+    static const std::vector<ChoiceName> names = [] {
+        std::vector<ChoiceName> all;
+        for (const features::Feature& feature : features::all_features()) {
+            all.push_back({feature.name, static_cast<int>(all.size())});
+        }
+        return all;
+    }();
+    return names;
+}
+
+// clang-format off
+const Key kKeys[] = {
+    {"sensor", "sampling_Hz", number<&Sensor::sampling_Hz>, kHz, kFrequency, acceleration, kSampling, "sampling rate of the accelerometer"},
+    {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, acceleration, kSampling, "anti-alias low-pass"},
+    {"sensor", "position", choice<&Sensor::position>(kPositions), kNone, kAny, fixed_shaft<acceleration_detail>, kShared, "bearing on which the sensor sits"},
+    {"sensor", "path_exponent", number<&Sensor::path_exponent>, kNone, from_to(-1, 1), planetary<acceleration_detail>, kRandom, "exponent of the transmission path"},
+    {"sensor", "noise_m_s2", number<&Sensor::noise_m_s2>, kMPerS2, kNotNegative, acceleration_detail, kRandom, "rms noise of the accelerometer"},
+    {"sensor", "tones", list<&Sensor::tones>, kNone, kAny, acceleration_detail, kShared, "interfering tones from elsewhere"},
+    {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},
+    {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
+    {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on both noises, ascending"},
+
+    {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z"},
+    {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the mesh window"},
+    {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "mesh harmonics in te_fm0"},
+
+    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, inside(0, 1), may, kShared, "share of healthy gearboxes that may alarm"},
+    {"detection", "confidence", number<&Detection::confidence>, kNone, inside(0, 1), may, kShared, "confidence of the intervals"},
+    {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
+    {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
+
+    {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
+    {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},
+    {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
+    {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: with rk4 and central-difference, and orbits settle to 1e-5 at best"},
+    {"numerics", "grid", choice<&Numerics::grid>(kStepGrids), kNone, kAny, integration, kShared, "uniform steps, or graded ones: fine after each contact transition, coarse where the response is quiet"},
+    {"numerics", "step_tolerance", number<&Numerics::step_tolerance>, kNone, inside(0, 1), integration, kShared, "estimated error of a step over the largest motion, by which a pilot chooses the steps of bs3"},
+    {"numerics", "grid_tolerance", number<&Numerics::grid_tolerance>, kNone, inside(0, 1), integration, kShared, "rms error of a pilot's signals, by which the graded grids of all integrators but bs3 are chosen"},
+    {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
+    {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
+    {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "share of the largest value that the stiffness curves' terms may leave out; 0: 1e-13, of a faulty tooth pair 4e-10"},
+    {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
+    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
+    {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},
+    {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for all"},
+    {"numerics", "instruction_set", choice<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
+
+    {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "gearboxes over all fault sizes"},
+    {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "further healthy gearboxes that set the thresholds"},
+    {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
+    {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, from_to(0, 1e6), may, kShared, "seconds between two checkpoints"},
+    {"ensemble", "until.half_width", number<&Until::half_width>, kNone, inside(0, 0.5), may, kShared, "stop once Pd is known within this half width of its interval"},
+    {"ensemble", "until.feature", choice<&Until::feature>(feature_names()), kNone, kAny, until_part, kShared, "feature whose Pd that is"},
+    {"ensemble", "until.size", number<&Until::size>, kNone, kNotNegative, until_part, kShared, "fault size whose Pd that is, in the unit of the fault's size"},
+    {"ensemble", "until.noise_level", number<&Until::noise_level>, kNone, kNotNegative, until_level, kShared, "noise level of that Pd, one of sensor.noise_levels"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> run_keys() {
+    return kKeys;
+}
+
+}  // namespace gearpod::mc

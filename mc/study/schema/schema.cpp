@@ -1,0 +1,97 @@
+#include "mc/study/schema/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mc/study/schema/table.hpp"
+
+namespace gearpod::mc {
+
+std::string Key::path() const {
+    return fmt::format("{}.{}", section, name);
+}
+
+std::string_view Key::stem() const {
+    return unit.suffix.empty() ? name : name.substr(0, name.size() - unit.suffix.size() - 1);
+}
+
+std::span<const Key> schema() {
+    static const std::vector<Key> keys = [] {
+        std::vector<Key> all;
+        for (const auto table : {gearbox_keys(), operation_keys(), fault_keys(), run_keys()}) {
+            all.insert(all.end(), table.begin(), table.end());
+        }
+        return all;
+    }();
+    return keys;
+}
+
+std::span<const std::string_view> section_names() {
+    static constexpr std::array<std::string_view, 10> names{
+        "gearbox", "operation", "effects",   "fault",    "sensor",
+        "random",  "features",  "detection", "numerics", "ensemble"};
+    return names;
+}
+
+const Key* find_key(std::string_view section, std::string_view name) {
+    const auto keys = schema();
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) {
+        return key.section == section && key.name == name;
+    });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+std::string_view choice_text(const Study& study, std::string_view section, std::string_view name) {
+    const auto& access = std::get<ChoiceAccess>(find_key(section, name)->access);
+    const auto value = access.get(study);
+    for (const ChoiceName& choice : access.names) {
+        if (value == choice.value) {
+            return choice.text;
+        }
+    }
+    return "";
+}
+
+namespace {
+
+struct KindText {
+    std::string operator()(const NumberAccess&) const { return "number"; }
+    std::string operator()(const IntegerAccess&) const { return "integer"; }
+    std::string operator()(const BooleanAccess&) const { return "true or false"; }
+    std::string operator()(const NumbersAccess& list) const {
+        return list.ascending ? "ascending list of numbers" : "list of numbers";
+    }
+    std::string operator()(const TextsAccess&) const { return "list of strings"; }
+    std::string operator()(const TonesAccess&) const {
+        return "list of { frequency_Hz, amplitude_m_s2 }";
+    }
+    std::string operator()(const ChoiceAccess& choice) const {
+        std::vector<std::string> names;
+        for (const ChoiceName& name : choice.names) {
+            names.push_back(fmt::format("\"{}\"", name.text));
+        }
+        return fmt::format("{}", fmt::join(names, " | "));
+    }
+};
+
+}  // namespace
+
+std::string schema_help() {
+    std::string text;
+    std::string_view section;
+    for (const Key& key : schema()) {
+        if (key.section != section) {
+            section = key.section;
+            text += fmt::format("[{}]\n", section);
+        }
+        const std::string range = key.range.text();
+        text += fmt::format("  {:<34} {}{}{}; {}\n", key.name, std::visit(KindText{}, key.access),
+                            range.empty() ? "" : " " + range,
+                            key.may_be_random() ? ", may be random" : "", key.doc);
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,124 @@
+#include "mc/study/schema/sizes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gearpod::mc {
+namespace {
+
+void sort_distinct(std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+std::vector<double> single_sizes(const Study& study) {
+    if (study.fault.kind == FaultKind::none) {
+        return {0.0};
+    }
+    const RandomInput* random = study.find_random(fault_size_key(study).path());
+    if (random == nullptr) {
+        return {fault_size(study)};
+    }
+    std::vector<double> sizes;
+    for (const double level : random->distribution.levels()) {
+        sizes.push_back(level * random->to_si);
+    }
+    sort_distinct(sizes);
+    return sizes;
+}
+
+}  // namespace
+
+const Key& fault_size_key(FaultKind kind) {
+    switch (kind) {
+        case FaultKind::spatial_crack:
+            return *find_key("fault", "stage");
+        case FaultKind::chip:
+            return *find_key("fault", "chip_mm");
+        case FaultKind::pitting:
+            return *find_key("fault", "pit_width_mm");
+        case FaultKind::broken:
+            return *find_key("fault", "broken");
+        case FaultKind::reduction:
+            return *find_key("fault", "reduction");
+        case FaultKind::none:
+        case FaultKind::crack:
+            break;
+    }
+    return *find_key("fault", "depth_mm");
+}
+
+const Key& fault_size_key(const Study& study) {
+    return fault_size_key(study.fault.kind);
+}
+
+double fault_size(const Study& study) {
+    return study.fault.kind == FaultKind::none
+               ? 0.0
+               : std::get<NumberAccess>(fault_size_key(study).access).get(study).value_or(0.0);
+}
+
+std::string fault_size_column(const Study& study) {
+    const Key& key = fault_size_key(study);
+    const std::string unit(key.unit.si_suffix);
+    return "fault_" + std::string(key.stem()) + (unit.empty() ? "" : "_" + unit);
+}
+
+const std::vector<double>& size_edges(const Study& study) {
+    const bool length = !fault_size_key(study).unit.suffix.empty();
+    return length ? study.detection.size_edges_m : study.detection.size_edges;
+}
+
+std::string size_edges_key(const Study& study) {
+    const bool length = !fault_size_key(study).unit.suffix.empty();
+    return length ? "detection.size_edges_mm" : "detection.size_edges";
+}
+
+std::vector<analysis::SizeGroup> size_groups(const Study& study) {
+    std::vector<analysis::SizeGroup> groups;
+    const std::vector<double>& edges = size_edges(study);
+    if (!edges.empty() && study.fault.kind != FaultKind::none) {
+        for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+            groups.push_back({edges[i], edges[i + 1]});
+        }
+        return groups;
+    }
+    for (const double size : single_sizes(study)) {
+        groups.push_back({size, size});
+    }
+    return groups;
+}
+
+double size_in_si(const Study& study, double in_file) {
+    return in_file * fault_size_key(study).unit.to_si;
+}
+
+std::string size_text(const Study& study, const analysis::SizeGroup& group) {
+    const Unit& unit = fault_size_key(study).unit;
+    const std::string name = unit.suffix.empty() ? "" : " " + std::string(unit.name);
+    return group.low == group.high ? fmt::format("{:g}{}", group.low / unit.to_si, name)
+                                   : fmt::format("{:g} to {:g}{}", group.low / unit.to_si,
+                                                 group.high / unit.to_si, name);
+}
+
+analysis::DetectionRequest detection_request(const Study& study) {
+    return {study.detection.false_alarm_rate,
+            study.detection.confidence,
+            study.sensor.noise_levels,
+            size_groups(study),
+            {fault_size_column(study), std::string(fault_size_key(study).unit.si_name)}};
+}
+
+std::vector<double> fault_sizes(const Study& study) {
+    std::vector<double> sizes;
+    for (const analysis::SizeGroup& group : size_groups(study)) {
+        sizes.push_back(group.low);
+        sizes.push_back(group.high);
+    }
+    sort_distinct(sizes);
+    std::erase(sizes, 0.0);
+    return sizes;
+}
+
+}  // namespace gearpod::mc

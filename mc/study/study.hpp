@@ -1,0 +1,329 @@
+// A study: everything a study file (TOML) says, checked, in SI units and radians.
+// The keys, their units, defaults and ranges are the table in schema_keys.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/effects/mesh_damping.hpp"
+#include "mc/input/problems.hpp"
+#include "mc/study/distributions/distribution.hpp"
+#include "stiffness/contact/hertz_contact.hpp"
+#include "stiffness/foundation/fillet_foundation.hpp"
+
+namespace gearpod::mc {
+
+enum class GearboxKind { planetary, fixed_shaft };
+enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
+enum class Member { sun, planet, ring, carrier, pinion, gear };
+enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
+enum class Separation { none, one_sided, two_sided };
+using Foundation = stiffness::FoundationModel;
+using dynamics::MeshDamping;
+using stiffness::Contact;
+enum class PathWindow { hamming, hann, rectangular, none };
+enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
+enum class FaultSide { ring, sun, both };
+enum class Integrator {
+    automatic,
+    rk4,
+    newmark,
+    sdirk3,
+    generalized_alpha,
+    bs3,
+    central_difference
+};
+enum class Precision { double_precision, single_precision };
+enum class StepGrid { uniform, graded };
+enum class Horizon { reuse, march };
+enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
+
+// Inputs that may be random hold their nominal value: the value in its section, else the
+// distribution's median. An empty optional means "not given".
+// What both kinds of gearbox have, and the planetary one's own.
+struct Gearbox {
+    GearboxKind kind = GearboxKind::planetary;
+    int planets = 0;
+    // Planetary: all three or none; without them only the modes of a constant-stiffness gearbox are
+    // defined.
+    std::optional<int> sun_teeth, planet_teeth, ring_teeth;
+    std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
+    std::optional<double> module_m;
+    double pressure_angle_rad = 0.0;
+    double helix_angle_rad = 0.0;
+    std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
+    double addendum_coefficient = 1.0;
+    double dedendum_coefficient = 1.25;
+    ToothProfile tooth_profile = ToothProfile::root_circle;
+    std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
+    std::optional<double> sun_planet_stiffness_N_m, ring_planet_stiffness_N_m;  // constant profile
+    // Square-wave profile.
+    std::optional<double> sun_planet_low_stiffness_N_m, sun_planet_high_stiffness_N_m,
+        ring_planet_low_stiffness_N_m, ring_planet_high_stiffness_N_m, sun_planet_contact_ratio,
+        ring_planet_contact_ratio;
+    // Of the foundations: diameters of the bores, and of the ring's outer rim.
+    std::optional<double> sun_bore_m, planet_bore_m, ring_outer_m;
+    std::optional<double> sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
+    // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
+    std::optional<double> sun_inertia_kg_m2, planet_inertia_kg_m2, ring_inertia_kg_m2,
+        carrier_inertia_kg_m2;
+    std::optional<double> sun_inertia_over_r2_kg, planet_inertia_over_r2_kg,
+        ring_inertia_over_r2_kg, carrier_inertia_over_r2_kg;
+    std::optional<double> sun_bearing_stiffness_N_m, planet_bearing_stiffness_N_m,
+        ring_bearing_stiffness_N_m, carrier_bearing_stiffness_N_m;
+    double sun_bearing_damping_N_s_m = 0.0, planet_bearing_damping_N_s_m = 0.0,
+           ring_bearing_damping_N_s_m = 0.0, carrier_bearing_damping_N_s_m = 0.0;
+    double support_stiffness_N_m = 0.0;  // tangential, holds the fixed member
+    double support_damping_N_s_m = 0.0;
+    std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
+    std::optional<double> backlash_m;  // 2b along the line of action
+
+    bool has_teeth() const { return sun_teeth && planet_teeth && ring_teeth; }
+    bool operator==(const Gearbox&) const = default;
+};
+
+// A fixed-shaft gearbox's own: motor, coupling, pinion, gear, coupling, load. Tian (2004), Table
+// 4.1.
+struct FixedShaft {
+    std::optional<int> pinion_teeth, gear_teeth;
+    std::optional<double> mesh_stiffness_N_m;  // constant profile
+    std::optional<double> mesh_low_stiffness_N_m, mesh_high_stiffness_N_m,
+        mesh_contact_ratio;                            // square-wave profile
+    std::optional<double> pinion_bore_m, gear_bore_m;  // diameters
+    std::optional<double> pinion_mass_kg, gear_mass_kg;
+    std::optional<double> pinion_inertia_kg_m2, gear_inertia_kg_m2;  // by default solid discs
+    std::optional<double> motor_inertia_kg_m2, load_inertia_kg_m2;
+    std::optional<double> pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;
+    double pinion_bearing_damping_N_s_m = 0.0, gear_bearing_damping_N_s_m = 0.0;
+    double motor_coupling_stiffness_N_m_rad = 0.0, load_coupling_stiffness_N_m_rad = 0.0;
+    double motor_coupling_damping_N_m_s_rad = 0.0, load_coupling_damping_N_m_s_rad = 0.0;
+
+    bool operator==(const FixedShaft&) const = default;
+};
+
+// Static transmission errors along the line of action. Element i of a list is mesh harmonic i + 1;
+// phases are empty (all 0) or as many as the amplitudes.
+struct MeshErrors {
+    std::vector<double> sun_planet_m, sun_planet_phase_rad, ring_planet_m, ring_planet_phase_rad;
+    std::vector<double> mesh_m, mesh_phase_rad;  // fixed-shaft
+    double pitch_error_m = 0.0;                  // rms of a tooth's own pitch error
+
+    bool operator==(const MeshErrors&) const = default;
+};
+
+struct Operation {
+    // Planetary.
+    Member fixed = Member::ring;
+    Member input = Member::sun;      // in a file by default the ring if the sun is fixed
+    Member torque_on = Member::sun;  // in a file by default the ring if the sun is fixed
+    double torque_N_m = 0.0;         // >= 0; on torque_on, or the motor's
+    std::optional<double> sun_speed_rad_s, ring_speed_rad_s, carrier_speed_rad_s;  // exactly one
+    // Fixed-shaft.
+    std::optional<double> load_torque_N_m;  // by default in balance with the motor's
+    std::optional<double> pinion_speed_rad_s;
+
+    bool operator==(const Operation&) const = default;
+};
+
+// How torque and speed vary around their means, relative to these: a sine, and noise whose
+// spectrum has fallen to half at its band (lockstep/plan/excitation.hpp).
+struct Fluctuations {
+    std::optional<double> torque;                   // amplitude; all torques vary in proportion
+    std::optional<double> torque_order, torque_Hz;  // one of them: a turn of the input, or time
+    double torque_phase_rad = 0.0;
+    std::optional<double> torque_noise, torque_noise_Hz;  // rms and band
+    std::optional<double> speed;                          // amplitude
+    std::optional<double> speed_order;
+    double speed_phase_rad = 0.0;
+    std::optional<double> speed_noise, speed_noise_Hz;
+
+    bool operator==(const Fluctuations&) const = default;
+};
+
+struct Effects {
+    Motion motion = Motion::translational_torsional;
+    Foundation foundation = Foundation::none;
+    Contact contact = Contact::linear;
+    bool shear = true;  // shear energy of the teeth
+    Separation separation = Separation::none;
+    bool inertial_terms = true;
+    MeshDamping mesh_damping = MeshDamping::ratio;
+    bool gravity = false;
+    double gravity_direction_rad = -1.5707963267948966;  // in the housing; down
+    PathWindow path = PathWindow::hamming;  // in a file by default none where no path leads
+
+    bool quasi_static() const {
+        return motion == Motion::quasi_static || motion == Motion::quasi_static_torsional;
+    }
+    // Rotations only.
+    bool torsional() const {
+        return motion == Motion::torsional || motion == Motion::quasi_static_torsional;
+    }
+    bool operator==(const Effects&) const = default;
+};
+
+// Every kind has one size: depth, stage, chip, pit width, broken or reduction.
+struct Fault {
+    FaultKind kind = FaultKind::none;
+    std::optional<Member> member;   // of the gearbox's toothed members
+    std::optional<FaultSide> side;  // of a planet tooth
+    int planet = 1;                 // 1..planets
+
+    std::optional<double> depth_m;           // crack: along it
+    double angle_rad = 0.78539816339744828;  // 45 degrees, Liang (2016), section 3.1
+
+    // Spatial crack, Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
+    std::optional<double> stage;  // 0: healthy; between entries linear
+    std::vector<double> growth_depth_m, growth_end_depth_m, growth_length_m, growth_height_m,
+        growth_end_height_m;
+    std::optional<double> end_angle_rad;  // by default angle_rad
+    double height_wave = 0.0;
+    double height_waves = 0.0;
+    int slices = 16;
+
+    std::optional<double> chip_m;         // along the face width, at the tip
+    std::optional<double> chip_height_m;  // along the tooth
+
+    std::optional<double> pit_width_m;  // along the face width
+    std::optional<double> pit_depth_m, pit_length_m,
+        pit_radius_m;  // along the profile, centre of the band
+    int teeth = 1;     // neighbouring pitted teeth
+
+    std::optional<double> broken, reduction;  // share of the pair's stiffness that is lost, 0..1
+
+    bool operator==(const Fault&) const = default;
+};
+
+// An interfering tone on the sensor.
+struct Tone {
+    double frequency_Hz = 0.0;
+    double amplitude_m_s2 = 0.0;
+
+    bool operator==(const Tone&) const = default;
+};
+
+struct Sensor {
+    double sampling_Hz = 0.0;
+    double low_pass_Hz = 0.0;
+    Member position = Member::pinion;  // fixed-shaft: the bearing it sits on
+    double path_exponent = 0.1;
+    double noise_m_s2 = 0.0;  // rms
+    std::vector<Tone> tones;
+    double encoder_sampling_Hz = 0.0;
+    double encoder_noise_rad = 0.0;         // rms
+    std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
+
+    bool operator==(const Sensor&) const = default;
+};
+
+struct Features {
+    std::vector<std::string> use;  // as in the file; the basic ones by default
+    double tukey_taper = 0.1;
+    int te_harmonics = 8;
+
+    bool operator==(const Features&) const = default;
+};
+
+struct Detection {
+    double false_alarm_rate = 0.05;
+    double confidence = 0.95;
+    // Ascending; one of them, and only for a continuous fault size: a length, or a pure number.
+    std::vector<double> size_edges_m, size_edges;
+
+    bool operator==(const Detection&) const = default;
+};
+
+struct Numerics {
+    Integrator integrator = Integrator::automatic;
+    Precision precision = Precision::double_precision;
+    StepGrid grid = StepGrid::uniform;
+    double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
+    double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
+    int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
+    // not.
+    double tolerance = 0.0;
+    bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
+    double settle_tolerance = 1e-10;
+    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
+    int max_meshes = 0;                // 0: from the damping
+    Horizon horizon = Horizon::reuse;
+    int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
+    int threads = 0;  // 0: all
+    InstructionSet instruction_set = InstructionSet::automatic;
+
+    bool operator==(const Numerics&) const = default;
+};
+
+// When a detection rate is known well enough to stop; never without a half_width.
+struct Until {
+    std::optional<double> half_width;  // of the interval of Pd
+    std::optional<int> feature;        // place in features::all_features()
+    std::optional<double> size;        // of the fault, in the unit of its key
+    double noise_level = 1.0;
+
+    bool operator==(const Until&) const = default;
+};
+
+struct Ensemble {
+    std::int64_t instances = 0;            // gearboxes over all fault sizes
+    std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
+    std::int64_t seed = 0;                 // 0..2^63-1
+    double checkpoint_s = 30.0;            // how often finished gearboxes are made safe
+    Until until;
+
+    bool operator==(const Ensemble&) const = default;
+};
+
+struct RandomInput {
+    std::string key;            // "gearbox.planet_bearing_stiffness_N_m"
+    std::string unit;           // of the key and of the distribution, e.g. "N/m"
+    Distribution distribution;  // in that unit
+    double to_si = 1.0;         // SI value = drawn value * to_si
+
+    bool operator==(const RandomInput&) const = default;
+};
+
+struct Study {
+    std::string title;
+    Gearbox gearbox;
+    FixedShaft fixed_shaft;
+    MeshErrors errors;
+    Operation operation;
+    Fluctuations fluctuations;
+    Effects effects;
+    Fault fault;
+    Sensor sensor;
+    Features features;
+    Detection detection;
+    Numerics numerics;
+    Ensemble ensemble;
+    std::vector<RandomInput> random;  // in the order of the schema
+
+    // The random input of that key, or nullptr.
+    const RandomInput* find_random(const std::string& key) const;
+    bool operator==(const Study&) const = default;
+};
+
+struct StudyReading {
+    std::optional<Study> study;  // only without problems
+    Problems problems;           // sorted
+};
+
+// Reads a study file. Each override is "section.key=value" with a TOML value (a bare word is a
+// string) and replaces what the file says. An override of section.key also drops what [random] says
+// of that key: all gearboxes then have the value given. An override of random.section.key leaves
+// the value in its section, which is nominal; given together with one of section.key, in whatever
+// order, it wins. Bad input of any kind ends in `problems`, never in an exception.
+StudyReading read_study(const std::string& path, const std::vector<std::string>& overrides = {});
+
+// The same from text; `name` stands for the file in messages.
+StudyReading read_study_text(const std::string& text, const std::string& name,
+                             const std::vector<std::string>& overrides = {});
+
+// The complete study as TOML, defaults spelled out. Reads back to the same study, bit for bit.
+std::string resolved_text(const Study& study);
+
+}  // namespace gearpod::mc

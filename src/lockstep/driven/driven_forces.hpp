@@ -1,0 +1,66 @@
+// The forces of an excitation on W gearboxes: patterns over the degrees of freedom, fixed for a
+// tile, times values at every stage node of a mesh period (excitation_rows.hpp).
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "lockstep/plan/excitation.hpp"
+#include "lockstep/plan/march.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::lockstep {
+
+// What a row holds after its columns, if the speed fluctuates: seconds a mesh period, the speed
+// over its mean, and how fast that changes, 1/s.
+enum PaceValue { pace_period, pace_speed, pace_change, pace_values };
+
+template <int W>
+struct DrivenForces {
+    static constexpr int kMaxColumns = 4;  // torque, gravity along x and y, uneven turning
+    static constexpr int kMaxEntries = 4 * (9 + 3 * dynamics::kMaxPlanets);
+
+    int columns = 0;
+    int first[kMaxColumns + 1] = {};  // entries of column c: first[c] <= e < first[c + 1]
+    int degree[kMaxEntries] = {};
+    alignas(64) double pattern[kMaxEntries][W] = {};
+
+    // Rows of values, [distinct stage node][value][lane]. Nodes that two steps share are one.
+    const double* rows = nullptr;
+    int nodes_per_step = 0, values = 0;
+
+    GEARPOD_INLINE const double* row(int step, int node) const {
+        return rows + (step * nodes_per_step + node) * values * W;
+    }
+    GEARPOD_INLINE const double* pace(const double* row, PaceValue value) const {
+        return row + (columns + value) * W;
+    }
+
+    // sums[degree of freedom][lane] += all patterns times their values.
+    GEARPOD_INLINE void add(const double* row, double* __restrict sums) const {
+        for (int c = 0; c < columns; ++c) {
+            const double* __restrict value = row + c * W;
+            for (int e = first[c]; e < first[c + 1]; ++e) {
+                const double* __restrict part = pattern[e];
+                double* __restrict sum = sums + degree[e] * W;
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    sum[l] = std::fma(part[l], value[l], sum[l]);
+                }
+            }
+        }
+    }
+};
+
+// Patterns in N, or, `over_mass`, in m/s^2; `rows` is left null. `inputs` holds W gearboxes.
+template <int W>
+DrivenForces<W> make_driven_forces(const MarchPlan& plan, const Excitation& excitation,
+                                   std::span<const dynamics::GearboxInputs> inputs, bool over_mass);
+
+#define GEARPOD_DRIVEN_FORCES(W, REAL)                     \
+    extern template DrivenForces<W> make_driven_forces<W>( \
+        const MarchPlan&, const Excitation&, std::span<const dynamics::GearboxInputs>, bool);
+GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_DRIVEN_FORCES)
+#undef GEARPOD_DRIVEN_FORCES
+
+}  // namespace gearpod::lockstep

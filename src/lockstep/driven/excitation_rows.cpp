@@ -1,0 +1,190 @@
+#include "lockstep/driven/excitation_rows.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "lockstep/driven/driven_forces.hpp"
+#include "lockstep/driven/fluctuation_rows.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+// The kernel of so many lanes.
+template <class Kernel>
+Kernel* by_lanes(std::size_t lanes, Kernel* one, Kernel* four, Kernel* eight) {
+    assert(lanes == 8 || lanes == 4 || lanes == 1);
+    return lanes == 8 ? eight : lanes == 4 ? four : one;
+}
+
+// With zeros before and behind.
+machine::AlignedVector with_margins(const Fluctuation& f, std::size_t lanes) {
+    machine::AlignedVector knots(f.knot.size() + 2 * kSplineMargin * lanes);
+    std::copy(f.knot.begin(), f.knot.end(),
+              knots.begin() + static_cast<std::ptrdiff_t>(kSplineMargin * lanes));
+    return knots;
+}
+
+}  // namespace
+
+int columns_in(const Excitation& e) {
+    return (e.torque ? 1 : 0) + (e.gravity ? 2 : 0) + (e.speed ? 1 : 0);
+}
+
+int values_in_row(const Excitation& e) {
+    return columns_in(e) + (e.speed ? static_cast<int>(pace_values) : 0);
+}
+
+int distinct_nodes_per_step(const PhaseGrid& grid) {
+    const auto nodes = static_cast<int>(grid.stage_nodes.size());
+    return grid.stage_nodes.front() == 0.0 && grid.stage_nodes.back() == 1.0 ? nodes - 1 : nodes;
+}
+
+ExcitationRows::ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
+                               std::span<const dynamics::GearboxInputs> inputs, bool with_time)
+    : plan_(plan),
+      excitation_(excitation),
+      lanes_(static_cast<int>(inputs.size())),
+      nodes_per_step_(distinct_nodes_per_step(plan.grid)),
+      values_(values_in_row(excitation)),
+      with_time_(with_time || excitation.torque) {
+    for (const Step& step : plan.grid.steps) {
+        for (int node = 0; node < nodes_per_step_; ++node) {
+            const auto part = plan.grid.stage_nodes[static_cast<std::size_t>(node)];
+            position_.push_back(std::fma(part, step.length, step.phase));
+        }
+    }
+    if (nodes_per_step_ < static_cast<int>(plan.grid.stage_nodes.size())) {
+        position_.push_back(1.0);
+    }
+    for (const auto& in : inputs) {
+        period_.push_back(dynamics::mesh_period_s(in));
+    }
+    if (excitation.torque) {
+        torque_knots_ = with_margins(*excitation.torque, inputs.size());
+    }
+    if (excitation.speed) {
+        speed_knots_ = with_margins(*excitation.speed, inputs.size());
+    }
+    if (excitation.gravity) {
+        for (const double position : position_) {
+            const double angle = kTurn * excitation.gravity->carrier_turns_per_mesh * position;
+            turn_x_.push_back(std::cos(angle));
+            turn_y_.push_back(std::sin(angle));
+        }
+    }
+    const std::size_t nodes = position_.size() * inputs.size();
+    time_.resize(nodes);
+    sum_.resize(nodes);
+    slope_.resize(nodes);
+    end_time_.resize(inputs.size());
+    rows_.resize(nodes * static_cast<std::size_t>(values_));
+}
+
+void ExcitationRows::fill(int mesh) {
+    steady_time(mesh);
+    if (excitation_.speed) {
+        fill_pace(mesh);
+        if (with_time_) {
+            integrate_time(mesh);
+        }
+    }
+    int column = 0;
+    if (excitation_.torque) {
+        fill_torque(mesh);
+        ++column;
+    }
+    if (excitation_.gravity) {
+        fill_gravity(mesh, column);
+    }
+    last_mesh_ = mesh;
+    any_before_ = true;
+}
+
+void ExcitationRows::steady_time(int mesh) {
+    const auto lanes = static_cast<std::size_t>(lanes_);
+    for (std::size_t n = 0; n < position_.size(); ++n) {
+        for (std::size_t l = 0; l < lanes; ++l) {
+            time_[n * lanes + l] = (mesh + position_[n]) * period_[l];
+        }
+    }
+}
+
+void ExcitationRows::fluctuate(const Fluctuation& f, const machine::AlignedVector& knots, int mesh,
+                               bool with_slope) {
+    const auto lanes = static_cast<std::size_t>(lanes_);
+    std::fill(sum_.begin(), sum_.end(), 0.0);
+    std::fill(slope_.begin(), slope_.end(), 0.0);
+    const auto nodes = static_cast<int>(position_.size());
+    double* const slope = with_slope ? slope_.data() : nullptr;
+    if (!f.amplitude.empty()) {
+        std::vector<double> phase = position_;
+        for (double& p : phase) {
+            p += mesh;
+        }
+        by_lanes(lanes, add_sines_1, add_sines_4, add_sines_8)(
+            {nodes, phase.data(), time_.data(), f.amplitude.data(), f.turns_per_mesh.data(),
+             f.turns_per_s.data(), f.turns.data(), sum_.data(), slope});
+    }
+    if (!f.knot.empty()) {
+        machine::AlignedVector first = f.first_knot;
+        for (double& knot : first) {
+            knot += kSplineMargin;
+        }
+        by_lanes(lanes, add_splines_1, add_splines_4, add_splines_8)(
+            {nodes, static_cast<int>(knots.size() / lanes), time_.data(), f.knots_per_s.data(),
+             first.data(), period_.data(), knots.data(), sum_.data(), slope});
+    }
+}
+
+void ExcitationRows::fill_torque(int mesh) {
+    fluctuate(*excitation_.torque, torque_knots_, mesh, false);
+    for (std::size_t n = 0; n < position_.size(); ++n) {
+        std::copy_n(sum_.data() + n * static_cast<std::size_t>(lanes_), lanes_, value(n, 0));
+    }
+}
+
+// The weight turns backwards in a frame that turns forwards.
+void ExcitationRows::fill_gravity(int mesh, int column) {
+    const Gravity& g = *excitation_.gravity;
+    const double start =
+        g.direction_rad - kTurn * std::remainder(g.carrier_turns_per_mesh * mesh, 1.0);
+    const double x = g.acceleration_m_s2 * std::cos(start);
+    const double y = g.acceleration_m_s2 * std::sin(start);
+    for (std::size_t n = 0; n < position_.size(); ++n) {
+        std::fill_n(value(n, column), lanes_, std::fma(x, turn_x_[n], y * turn_y_[n]));
+        std::fill_n(value(n, column + 1), lanes_, std::fma(y, turn_x_[n], -x * turn_y_[n]));
+    }
+}
+
+void ExcitationRows::fill_pace(int mesh) {
+    fluctuate(*excitation_.speed, speed_knots_, mesh, true);
+    by_lanes(static_cast<std::size_t>(lanes_), write_pace_1, write_pace_4, write_pace_8)(
+        {static_cast<int>(position_.size()), values_, columns_in(excitation_) - 1, sum_.data(),
+         slope_.data(), period_.data(), excitation_.turning_m_s.data(), rows_.data()});
+}
+
+// The classical Runge-Kutta method has nodes at the start, middle and end of a step: Simpson's rule
+// to its end, the parabola through the three to its middle.
+void ExcitationRows::integrate_time(int mesh) {
+    assert(nodes_per_step_ == 2 && position_.size() % 2 == 1);
+    const auto lanes = static_cast<std::size_t>(lanes_);
+    const int at = columns_in(excitation_) + pace_period;
+    for (std::size_t l = 0; l < lanes; ++l) {
+        double time = any_before_ && mesh == last_mesh_ + 1 ? end_time_[l] : mesh * period_[l];
+        time_[l] = time;
+        for (std::size_t n = 2; n < position_.size(); n += 2) {
+            const double h = position_[n] - position_[n - 2];
+            const double a = value(n - 2, at)[l], b = value(n - 1, at)[l], c = value(n, at)[l];
+            time_[(n - 1) * lanes + l] = std::fma(h / 24.0, 5.0 * a + 8.0 * b - c, time);
+            time = std::fma(h / 6.0, a + 4.0 * b + c, time);
+            time_[n * lanes + l] = time;
+        }
+        end_time_[l] = time;
+    }
+}
+
+}  // namespace gearpod::lockstep

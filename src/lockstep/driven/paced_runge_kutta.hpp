@@ -1,0 +1,159 @@
+// Classical Runge-Kutta in mesh phase for a train whose speed fluctuates: time runs unevenly,
+//   dq/dphase = T v,   dv/dphase = T a(q, v),   dz/dphase = T (A z + b u)
+// with T, seconds a mesh period, at the stage nodes. The sensor's low-pass z (sensor_filter.hpp) is
+// a filter in time; so it is integrated beside the motion and has no coefficients of its own.
+#pragma once
+
+#include "lockstep/driven/paced_motion.hpp"
+#include "lockstep/integrators/explicit_stage.hpp"
+
+namespace gearpod::lockstep {
+
+struct PacedRungeKutta4 {
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages : ExplicitStages<Model, 3> {
+        // Seconds of the step at the speeds of its nodes, and halves of the first two.
+        alignas(64) double h[3][W], half[2][W];
+    };
+
+    template <class Model, class State, class Filter, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const Filter&, const std::vector<PairOverride>& overrides,
+                                    int i, State& state, Stages<Model>& s) {
+        const int channels = 2 * Model::sources(lanes);
+        const int size = Model::degrees_of_freedom(lanes) * W;
+        double* __restrict q = state.q.data();
+        double* __restrict v = state.v.data();
+        const double* const h0 = s.h[0];
+        const double* const hm = s.h[1];
+        const double* const h1 = s.h[2];
+
+        load_node<Model>(plan, lanes, overrides, i, 0, s);
+        load_length<Model>(plan, lanes, i, 1, s);
+        load_length<Model>(plan, lanes, i, 2, s);
+        for (int l = 0; l < W; ++l) {
+            s.half[0][l] = 0.5 * h0[l];
+            s.half[1][l] = 0.5 * hm[l];
+        }
+        accelerate<Model>(lanes, q, v, s, s.a[0], s.input[0]);
+        move<W>(size, s.half[0], q, v, v, s.a[0], s.q, s.v);
+        load_node<Model>(plan, lanes, overrides, i, 1, s);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[1], s.input[1]);
+        move<W>(size, s.half[1], q, s.v, v, s.a[1], s.q, s.v);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[2], s.input[2]);
+        for (int j = 0; j < channels * W; ++j) {
+            s.input[1][j] = 0.5 * (s.input[1][j] + s.input[2][j]);
+        }
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                // The rates of the position at the four stages are v, v + h0 a1 / 2,
+                // v + hm a2 / 2 and v + hm a3.
+                const double all = (h0[l] + 4.0 * hm[l] + h1[l]) / 6.0;
+                const double change = std::fma(hm[l] * h0[l], s.a[0][j + l],
+                                               std::fma(hm[l] * hm[l], s.a[1][j + l],
+                                                        hm[l] * h1[l] * s.a[2][j + l])) /
+                                      6.0;
+                const double later = std::fma(hm[l], s.v[j + l], q[j + l]);
+                const double start = v[j + l];
+                s.q[j + l] = later;
+                s.v[j + l] = std::fma(hm[l], s.a[2][j + l], start);
+                q[j + l] = std::fma(all, start, q[j + l] + change);
+                v[j + l] = std::fma(h0[l] / 6.0, s.a[0][j + l],
+                                    std::fma(hm[l] / 3.0, s.a[1][j + l] + s.a[2][j + l], start));
+            }
+        }
+        load_node<Model>(plan, lanes, overrides, i, 2, s);
+        accelerate<Model>(lanes, s.q, s.v, s, s.a[0], s.input[2]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                v[j + l] = std::fma(h1[l] / 6.0, s.a[0][j + l], v[j + l]);
+            }
+        }
+        for (int channel = 0; channel < channels; ++channel) {
+            low_pass<Model>(plan.low_pass_rad_s, channel * W, s,
+                            state.filter.data() + channel * W * kFilterStates);
+        }
+    }
+
+  private:
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void load_length(const MarchPlan& plan,
+                                           const typename Model::Lanes& lanes, int i, int node,
+                                           Stages<Model>& s) {
+        const double length = plan.grid.steps[static_cast<std::size_t>(i)].length;
+        const double* period = lanes.drive.pace(lanes.drive.row(i, node), pace_period);
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            s.h[node][l] = length * period[l];
+        }
+    }
+
+    // Meshes, forces and length of the step at a stage node. Errors change with the phase, so their
+    // rates follow the speed.
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void load_node(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                         const std::vector<PairOverride>& overrides, int i,
+                                         int node, Stages<Model>& s) {
+        load_pairs<Model>(plan, lanes, overrides, i, node, s.pairs);
+        load_length<Model>(plan, lanes, i, node, s);
+        if constexpr (Model::Mesh::kHasError) {
+            const double* speed = lanes.drive.pace(s.pairs.row, pace_speed);
+            for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    s.pairs.de[pair * W + l] *= speed[l];
+                }
+            }
+        }
+    }
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void accelerate(const typename Model::Lanes& lanes, const double* q,
+                                          const double* v, const Stages<Model>& s, double* a,
+                                          double* input) {
+        Model::accelerations(lanes, q, v, s.pairs, a);
+        Model::source_accelerations(lanes, q, v, a, s.pairs.row, input);
+    }
+
+    // One gearbox's filter on one channel: input to x, x to y (sensor_filter.hpp).
+    struct Sections {
+        double x, dx, y, dy;
+    };
+
+    static GEARPOD_INLINE Sections rates(double w, const Sections& f, double u) {
+        return {f.dx, w * std::fma(w, u - f.x, -kFilterDamping[0] * f.dx), f.dy,
+                w * std::fma(w, f.x - f.y, -kFilterDamping[1] * f.dy)};
+    }
+
+    static GEARPOD_INLINE Sections moved(const Sections& f, double h, const Sections& rate) {
+        return {std::fma(h, rate.x, f.x), std::fma(h, rate.dx, f.dx), std::fma(h, rate.y, f.y),
+                std::fma(h, rate.dy, f.dy)};
+    }
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void low_pass(double w, int at, const Stages<Model>& s,
+                                        double* __restrict filter) {
+        const double* __restrict u0 = s.input[0] + at;
+        const double* __restrict um = s.input[1] + at;
+        const double* __restrict u1 = s.input[2] + at;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double h0 = s.h[0][l], hm = s.h[1][l], h1 = s.h[2][l];
+            const Sections f{filter[l], filter[W + l], filter[2 * W + l], filter[3 * W + l]};
+            const Sections k1 = rates(w, f, u0[l]);
+            const Sections k2 = rates(w, moved(f, 0.5 * h0, k1), um[l]);
+            const Sections k3 = rates(w, moved(f, 0.5 * hm, k2), um[l]);
+            const Sections k4 = rates(w, moved(f, hm, k3), u1[l]);
+            const Sections first = moved(moved(f, h0 / 6.0, k1), hm / 3.0, k2);
+            const Sections end = moved(moved(first, hm / 3.0, k3), h1 / 6.0, k4);
+            filter[l] = end.x;
+            filter[W + l] = end.dx;
+            filter[2 * W + l] = end.y;
+            filter[3 * W + l] = end.dy;
+        }
+    }
+};
+
+}  // namespace gearpod::lockstep

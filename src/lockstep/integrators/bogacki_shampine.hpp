@@ -1,0 +1,101 @@
+// The pair of Bogacki and Shampine (1989), explicit, orders 3 and 2: three stages make the step of
+// order 3; a fourth, at its end, tells how far the embedded one of order 2 lies from it. That stage
+// would be the next step's first but for the jumps of stiffness, so it is left out of the march:
+// only a plan whose stage nodes include 1 asks for the estimate (a pilot, step_pilot.hpp).
+#pragma once
+
+#include "lockstep/integrators/explicit_stage.hpp"
+
+namespace gearpod::lockstep {
+
+struct BogackiShampine {
+    static constexpr std::size_t kEstimateNode = 3;  // place of node 1 among the stage nodes
+
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages : ExplicitStages<Model, 3> {
+        RealOf<Model> estimate[kEstimateRows * W] = {};  // see MeshRecord::estimate
+    };
+
+    template <class Model, class State, class Filter, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const Filter& filter,
+                                    const std::vector<PairOverride>& overrides, int i, State& state,
+                                    Stages<Model>& s) {
+        using Real = RealOf<Model>;
+        const ExplicitStep<Model, State> x(plan, lanes, i, state);
+        alignas(64) Real most[W], ninth[W], sixth[W];
+        for (int l = 0; l < W; ++l) {
+            most[l] = Real(0.75) * x.h[l];
+            ninth[l] = x.h[l] / Real(9);
+            sixth[l] = x.h[l] / Real(6);
+        }
+
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
+        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
+        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
+        move<W>(x.size, most, x.q, s.v, x.v, s.a[1], s.q, s.v);
+        load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
+        if (plan.grid.stage_nodes.size() > kEstimateNode) {
+            estimate<Model>(plan, lanes, overrides, i, x.h, x.q, x.v, s);
+        }
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                // 2/9, 3/9 and 4/9 of the stages' slopes; the velocities' follow from the first two
+                // accelerations.
+                const int at = j + l;
+                const Real a1 = s.a[0][at], a2 = s.a[1][at], a3 = s.a[2][at];
+                const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
+                const Real rise = std::fma(Real(2), a1, std::fma(Real(3), a2, Real(4) * a3));
+                x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rest, at);
+                x.v[at] = advance(x.v[at], ninth[l], rise, x.v_rest, at);
+            }
+        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
+    }
+
+  private:
+    // From q and v at the step's start and the three stages: how far orders 3 and 2 lie apart. Uses
+    // up s.q and s.v.
+    template <class Model, class Real, int W = Model::kWidth>
+    static GEARPOD_INLINE void estimate(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                        const std::vector<PairOverride>& overrides, int i,
+                                        const Real* h, const Real* q, const Real* v,
+                                        Stages<Model>& s) {
+        const int size = Model::degrees_of_freedom(lanes) * W;
+        Real end_q[Model::kMaxDegrees * W], end_v[Model::kMaxDegrees * W],
+            a4[Model::kMaxDegrees * W];
+        for (int j = 0; j < size; ++j) {
+            const Real t = h[j % W];
+            end_q[j] = q[j] + t * (v[j] + t / Real(6) * (s.a[0][j] + Real(2) * s.a[1][j]));
+            end_v[j] = v[j] + t / Real(9) *
+                                  (Real(2) * s.a[0][j] + Real(3) * s.a[1][j] + Real(4) * s.a[2][j]);
+        }
+        load_pairs<Model>(plan, lanes, overrides, i, static_cast<int>(kEstimateNode), s.pairs);
+        Model::accelerations(lanes, end_q, end_v, s.pairs, a4);
+        std::fill_n(s.estimate, kEstimateRows * W, Real(0));
+        const auto keep_largest = [&s](int row, int lane, Real value) {
+            Real& largest = s.estimate[row * W + lane];
+            largest = std::abs(value) > largest ? std::abs(value) : largest;
+        };
+        for (int j = 0; j < size; ++j) {
+            const int l = j % W;
+            const Real v2 = v[j] + Real(0.5) * h[l] * s.a[0][j];
+            const Real v3 = v[j] + Real(0.75) * h[l] * s.a[1][j];
+            keep_largest(0, l, end_q[j]);
+            keep_largest(1, l, end_v[j]);
+            keep_largest(2, l,
+                         h[l] / Real(72) *
+                             (Real(6) * v2 + Real(8) * v3 - Real(5) * v[j] - Real(9) * end_v[j]));
+            keep_largest(3, l,
+                         h[l] / Real(72) *
+                             (Real(6) * s.a[1][j] + Real(8) * s.a[2][j] - Real(5) * s.a[0][j] -
+                              Real(9) * a4[j]));
+        }
+    }
+};
+
+}  // namespace gearpod::lockstep

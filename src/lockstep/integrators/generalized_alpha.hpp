@@ -1,0 +1,105 @@
+// The generalized-alpha method (Chung and Hulbert, J. Appl. Mech. 60, 1993), order 2: the equation
+// of motion holds for forces at one time within the step and accelerations at another, so that
+// modes much faster than the step decay by a chosen factor. It carries an acceleration from step to
+// step; where the stiffness jumps, that starts afresh from the equation of motion, so that the
+// order survives contact transitions.
+#pragma once
+
+#include <cmath>
+
+#include "lockstep/integrators/implicit_stage.hpp"
+#include "lockstep/integrators/march_steps.hpp"
+
+namespace gearpod::lockstep {
+
+// Whether the stiffness of some pair jumps at the start of a step, or no step came before it.
+// What all lanes share decides, so that a lane's bits do not depend on its neighbours.
+inline bool jumps(const MarchPlan& plan, int step) {
+    if (step == 0) {
+        return true;
+    }
+    constexpr double kRounding = 1e-9;
+    const int pairs = plan.nodes.pairs;
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const double* after = plan.nodes.stiffness.data() + step * nodes * pairs;
+    const double* before = after - pairs;
+    for (int pair = 0; pair < pairs; ++pair) {
+        if (std::abs(after[pair] - before[pair]) > kRounding * after[pair]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+struct GeneralizedAlpha {
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages {
+        static constexpr int kSize = Model::kMaxDegrees * W;
+        // Of the stage, without its own acceleration; in the end, when the carried one holds.
+        double x[kSize], v[kSize];
+        double a[kSize], stage[kSize];                // carried along; of the stage
+        double input[2][2 * Model::kMaxSources * W];  // of the sensor
+        StageScratch<Model> meshes{};
+    };
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+                                    const machine::AlignedVector& filter,
+                                    const std::vector<PairOverride>& overrides, int i,
+                                    TileState& state, Stages<Model>& s) {
+        using C = ChungHulbert;
+        // The carried acceleration's part in V and Q of the stage, and in what it adds up to.
+        constexpr double kPart = 1.0 - C::kForce;
+        constexpr double kOld = C::kMass / (1.0 - C::kMass), kNew = 1.0 / (1.0 - C::kMass);
+        constexpr double kInV = kPart * (1.0 - C::kGamma - C::kGamma * kOld);
+        constexpr double kInX = kPart * (0.5 - C::kBeta - C::kBeta * kOld);
+        constexpr ImplicitSpan kOwn = C::span();
+        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
+        const int size = lanes.degrees * W;
+        double* __restrict q = state.q.data();
+        double* __restrict v = state.v.data();
+        alignas(64) double h[W];
+        StageSpan<W> span;
+        for (int l = 0; l < W; ++l) {
+            h[l] = step.length * lanes.mesh_period[l];
+            span.a[l] = kOwn.velocity * h[l];
+            span.b[l] = kOwn.position * h[l] * h[l];
+        }
+        if (jumps(plan, i)) {
+            load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
+            implicit_stage<Model>(lanes, lanes.block_at_rest(), StageSpan<W>{}, q, v, s.a,
+                                  s.meshes);
+            Model::source_accelerations(lanes, q, v, s.a, s.input[1]);
+        }
+        std::copy_n(s.input[1], 2 * lanes.sources * W, s.input[0]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double rise = h[l] * s.a[j + l];
+                s.v[j + l] = std::fma(kInV, rise, v[j + l]);
+                s.x[j + l] = std::fma(h[l], std::fma(kInX, rise, kPart * v[j + l]), q[j + l]);
+            }
+        }
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(step.kind), span, s.x, s.v, s.stage, s.meshes);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double before = s.a[j + l];
+                const double after = std::fma(kNew, s.stage[j + l], -kOld * before);
+                const double rise = std::fma(0.5 - C::kBeta, before, C::kBeta * after);
+                q[j + l] = std::fma(h[l], std::fma(h[l], rise, v[j + l]), q[j + l]);
+                v[j + l] =
+                    std::fma(h[l], std::fma(1.0 - C::kGamma, before, C::kGamma * after), v[j + l]);
+                s.a[j + l] = after;
+                s.v[j + l] = std::fma(-C::kLag * h[l], after, v[j + l]);
+                s.x[j + l] = std::fma(-C::kLag * h[l], v[j + l], q[j + l]);
+            }
+        }
+        Model::source_accelerations(lanes, s.x, s.v, s.a, s.input[1]);
+        // The method has no middle; its coefficients are 0.
+        step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
+    }
+};
+
+}  // namespace gearpod::lockstep

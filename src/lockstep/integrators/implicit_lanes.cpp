@@ -1,0 +1,182 @@
+#include "lockstep/integrators/implicit_lanes.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace gearpod::lockstep {
+namespace {
+
+// Rows of the meshes, [pair][degree].
+Eigen::MatrixXd mesh_rows(const dynamics::GearboxLayout& layout) {
+    Eigen::MatrixXd rows(dynamics::pairs(layout), dynamics::degrees_of_freedom(layout));
+    for (int pair = 0; pair < rows.rows(); ++pair) {
+        rows.row(pair) = dynamics::mesh_row(layout, pair).transpose();
+    }
+    return rows;
+}
+
+template <int W>
+void set_rows(ImplicitLanes<W>& lanes, const Eigen::MatrixXd& rows) {
+    for (int pair = 0; pair < lanes.pairs; ++pair) {
+        int entries = 0;
+        for (int d = 0; d < lanes.degrees; ++d) {
+            if (rows(pair, d) != 0.0) {
+                assert(entries < ImplicitLanes<W>::kMaxRowEntries);
+                lanes.row_degree[pair][entries] = d;
+                lanes.row_weight[pair][entries] = rows(pair, d);
+                ++entries;
+            }
+        }
+        lanes.row_entries = std::max(lanes.row_entries, entries);
+    }
+}
+
+template <int W>
+void set_sources(ImplicitLanes<W>& lanes, const dynamics::GearboxLayout& layout) {
+    for (int channel = 0; channel < 2 * lanes.sources; ++channel) {
+        const Eigen::VectorXd row = dynamics::source_row(layout, channel / 2, channel % 2);
+        Eigen::Index degree = 0;
+        row.cwiseAbs().maxCoeff(&degree);
+        lanes.source_degree[channel] = static_cast<int>(degree);
+        lanes.source_weight[channel] = row(degree);
+    }
+}
+
+dynamics::GearboxMatrices without_meshes(const dynamics::GearboxLayout& layout,
+                                         const dynamics::GearboxInputs& in) {
+    // A constant damping would stay with meshes of no stiffness; the steps bring it.
+    dynamics::GearboxInputs bare = in;
+    std::visit([](auto& kind) { kind.mesh_damping = 0.0; }, bare);
+    const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
+    return dynamics::assemble(layout, bare, none);
+}
+
+// Which entries of C_0 and K_0 (`forces`), and of M too (`all`), some gearbox of the layout can
+// have: those of one in which everything is 1. The same for every tile, so that all of them compute
+// in the same order.
+struct Coupling {
+    Eigen::MatrixXd forces, all;
+};
+Coupling coupled(const dynamics::GearboxLayout& layout) {
+    dynamics::PlanetaryInputs train;
+    for (int body = 0; body < dynamics::body_count; ++body) {
+        train.mass_kg[body] = train.inertia_over_r2_kg[body] = 1.0;
+        train.bearing_stiffness_N_m[body] = train.bearing_damping_N_s_m[body] = 1.0;
+    }
+    train.support_stiffness_N_m = train.support_damping_N_s_m = train.carrier_speed_rad_s = 1.0;
+    dynamics::FixedShaftInputs stage;
+    for (int g = 0; g < dynamics::fixed_shaft_gear_count; ++g) {
+        stage.mass_kg[g] = stage.inertia_kg_m2[g] = 1.0;
+        stage.bearing_stiffness_N_m[g] = stage.bearing_damping_N_s_m[g] = 1.0;
+        stage.coupling_stiffness_N_m_rad[g] = stage.coupling_damping_N_m_s_rad[g] = 1.0;
+    }
+    stage.motor_inertia_kg_m2 = stage.load_inertia_kg_m2 = 1.0;
+    const bool planetary = std::holds_alternative<dynamics::PlanetaryLayout>(layout);
+    const dynamics::GearboxMatrices m = without_meshes(
+        layout, planetary ? dynamics::GearboxInputs(train) : dynamics::GearboxInputs(stage));
+    const Eigen::MatrixXd forces = m.damping.cwiseAbs() + m.gyroscopic.cwiseAbs() +
+                                   m.stiffness.cwiseAbs() + m.centrifugal.cwiseAbs();
+    return {forces, forces + m.mass.cwiseAbs()};
+}
+
+// One lane's column of a block: the matrices for the implicit spans a, s, and b, s^2.
+template <int W>
+void set_block(const ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m,
+               const Eigen::MatrixXd& rows, double a, double b, double* block) {
+    const Eigen::MatrixXd h =
+        m.mass + a * (m.damping + m.gyroscopic) + b * (m.stiffness + m.centrifugal);
+    const Eigen::MatrixXd f = factors(lanes.lu, h);
+    for (int i = 0; i < lanes.degrees; ++i) {
+        block[i * W] = 1.0 / f(i, i);
+    }
+    const auto store = [&](const SparseEntries& entries, double* column) {
+        for (std::size_t e = 0; e < entries.to.size(); ++e) {
+            column[e * W] = f(entries.to[e], entries.from[e]);
+        }
+    };
+    store(lanes.lu.lower, block + lanes.lower);
+    store(lanes.lu.upper, block + lanes.upper);
+    const Eigen::MatrixXd g = rows * h.partialPivLu().solve(rows.transpose());
+    for (int row = 0; row < lanes.pairs; ++row) {
+        for (int column = 0; column < lanes.pairs; ++column) {
+            block[lanes.capacitance + (row * lanes.pairs + column) * W] = g(row, column);
+        }
+    }
+}
+
+template <int W>
+void set_sizes(ImplicitLanes<W>& lanes, std::size_t kinds) {
+    lanes.force.assign(static_cast<std::size_t>(lanes.degrees * W), 0.0);
+    lanes.c_k.assign(static_cast<std::size_t>(lanes.coupling.size() * 2 * W), 0.0);
+    lanes.lower = lanes.degrees * W;
+    lanes.upper = lanes.lower + lanes.lu.lower.size() * W;
+    lanes.capacitance = lanes.upper + lanes.lu.upper.size() * W;
+    const int size = lanes.capacitance + lanes.pairs * lanes.pairs * W;
+    lanes.block_size = static_cast<std::size_t>((size + 7) / 8 * 8);
+    lanes.blocks.assign((kinds + 1) * lanes.block_size, 0.0);
+}
+
+// Lane l of f, C_0 and K_0.
+template <int W>
+void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, int l) {
+    for (int i = 0; i < lanes.degrees; ++i) {
+        lanes.force[static_cast<std::size_t>(i * W + l)] = m.force(i);
+    }
+    double* at = lanes.c_k.data() + l;
+    for (std::size_t e = 0; e < lanes.coupling.to.size(); ++e) {
+        const int i = lanes.coupling.to[e], j = lanes.coupling.from[e];
+        at[0] = m.damping(i, j) + m.gyroscopic(i, j);
+        at[W] = m.stiffness(i, j) + m.centrifugal(i, j);
+        at += 2 * W;
+    }
+}
+
+}  // namespace
+
+template <int W>
+ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
+                                     std::span<const dynamics::GearboxInputs> inputs) {
+    assert(inputs.size() == W);
+    ImplicitLanes<W> lanes;
+    lanes.degrees = dynamics::degrees_of_freedom(plan.layout);
+    lanes.pairs = dynamics::pairs(plan.layout);
+    lanes.sources = dynamics::sources(plan.layout);
+    const Eigen::MatrixXd rows = mesh_rows(plan.layout);
+    set_rows(lanes, rows);
+    set_sources(lanes, plan.layout);
+    const Coupling pattern = coupled(plan.layout);
+    lanes.coupling = nonzero_entries(pattern.forces);
+    lanes.lu = eliminate(pattern.all);
+    set_sizes(lanes, plan.grid.lengths.size());
+
+    const ImplicitSpan span = implicit_span(plan.integrator);
+    for (int l = 0; l < W; ++l) {
+        const auto& in = inputs[static_cast<std::size_t>(l)];
+        lanes.mesh_period[l] = dynamics::mesh_period_s(in);
+        lanes.backlash[l] = dynamics::backlash_m(in);
+        lanes.frame_speed[l] = dynamics::frame_speed_rad_s(in);
+        for (int pair = 0; pair < lanes.pairs; ++pair) {
+            lanes.mesh_damping_factor[pair][l] =
+                dynamics::mesh_damping_factor(plan.layout, in, pair);
+        }
+        const dynamics::GearboxMatrices m = without_meshes(plan.layout, in);
+        set_constants(lanes, m, l);
+        double* block = lanes.blocks.data() + l;
+        for (const double length : plan.grid.lengths) {
+            const double h = length * lanes.mesh_period[l];
+            set_block(lanes, m, rows, span.velocity * h, span.position * h * h, block);
+            block += lanes.block_size;
+        }
+        set_block(lanes, m, rows, 0.0, 0.0, block);
+    }
+    return lanes;
+}
+
+template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&,
+                                                 std::span<const dynamics::GearboxInputs>);
+template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&,
+                                                 std::span<const dynamics::GearboxInputs>);
+template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&,
+                                                 std::span<const dynamics::GearboxInputs>);
+
+}  // namespace gearpod::lockstep

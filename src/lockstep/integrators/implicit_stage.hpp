@@ -1,0 +1,335 @@
+// One stage of an implicit integrator for W gearboxes in lockstep (implicit_lanes.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/effects/inertial_terms.hpp"
+#include "dynamics/effects/mesh_law.hpp"
+#include "lockstep/integrators/implicit_lanes.hpp"
+#include "lockstep/integrators/march_steps.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::lockstep {
+
+// The model that implicit integrators march: matrices of any gearbox kind, and a mesh law.
+template <class MeshLaw, int W>
+struct MatrixMotion {
+    static constexpr int kWidth = W;
+    static constexpr int kMaxDegrees = ImplicitLanes<W>::kMaxDegrees;
+    static constexpr int kMaxPairs = dynamics::kMaxPairs;
+    static constexpr int kMaxSources = dynamics::kMaxPlanets;
+    using Lanes = ImplicitLanes<W>;
+    using Mesh = MeshLaw;
+    using Pairs = typename Mesh::template Pairs<kMaxPairs, W>;
+
+    static GEARPOD_INLINE const double* mesh_damping_factor(const Lanes& p, int pair) {
+        return p.mesh_damping_factor[pair];
+    }
+
+    // Absolute acceleration of the sources along the axes of the frame: [source][x, y][lane].
+    static GEARPOD_INLINE void source_accelerations(const Lanes& p, const double* __restrict q,
+                                                    const double* __restrict v,
+                                                    const double* __restrict a,
+                                                    double* __restrict out) {
+        for (int n = 0; n < p.sources; ++n) {
+            const int ix = p.source_degree[2 * n] * W, iy = p.source_degree[2 * n + 1] * W;
+            const double x = p.source_weight[2 * n], y = p.source_weight[2 * n + 1];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double w = p.frame_speed[l];
+                out[2 * n * W + l] =
+                    dynamics::absolute_x(x * a[ix + l], x * q[ix + l], y * v[iy + l], w);
+                out[(2 * n + 1) * W + l] =
+                    dynamics::absolute_y(y * a[iy + l], y * q[iy + l], x * v[ix + l], w);
+            }
+        }
+    }
+};
+
+// How far a stage's own acceleration A carries: V = v + a A, Q = x + b A (s and s^2).
+template <int W>
+struct alignas(64) StageSpan {
+    double a[W] = {}, b[W] = {};
+};
+
+// Scratch of a stage; [pair][lane] but for g and the matrix. `pairs` goes in, `force` comes out.
+template <class Model, int W = Model::kWidth>
+struct alignas(64) StageScratch {
+    static constexpr int kRows = Model::kMaxPairs * W;
+    typename Model::Pairs pairs;
+    double g[Model::kMaxDegrees * W];         // forces but for the meshes', N
+    double force[kRows];                      // mesh forces, N
+    double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
+    double touching[kRows], back[kRows];      // of a separating mesh: see touch()
+    double s[kRows];                          // S
+    double matrix[Model::kMaxPairs * kRows];  // what elimination leaves of G
+};
+
+// A row of a list that the compiler cannot look behind: it shall vectorise over the lanes of one
+// entry and not gather over several entries.
+GEARPOD_INLINE const double* one_row(const double* row) {
+    asm("" : "+r"(row));
+    return row;
+}
+
+template <int W>
+GEARPOD_INLINE void copy_rows(const double* __restrict from, int rows, double* __restrict to) {
+    for (int i = 0; i < rows * W; i += W) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            to[i + l] = from[i + l];
+        }
+    }
+}
+
+// to -= factor from, W numbers.
+template <int W>
+GEARPOD_INLINE void subtract_product(const double* factor, const double* from, double* to) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        to[l] = std::fma(-factor[l], from[l], to[l]);
+    }
+}
+
+// g = f - C_0 v - K_0 x.
+template <int W>
+GEARPOD_INLINE void free_forces(const ImplicitLanes<W>& p, const double* __restrict x,
+                                const double* __restrict v, double* __restrict g) {
+    copy_rows<W>(p.force.data(), p.degrees, g);
+    const int* __restrict to = p.coupling.to.data();
+    const int* __restrict from = p.coupling.from.data();
+    const double* __restrict c_k = p.c_k.data();
+    for (int e = 0; e < p.coupling.size(); ++e) {
+        const double* __restrict entry = one_row(c_k + 2 * e * W);
+        const double* __restrict xj = one_row(x + from[e] * W);
+        const double* __restrict vj = one_row(v + from[e] * W);
+        double* __restrict sum = g + to[e] * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            sum[l] = std::fma(-entry[l], vj[l], std::fma(-entry[W + l], xj[l], sum[l]));
+        }
+    }
+}
+
+// y -= (triangular factor without its diagonal) y, entry by entry.
+template <int W>
+GEARPOD_INLINE void substitute(const SparseEntries& entries, const double* factor, double* y) {
+    const int* __restrict to = entries.to.data();
+    const int* __restrict from = entries.from.data();
+    for (int e = 0; e < entries.size(); ++e) {
+        subtract_product<W>(one_row(factor + e * W), one_row(y + from[e] * W), y + to[e] * W);
+    }
+}
+
+// y = H^-1 g: forwards through L, over D, backwards through U.
+template <int W>
+GEARPOD_INLINE void solve_constant_part(const ImplicitLanes<W>& p, const double* __restrict block,
+                                        const double* __restrict g, double* y) {
+    copy_rows<W>(g, p.degrees, y);
+    substitute<W>(p.lu.lower, block + p.lower, y);
+    for (int i = 0; i < p.degrees * W; i += W) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            y[i + l] *= block[i + l];
+        }
+    }
+    substitute<W>(p.lu.upper, block + p.upper, y);
+}
+
+// out = R values: [pair][lane] from [degree of freedom][lane].
+template <int W>
+GEARPOD_INLINE void deflections(const ImplicitLanes<W>& p, const double* __restrict values,
+                                double* __restrict out) {
+    for (int i = 0; i < p.pairs * W; i += W) {
+        spread<W>(0.0, out + i);
+    }
+    for (int e = 0; e < p.row_entries; ++e) {
+        for (int pair = 0; pair < p.pairs; ++pair) {
+            const double* __restrict value = one_row(values + p.row_degree[pair][e] * W);
+            const double weight = p.row_weight[pair][e];
+            double* __restrict sum = out + pair * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                sum[l] = std::fma(weight, value[l], sum[l]);
+            }
+        }
+    }
+}
+
+// g -= R^T force.
+template <int W>
+GEARPOD_INLINE void subtract_mesh_forces(const ImplicitLanes<W>& p, const double* __restrict force,
+                                         double* __restrict g) {
+    for (int pair = 0; pair < p.pairs; ++pair) {
+        for (int e = 0; e < p.row_entries; ++e) {
+            double* __restrict sum = g + p.row_degree[pair][e] * W;
+            const double* __restrict load = one_row(force + pair * W);
+            const double weight = p.row_weight[pair][e];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                sum[l] = std::fma(-weight, load[l], sum[l]);
+            }
+        }
+    }
+}
+
+// force = k R x + c R v + S R y, S = a c + b k.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& span,
+                               StageScratch<Model>& t) {
+    for (int i = 0; i < p.pairs * W; i += W) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            double k = t.pairs.k[i + l], c = t.pairs.c[i + l], d = t.d[i + l], r = t.r[i + l];
+            if constexpr (Model::Mesh::kSeparates) {
+                k *= t.touching[i + l];
+                c *= t.touching[i + l];
+                d += t.back[i + l];
+            }
+            if constexpr (Model::Mesh::kHasError) {
+                d -= t.pairs.e[i + l];
+                r -= t.pairs.de[i + l];
+            }
+            t.s[i + l] = std::fma(span.a[l], c, span.b[l] * k);
+            t.force[i + l] = std::fma(k, d, std::fma(c, r, t.s[i + l] * t.y[i + l]));
+        }
+    }
+}
+
+// Solves (1 + S G) F = force in place by elimination of S^-1 + G, whose inverted pivots
+// e_i = s_i / (1 + s_i g_ii) exist for s_i = 0 too. No pivoting: 1 + s_i g_ii is at least 1, since
+// G is positive and all but symmetric. `matrix` is scratch.
+template <int W>
+GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const double* __restrict s,
+                                 double* __restrict matrix, double* __restrict force) {
+    alignas(64) double e[dynamics::kMaxPairs * W];
+    alignas(64) double sum[dynamics::kMaxPairs * W];  // of G F over the pairs done
+    alignas(64) double factor[W];
+    for (int i = 0; i < pairs * W; i += W) {
+        spread<W>(0.0, sum + i);
+    }
+    for (int i = 0; i < pairs; ++i) {
+        const double* left = i == 0 ? g : matrix;  // of G; the first pivot finds all of it
+        const double* row = left + i * pairs * W;
+        const int at = i * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double inverse = 1.0 / std::fma(s[at + l], row[at + l], 1.0);
+            e[at + l] = s[at + l] * inverse;
+            force[at + l] = inverse * std::fma(-s[at + l], sum[at + l], force[at + l]);
+        }
+        for (int r = i + 1; r < pairs; ++r) {
+            const double* other = left + r * pairs * W;
+            double* rest = matrix + r * pairs * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                sum[r * W + l] = std::fma(other[at + l], force[at + l], sum[r * W + l]);
+                factor[l] = other[at + l] * e[at + l];
+            }
+            for (int c = at + W; c < pairs * W; c += W) {
+                const double* pivot_row = one_row(row + c);
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    rest[c + l] = std::fma(-factor[l], pivot_row[l], other[c + l]);
+                }
+            }
+        }
+    }
+    for (int i = 0; i < pairs * W; i += W) {
+        spread<W>(0.0, sum + i);
+    }
+    for (int i = pairs - 1; i >= 0; --i) {
+        const int at = i * W;
+        subtract_product<W>(e + at, sum + at, force + at);
+        for (int r = i - 1; r >= 0; --r) {
+            const double* row = one_row((r == 0 ? g : matrix + r * pairs * W) + at);
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                sum[r * W + l] = std::fma(row[l], force[at + l], sum[r * W + l]);
+            }
+        }
+    }
+}
+
+// Which flanks of the separating meshes touch at the stage's end, where a mesh deflects by
+// R Q = d + b (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
+// backlash if the back flanks touch. Returns whether any lane changed.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
+                          const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
+    int changes = 0;
+    alignas(64) double rest[W];
+    for (int pair = 0; pair < p.pairs; ++pair) {
+        const int i = pair * W;
+        const double* __restrict g = matrix + i * p.pairs;
+        for (int l = 0; l < W; ++l) {
+            rest[l] = t.y[i + l];
+        }
+        for (int other = 0; other < p.pairs && !first; ++other) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                rest[l] = std::fma(-g[other * W + l], t.force[other * W + l], rest[l]);
+            }
+        }
+#pragma omp simd reduction(| : changes)
+        for (int l = 0; l < W; ++l) {
+            const double front = std::fma(span.b[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
+            const bool behind = front + t.pairs.backlash[l] < 0.0;
+            const double touching = front > 0.0 || behind ? 1.0 : 0.0;
+            const double back = behind ? t.pairs.backlash[l] : 0.0;
+            changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
+            t.touching[i + l] = touching;
+            t.back[i + l] = back;
+        }
+    }
+    return changes != 0;
+}
+
+// Rounds in which separating meshes find who touches; two or three do in nearly all stages. A lane
+// that has found it is the same in every further round. Now and then there is nothing to find: the
+// damper of flanks that just meet would part them again, and without it they meet. The last round's
+// answer then stands, for this one step of an impact.
+inline constexpr int kMostRounds = 6;
+
+// Mesh forces of separating meshes.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void separating_meshes(const ImplicitLanes<W>& p, const double* __restrict g,
+                                      const StageSpan<W>& span, StageScratch<Model>& t) {
+    touch<Model>(p, g, span, true, t);
+    for (int round = 0; round < kMostRounds; ++round) {
+        mesh_loads<Model>(p, span, t);
+        solve_meshes<W>(p.pairs, g, t.s, t.matrix, t.force);
+        if (!touch<Model>(p, g, span, false, t)) {
+            return;
+        }
+    }
+}
+
+// The acceleration A of a stage from x and v; t.pairs holds the meshes. All [degree of
+// freedom][lane].
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void implicit_stage(const typename Model::Lanes& p, const double* __restrict block,
+                                   const StageSpan<W>& span, const double* __restrict x,
+                                   const double* __restrict v, double* __restrict acceleration,
+                                   StageScratch<Model>& t) {
+    free_forces<W>(p, x, v, t.g);
+    if constexpr (requires { Model::add_forces(p, t.pairs, t.g); }) {
+        Model::add_forces(p, t.pairs, t.g);
+    }
+    solve_constant_part<W>(p, block, t.g, acceleration);
+    deflections<W>(p, x, t.d);
+    deflections<W>(p, v, t.r);
+    deflections<W>(p, acceleration, t.y);
+    const double* g = block + p.capacitance;
+    if constexpr (Model::Mesh::kSeparates) {
+        separating_meshes<Model>(p, g, span, t);
+    } else {
+        mesh_loads<Model>(p, span, t);
+        solve_meshes<W>(p.pairs, g, t.s, t.matrix, t.force);
+    }
+    subtract_mesh_forces<W>(p, t.force, t.g);
+    solve_constant_part<W>(p, block, t.g, acceleration);
+}
+
+}  // namespace gearpod::lockstep

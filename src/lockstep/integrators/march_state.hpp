@@ -1,0 +1,82 @@
+// What a kernel advances within a mesh period: in double precision the tile's state itself, in
+// single precision a copy of it.
+//
+// Single precision carries positions and velocities as a float and what rounding took from it
+// (Kahan 1965): a step changes a motion by 1e-4 of itself and less, and thousands of such changes
+// would drown in a float's 6e-8. The filter's states need no such care; each step makes them anew.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "lockstep/plan/march.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::lockstep {
+
+// The numbers that a model's kernels compute in.
+template <class Model>
+using RealOf = std::remove_all_extents_t<decltype(std::declval<typename Model::Pairs>().k)>;
+
+struct SingleState {
+    machine::AlignedArray<float> q, v, filter;
+    machine::AlignedArray<float> q_rest, v_rest;
+
+    explicit SingleState(const TileState& state)
+        : q(state.q.begin(), state.q.end()),
+          v(state.v.begin(), state.v.end()),
+          filter(state.filter.begin(), state.filter.end()),
+          q_rest(q.size()),
+          v_rest(v.size()) {
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            q_rest[i] = static_cast<float>(state.q[i] - double{q[i]});
+            v_rest[i] = static_cast<float>(state.v[i] - double{v[i]});
+        }
+    }
+
+    void copy_to(TileState& state) const {
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            state.q[i] = double{q[i]} + double{q_rest[i]};
+            state.v[i] = double{v[i]} + double{v_rest[i]};
+        }
+        state.filter.assign(filter.begin(), filter.end());
+    }
+};
+
+// What rounding took from a state's motions, if it is kept.
+struct NoRest {};
+GEARPOD_INLINE NoRest position_rest(TileState&) {
+    return {};
+}
+GEARPOD_INLINE NoRest velocity_rest(TileState&) {
+    return {};
+}
+GEARPOD_INLINE float* position_rest(SingleState& state) {
+    return state.q_rest.data();
+}
+GEARPOD_INLINE float* velocity_rest(SingleState& state) {
+    return state.v_rest.data();
+}
+
+// sum + h rate; `i` is the sum's place in `rest`.
+GEARPOD_INLINE double advance(double sum, double h, double rate, NoRest, int) {
+    return std::fma(h, rate, sum);
+}
+GEARPOD_INLINE float advance(float sum, float h, float rate, float* __restrict rest, int i) {
+    const float change = std::fma(h, rate, rest[i]);
+    const float next = sum + change;
+    rest[i] = change - (next - sum);
+    return next;
+}
+
+GEARPOD_INLINE double position(const TileState& state, int i) {
+    return state.q[static_cast<std::size_t>(i)];
+}
+GEARPOD_INLINE double position(const SingleState& state, int i) {
+    const auto at = static_cast<std::size_t>(i);
+    return double{state.q[at]} + double{state.q_rest[at]};
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,310 @@
+// The parts of a lockstep march that all integrators share: the pairs' stiffness at a stage node,
+// the sensor's filter, the samples, and the loop over the steps of a mesh period.
+//
+// A model (dynamics/*_motion.hpp) gives its lanes, sizes and accelerations for kWidth gearboxes; an
+// integrator gives its scratch, Stages<Model>, and step<Model>().
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lockstep/integrators/march_state.hpp"
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/plan/march.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::lockstep {
+
+// One row of values, the same for all lanes.
+template <int W, class Real>
+GEARPOD_INLINE void spread(double value, Real* __restrict row) {
+    const Real rounded = static_cast<Real>(value);
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = rounded;
+    }
+}
+
+// row = values / divisor, lane by lane.
+template <int W, class Real>
+GEARPOD_INLINE void divide(const Real* __restrict values, const Real* __restrict divisor,
+                           Real* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = values[l] / divisor[l];
+    }
+}
+
+// A row of the plan's doubles as the march's numbers.
+template <int W, class Real>
+GEARPOD_INLINE void round_row(const double* __restrict values, Real* __restrict row) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        row[l] = static_cast<Real>(values[l]);
+    }
+}
+
+// Static transmission error of all pairs at a stage node.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                const std::vector<PairOverride>& overrides, int step, int node,
+                                typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    const int pairs = plan.nodes.pairs;
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const int at = (step * nodes + node) * pairs;
+    alignas(64) Real rate[W];
+    for (int pair = 0; pair < pairs; ++pair) {
+        const bool none = plan.nodes.error.empty();
+        spread<W>(none ? 0.0 : plan.nodes.error.data()[at + pair], m.e + pair * W);
+        spread<W>(none ? 0.0 : plan.nodes.error_rate.data()[at + pair], rate);
+        divide<W>(rate, lanes.mesh_period, m.de + pair * W);
+    }
+    for (const PairOverride& o : overrides) {
+        if (step < o.first_step || step >= o.last_step || o.error.empty()) {
+            continue;
+        }
+        const int row = ((step - o.first_step) * nodes + node) * W;
+        round_row<W>(o.error.data() + row, m.e + o.pair * W);
+        round_row<W>(o.error_rate.data() + row, rate);
+        divide<W>(rate, lanes.mesh_period, m.de + o.pair * W);
+    }
+}
+
+// What the mesh law needs of all pairs at a stage node, shared values spread over the lanes; and
+// where the forces that vary with time (driven_forces.hpp) have their values there.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                               const std::vector<PairOverride>& overrides, int step, int node,
+                               typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    const int pairs = plan.nodes.pairs;
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const double* shared = plan.nodes.stiffness.data() + (step * nodes + node) * pairs;
+    const double* shape = plan.nodes.damping_shape.data() + (step * nodes + node) * pairs;
+    Real* __restrict k = m.k, * __restrict c = m.c;
+    for (int pair = 0; pair < pairs; ++pair) {
+        const Real* factor = Model::mesh_damping_factor(lanes, pair);
+        const Real stiffness = static_cast<Real>(shared[pair]);
+        const Real damping = static_cast<Real>(shape[pair]);
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            k[pair * W + l] = stiffness;
+            c[pair * W + l] = factor[l] * damping;
+        }
+    }
+    for (const PairOverride& o : overrides) {
+        if (step < o.first_step || step >= o.last_step || o.stiffness.empty()) {
+            continue;
+        }
+        const Real* factor = Model::mesh_damping_factor(lanes, o.pair);
+        const int at = ((step - o.first_step) * nodes + node) * W;
+        const double* ko = o.stiffness.data() + at;
+        const double* co = o.damping_shape.data() + at;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            k[o.pair * W + l] = static_cast<Real>(ko[l]);
+            c[o.pair * W + l] = factor[l] * static_cast<Real>(co[l]);
+        }
+    }
+    if constexpr (Model::Mesh::kHasError) {
+        load_errors<Model>(plan, lanes, overrides, step, node, m);
+    }
+    if constexpr (Model::Mesh::kSeparates) {
+        std::copy_n(lanes.backlash, W, m.backlash);
+    }
+    if constexpr (requires { m.row; }) {
+        m.row = lanes.drive.row(step, node);
+    }
+}
+
+// What the input at the step's nodes, three or one, adds to a filter state; m is one lane's column
+// of coefficients, W apart, from the state's first on.
+template <int W, class Real>
+GEARPOD_INLINE Real filter_input(const Real* m, Real u) {
+    return m[0] * u;
+}
+template <int W, class Real, class... Later>
+GEARPOD_INLINE Real filter_input(const Real* m, Real u, Later... later) {
+    return std::fma(m[0], u, filter_input<W>(m + 4 * W, later...));
+}
+
+// sum + m[at] p + m[at + 1] dp.
+template <int W, class Real>
+GEARPOD_INLINE Real filter_row(const Real* m, int at, Real p, Real dp, Real sum) {
+    return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
+}
+
+// A step of one channel's filter `f` from its inputs at the step's nodes.
+template <int W, class Real, class... Inputs>
+GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
+                                   const Inputs* __restrict... inputs) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        const Real x = f[l], dx = f[W + l], y = f[2 * W + l], dy = f[3 * W + l];
+        const Real* lane = m + l;
+        const Real* by_input = lane + kFilterInput * W;
+        f[l] = filter_row<W>(lane, kFilterXX, x, dx, filter_input<W>(by_input, inputs[l]...));
+        f[W + l] =
+            filter_row<W>(lane, kFilterXX + 2, x, dx, filter_input<W>(by_input + W, inputs[l]...));
+        f[2 * W + l] = filter_row<W>(
+            lane, kFilterYX, x, dx,
+            filter_row<W>(lane, kFilterYY, y, dy, filter_input<W>(by_input + 2 * W, inputs[l]...)));
+        f[3 * W + l] =
+            filter_row<W>(lane, kFilterYX + 2, x, dx,
+                          filter_row<W>(lane, kFilterYY + 2, y, dy,
+                                        filter_input<W>(by_input + 3 * W, inputs[l]...)));
+    }
+}
+
+// The sensor's step from its inputs at the step's nodes.
+template <int W, class Filter, class State, class... Inputs>
+GEARPOD_INLINE void step_filter(const Filter& filter, const Step& step, int channels, State& state,
+                                const Inputs*... inputs) {
+    const auto* coefficients = filter.data() + step.kind * kFilterCoefficients * W;
+    for (int channel = 0; channel < channels; ++channel) {
+        const int at = channel * W;
+        filter_channel<W>(coefficients, state.filter.data() + at * kFilterStates, (inputs + at)...);
+    }
+}
+
+template <int W, class State>
+GEARPOD_INLINE void write_sample(const MarchPlan& plan, const State& state, int sample,
+                                 MeshRecord& record) {
+    const int channels = static_cast<int>(state.filter.size()) / (kFilterStates * W);
+    double* out = record.acceleration.data() + sample * channels * W;
+    const auto* f = state.filter.data();
+    for (int channel = 0; channel < channels; ++channel) {
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            out[channel * W + l] = f[(channel * kFilterStates + kFilterOutput) * W + l];
+        }
+    }
+    const int degrees = static_cast<int>(plan.te_weight.size());
+    double* __restrict te = record.te.data() + sample * W;
+    std::fill_n(te, W, 0.0);
+    for (int d = degrees - 1; d >= 0; --d) {
+        const double weight = plan.te_weight[static_cast<std::size_t>(d)];
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            te[l] = std::fma(weight, position(state, d * W + l), te[l]);
+        }
+    }
+    if (!record.motion.empty()) {
+        double* __restrict motion = record.motion.data() + sample * degrees * W;
+        for (int i = 0; i < degrees * W; ++i) {
+            motion[i] = position(state, i);
+        }
+    }
+}
+
+// The cubic through both ends of a step with their rates: weights of the values there and of the
+// rates times the step's length (Hermite). Its error is of order 4, as small as that of a step.
+struct Between {
+    double start, end, start_rate, end_rate;
+
+    explicit Between(double part)
+        : start((1.0 + 2.0 * part) * (1.0 - part) * (1.0 - part)),
+          end(part * part * (3.0 - 2.0 * part)),
+          start_rate(part * (1.0 - part) * (1.0 - part)),
+          end_rate(-part * part * (1.0 - part)) {}
+
+    GEARPOD_INLINE double operator()(double x, double dx, double y, double dy, double h) const {
+        const double values = std::fma(start, x, end * y);
+        return std::fma(h, std::fma(start_rate, dx, end_rate * dy), values);
+    }
+};
+
+// The samples inside a step that has led from `before` to `after`.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                 const Step& step, const TileState& before, const TileState& after,
+                                 MeshRecord& record) {
+    const int channels = static_cast<int>(after.filter.size()) / (kFilterStates * W);
+    const int degrees = static_cast<int>(plan.te_weight.size());
+    alignas(64) double h[W], q[W];
+    for (int l = 0; l < W; ++l) {
+        h[l] = step.length * lanes.mesh_period[l];
+    }
+    for (int n = 0; n < step.inside; ++n) {
+        const int sample = step.first_inside + n;
+        const double phase = static_cast<double>(sample) / plan.grid.samples;
+        const Between between((phase - step.phase) / step.length);
+        double* __restrict out = record.acceleration.data() + sample * channels * W;
+        for (int channel = 0; channel < channels; ++channel) {
+            const int output = (channel * kFilterStates + kFilterOutput) * W;
+            const double* __restrict f = before.filter.data() + output;
+            const double* __restrict g = after.filter.data() + output;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                out[channel * W + l] = between(f[l], f[W + l], g[l], g[W + l], h[l]);
+            }
+        }
+        double* __restrict te = record.te.data() + sample * W;
+        std::fill_n(te, W, 0.0);
+        for (int d = degrees - 1; d >= 0; --d) {
+            const double weight = plan.te_weight[static_cast<std::size_t>(d)];
+            const double *q0 = before.q.data() + d * W, *v0 = before.v.data() + d * W;
+            const double *q1 = after.q.data() + d * W, *v1 = after.v.data() + d * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                q[l] = between(q0[l], v0[l], q1[l], v1[l], h[l]);
+                te[l] = std::fma(weight, q[l], te[l]);
+            }
+            if (!record.motion.empty()) {
+                std::copy_n(q, W, record.motion.data() + (sample * degrees + d) * W);
+            }
+        }
+    }
+}
+
+// Singles march on grids with a node on every sample.
+template <class Integrator, class Model, class State, class Filter>
+GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                const Filter& filter, const std::vector<PairOverride>& overrides,
+                                State& state, MeshRecord& record) {
+    constexpr bool kInterpolates = std::is_same_v<State, TileState>;
+    typename Integrator::template Stages<Model> stages;
+    TileState before;
+    const int steps = static_cast<int>(plan.grid.steps.size());
+    for (int i = 0; i < steps; ++i) {
+        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
+        if (step.sample >= 0) {
+            write_sample<Model::kWidth>(plan, state, step.sample, record);
+        }
+        if constexpr (kInterpolates) {
+            if (step.inside > 0) {
+                before = state;
+            }
+        }
+        Integrator::template step<Model>(plan, lanes, filter, overrides, i, state, stages);
+        if constexpr (kInterpolates) {
+            if (step.inside > 0) {
+                write_inside<Model>(plan, lanes, step, before, state, record);
+            }
+        }
+        if constexpr (requires { stages.estimate; }) {
+            if (!record.estimate.empty()) {
+                constexpr int kRow = kEstimateRows * Model::kWidth;
+                std::copy_n(stages.estimate, kRow, record.estimate.data() + i * kRow);
+            }
+        }
+    }
+}
+
+template <class Integrator, class Model>
+GEARPOD_INLINE void march(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                          const machine::AlignedVector& filter,
+                          const std::vector<PairOverride>& overrides, TileState& state,
+                          MeshRecord& record) {
+    if constexpr (std::is_same_v<RealOf<Model>, float>) {
+        const machine::AlignedArray<float> coefficients(filter.begin(), filter.end());
+        SingleState own(state);
+        march_steps<Integrator, Model>(plan, lanes, coefficients, overrides, own, record);
+        own.copy_to(state);
+    } else {
+        march_steps<Integrator, Model>(plan, lanes, filter, overrides, state, record);
+    }
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,63 @@
+// Newmark's method of average acceleration (1959; beta 1/4, gamma 1/2), order 2. The acceleration
+// at a step's start is taken afresh with the stiffness just after it, so that the order survives
+// the jumps at contact transitions.
+#pragma once
+
+#include "lockstep/integrators/implicit_stage.hpp"
+#include "lockstep/integrators/march_steps.hpp"
+
+namespace gearpod::lockstep {
+
+struct Newmark {
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages {
+        static constexpr int kSize = Model::kMaxDegrees * W;
+        double x[kSize], v[kSize], a_start[kSize], a_end[kSize];
+        double input[2][2 * Model::kMaxSources * W];  // of the sensor, at the step's ends
+        StageScratch<Model> meshes{};
+    };
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
+                                    const machine::AlignedVector& filter,
+                                    const std::vector<PairOverride>& overrides, int i,
+                                    TileState& state, Stages<Model>& s) {
+        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
+        const int size = lanes.degrees * W;
+        double* __restrict q = state.q.data();
+        double* __restrict v = state.v.data();
+        const StageSpan<W> none;
+        StageSpan<W> span;
+        const double* const half = span.a;
+        for (int l = 0; l < W; ++l) {
+            span.a[l] = 0.5 * step.length * lanes.mesh_period[l];
+            span.b[l] = half[l] * half[l];
+        }
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block_at_rest(), none, q, v, s.a_start, s.meshes);
+        Model::source_accelerations(lanes, q, v, s.a_start, s.input[0]);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double vj = std::fma(half[l], s.a_start[j + l], v[j + l]);
+                s.v[j + l] = vj;
+                s.x[j + l] = std::fma(half[l], v[j + l] + vj, q[j + l]);
+            }
+        }
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(step.kind), span, s.x, s.v, s.a_end, s.meshes);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double rise = half[l] * s.a_end[j + l];
+                v[j + l] = s.v[j + l] + rise;
+                q[j + l] = std::fma(half[l], rise, s.x[j + l]);
+            }
+        }
+        Model::source_accelerations(lanes, q, v, s.a_end, s.input[1]);
+        // The method has no middle; its coefficients are 0.
+        step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[0], s.input[1]);
+    }
+};
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,67 @@
+// Classical Runge-Kutta, explicit, order 4: q'' = a(q, q') with the stiffness at the step's start,
+// middle and end. The sensor's low-pass is integrated beside the motion by the same method.
+#pragma once
+
+#include "lockstep/integrators/explicit_stage.hpp"
+
+namespace gearpod::lockstep {
+
+struct RungeKutta4 {
+    template <class Model>
+    using Stages = ExplicitStages<Model, 3>;
+
+    // The stage positions and velocities follow from the stage accelerations, so only those are
+    // kept.
+    template <class Model, class State, class Filter, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const Filter& filter,
+                                    const std::vector<PairOverride>& overrides, int i, State& state,
+                                    Stages<Model>& s) {
+        using Real = RealOf<Model>;
+        const ExplicitStep<Model, State> x(plan, lanes, i, state);
+        alignas(64) Real sixth[W];
+        for (int l = 0; l < W; ++l) {
+            sixth[l] = x.h[l] / Real(6);
+        }
+
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
+        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
+        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
+        load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
+        move<W>(x.size, x.half, x.q, s.v, x.v, s.a[1], s.q, s.v);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
+        for (int j = 0; j < x.channels * W; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                s.input[1][j + l] = Real(0.5) * (s.input[1][j + l] + s.input[2][j + l]);
+            }
+        }
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const int at = j + l;
+                const Real sum = s.a[1][at] + s.a[2][at];
+                s.q[at] = std::fma(x.h[l], s.v[at], x.q[at]);
+                s.v[at] = std::fma(x.h[l], s.a[2][at], x.v[at]);
+                // New position, and the part of the new velocity that is known before the last
+                // stage.
+                x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
+                                  x.q_rest, at);
+                x.v[at] =
+                    advance(x.v[at], sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v_rest, at);
+            }
+        }
+        load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[0], s.input[2]);
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                x.v[j + l] = advance(x.v[j + l], sixth[l], s.a[0][j + l], x.v_rest, j + l);
+            }
+        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
+    }
+};
+
+}  // namespace gearpod::lockstep

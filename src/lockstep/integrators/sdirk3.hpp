@@ -1,0 +1,101 @@
+// Alexander's L-stable, stiffly accurate Runge-Kutta method of order 3 with one diagonal
+// coefficient (SIAM J. Numer. Anal. 14, 1977): three implicit stages, the last at the step's end.
+// No stage lies on the step's start, so a jump of the stiffness there needs no value of its own.
+#pragma once
+
+#include "lockstep/integrators/implicit_stage.hpp"
+#include "lockstep/integrators/march_steps.hpp"
+
+namespace gearpod::lockstep {
+
+struct Sdirk3 {
+    template <class Model, int W = Model::kWidth>
+    struct alignas(64) Stages {
+        static constexpr int kSize = Model::kMaxDegrees * W;
+        double x[kSize], v[kSize];  // of the stage, without its own acceleration
+        double q_end[kSize];        // and with it
+        double v1[kSize], v2[kSize], v3[kSize], a1[kSize], a2[kSize], a3[kSize];
+        double input[3][2 * Model::kMaxSources * W];  // of the sensor, at the stages
+        StageScratch<Model> meshes{};
+    };
+
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const machine::AlignedVector& filter,
+                                    const std::vector<PairOverride>& overrides, int i,
+                                    TileState& state, Stages<Model>& s) {
+        const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
+        const int size = lanes.degrees * W;
+        double* __restrict q = state.q.data();
+        double* __restrict v = state.v.data();
+        StageSpan<W> span;
+        const double* const a = span.a;
+        alignas(64) double h21[W], h31[W], h32[W];
+        for (int l = 0; l < W; ++l) {
+            const double h = step.length * lanes.mesh_period[l];
+            span.a[l] = Alexander::kDiagonal * h;
+            span.b[l] = a[l] * a[l];
+            h21[l] = Alexander::k21 * h;
+            h31[l] = Alexander::k31 * h;
+            h32[l] = Alexander::k32 * h;
+        }
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                s.v[j + l] = v[j + l];
+                s.x[j + l] = std::fma(a[l], v[j + l], q[j + l]);
+            }
+        }
+        stage<Model>(plan, lanes, overrides, i, 0, span, s, s.v1, s.a1);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double vj = std::fma(h21[l], s.a1[j + l], v[j + l]);
+                const double qj = std::fma(h21[l], s.v1[j + l], q[j + l]);
+                s.v[j + l] = vj;
+                s.x[j + l] = std::fma(a[l], vj, qj);
+            }
+        }
+        stage<Model>(plan, lanes, overrides, i, 1, span, s, s.v2, s.a2);
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double vj =
+                    std::fma(h32[l], s.a2[j + l], std::fma(h31[l], s.a1[j + l], v[j + l]));
+                const double qj =
+                    std::fma(h32[l], s.v2[j + l], std::fma(h31[l], s.v1[j + l], q[j + l]));
+                s.v[j + l] = vj;
+                s.x[j + l] = std::fma(a[l], vj, qj);
+            }
+        }
+        stage<Model>(plan, lanes, overrides, i, 2, span, s, s.v3, s.a3);
+        std::copy_n(s.q_end, size, q);
+        std::copy_n(s.v3, size, v);
+
+        step_filter<W>(filter, step, 2 * lanes.sources, state, s.input[0], s.input[1], s.input[2]);
+    }
+
+  private:
+    // From s.x and s.v: the stage's velocity and acceleration, its positions in s.q_end and the
+    // sensor's input.
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                     const std::vector<PairOverride>& overrides, int i, int node,
+                                     const StageSpan<W>& span, Stages<Model>& s,
+                                     double* __restrict velocity, double* __restrict acceleration) {
+        const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;
+        load_pairs<Model>(plan, lanes, overrides, i, node, s.meshes.pairs);
+        implicit_stage<Model>(lanes, lanes.block(kind), span, s.x, s.v, acceleration, s.meshes);
+        for (int j = 0; j < lanes.degrees * W; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double rise = span.a[l] * acceleration[j + l];
+                velocity[j + l] = s.v[j + l] + rise;
+                s.q_end[j + l] = std::fma(span.a[l], rise, s.x[j + l]);
+            }
+        }
+        Model::source_accelerations(lanes, s.q_end, velocity, acceleration, s.input[node]);
+    }
+};
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,39 @@
+// Low-pass of the sensor, integrated beside the motion: 4th-order Butterworth, two sections in
+// series,
+//   x'' + b1 w x' + w^2 x = w^2 input,   y'' + b2 w y' + w^2 y = w^2 x,   w = 2 pi f_cutoff,
+// b = 2 cos(pi/8), 2 cos(3 pi/8). One step of the integrator is linear in the state (x, x', y, y')
+// and in the input at up to three stage nodes; its coefficients are computed once per step length
+// and gearbox.
+#pragma once
+
+#include <span>
+
+#include "lockstep/plan/integrator.hpp"
+#include "machine/lanes.hpp"
+
+namespace gearpod::lockstep {
+
+inline constexpr int kFilterStates = 4;  // x, x', y, y'; y is the output
+inline constexpr int kFilterOutput = 2;
+inline constexpr double kFilterDamping[] = {1.8477590650225735, 0.7653668647301797};  // b1, b2
+
+// Positions in one step's coefficients: the transition matrix without its zero block, then the
+// columns of the input at the stage nodes (newmark: start, none, end; generalized_alpha: the
+// same, by its lag earlier; central_difference: the middle alone).
+inline constexpr int kFilterXX = 0;      // 2 x 2: x, x' from x, x'
+inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
+inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'
+inline constexpr int kFilterInput = 12;  // 3 x 4
+inline constexpr int kFilterCoefficients = 24;
+
+// Coefficients [kFilterCoefficients] of a step of `h` seconds for the cutoff `w` rad/s.
+void filter_step(Integrator integrator, double w, double h,
+                 double (&coefficients)[kFilterCoefficients]);
+
+// Coefficients of a tile whose lanes have the given mesh periods (s), for steps of the given
+// lengths (mesh periods): [step kind][kFilterCoefficients][lane].
+machine::AlignedVector filter_coefficients(Integrator integrator, double w,
+                                           std::span<const double> lengths,
+                                           std::span<const double> mesh_periods);
+
+}  // namespace gearpod::lockstep

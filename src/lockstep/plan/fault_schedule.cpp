@@ -1,0 +1,97 @@
+#include "lockstep/plan/fault_schedule.hpp"
+
+#include <algorithm>
+
+#include "dynamics/effects/mesh_damping.hpp"
+
+namespace gearpod::lockstep {
+
+bool FaultCurves::faulty(int lane) const {
+    return std::any_of(curve.begin(), curve.end(), [&](const auto& lanes) {
+        return lanes[static_cast<std::size_t>(lane)] != nullptr;
+    });
+}
+
+FaultSchedule::FaultSchedule(const MarchPlan& plan, const FaultCurves& faults)
+    : plan_(plan), faults_(faults) {
+    for (const auto& lanes : faults.curve) {
+        double longest = 0.0;
+        for (const auto& lane : lanes) {
+            longest = std::max(longest, lane ? lane->duration() : 0.0);
+        }
+        duration_.push_back(longest);
+    }
+}
+
+// Where the passage that touches mesh k began, if one does: in this pattern, or in the one before.
+std::optional<double> FaultSchedule::passage_start(const FaultPassage& passage, int k) const {
+    for (const double from : {passage.start, passage.start - faults_.pattern.length}) {
+        if (from < k + 1 && from + duration(passage) > k) {
+            return from;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<PairOverride> FaultSchedule::overrides(int k) const {
+    std::vector<PairOverride> all;
+    for (const FaultPassage& passage : faults_.pattern.passages) {
+        if (const auto start = passage_start(passage, k)) {
+            all.push_back(make_override(passage, k, *start));
+        }
+    }
+    return all;
+}
+
+std::vector<PairOverride> FaultSchedule::all_overrides(int k) const {
+    const int length = faults_.pattern.length;
+    std::vector<PairOverride> all = overrides((k % length + length) % length);
+    if (faults_.tooth_errors) {
+        for (PairOverride& error : tooth_error_overrides(plan_, *faults_.tooth_errors, k)) {
+            all.push_back(std::move(error));
+        }
+    }
+    return all;
+}
+
+bool FaultSchedule::continues_after(int k) const {
+    return std::any_of(faults_.pattern.passages.begin(), faults_.pattern.passages.end(),
+                       [&](const FaultPassage& passage) {
+                           const auto start = passage_start(passage, k);
+                           return start && *start + duration(passage) > k + 1;
+                       });
+}
+
+// The pair with its faulty tooth in place of the healthy one, lane by lane.
+PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, double start) const {
+    const StepPositions steps = steps_under_way(plan_.grid, k, start, duration(passage));
+    const auto& curves = faults_.curve[static_cast<std::size_t>(passage.curve)];
+    const std::size_t lanes = curves.size(), count = steps.node.size();
+    const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
+    const std::size_t first =
+        static_cast<std::size_t>(steps.first_step) * plan_.grid.stage_nodes.size();
+    PairOverride o{passage.pair, steps.first_step, steps.last_step,
+                   machine::AlignedVector(count * lanes), machine::AlignedVector(count * lanes)};
+    for (std::size_t l = 0; l < lanes; ++l) {
+        if (!curves[l]) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t node =
+                    (first + i) * pairs + static_cast<std::size_t>(passage.pair);
+                o.stiffness[i * lanes + l] = plan_.nodes.stiffness[node];
+                o.damping_shape[i * lanes + l] = plan_.nodes.damping_shape[node];
+            }
+            continue;
+        }
+        const std::vector<double> total = faulty_total(faults_.pairs->curve(passage.pair),
+                                                       *curves[l], faults_.pairs->reversed, steps);
+        dynamics::with_mesh_damping(dynamics::mesh_damping(plan_.layout), [&](auto law) {
+            for (std::size_t i = 0; i < count; ++i) {
+                o.stiffness[i * lanes + l] = total[i];
+                o.damping_shape[i * lanes + l] = law.shape(total[i]);
+            }
+        });
+    }
+    return o;
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,70 @@
+// What marching one mesh period of W gearboxes in lockstep takes and gives.
+#pragma once
+
+#include <vector>
+
+#include "dynamics/gearbox.hpp"
+#include "lockstep/plan/integrator.hpp"
+#include "lockstep/plan/phase_grid.hpp"
+#include "lockstep/plan/stiffness_nodes.hpp"
+#include "machine/lanes.hpp"
+
+namespace gearpod::lockstep {
+
+// What all tiles of an ensemble share; immutable while tiles march.
+struct MarchPlan {
+    dynamics::GearboxLayout layout;
+    Integrator integrator = Integrator::rk4;
+    Precision precision = Precision::double_precision;
+    PhaseGrid grid;
+    dynamics::MeshLaw mesh_law = dynamics::MeshLaw::linear;
+    StiffnessNodes nodes;
+    double low_pass_rad_s = 0.0;
+    std::vector<double> te_weight;  // TE = weight . q, one a degree of freedom (rad/m)
+
+    int channels() const { return 2 * dynamics::sources(layout); }
+    std::size_t samples() const { return static_cast<std::size_t>(grid.samples); }
+};
+
+// Motion of a tile. q, v: [degree of freedom][lane]; filter: [channel][kFilterStates][lane].
+struct TileState {
+    machine::AlignedVector q, v, filter;
+};
+
+// One recorded mesh period. acceleration: [sample][channel][lane], m/s^2, low-passed; channels 2n
+// and 2n+1 are the absolute acceleration of source n (planet, bearing) along x and y. te:
+// [sample][lane], rad. motion: [sample][degree of freedom][lane], m; left empty unless it is asked
+// for.
+// estimate: [step][kEstimateRows][lane], the largest position (m) and velocity (m/s) over the
+// degrees of freedom and the largest estimated errors of these; for integrators that estimate their
+// error in a plan that asks for it (bogacki_shampine.hpp), left empty otherwise.
+inline constexpr int kEstimateRows = 4;
+struct MeshRecord {
+    machine::AlignedVector acceleration, te, motion;
+    machine::AlignedVector estimate = {};
+};
+
+// A pair whose stiffness, or transmission error, or both, differ between lanes during some steps of
+// this mesh. What is left empty stays as it is without the override.
+struct PairOverride {
+    int pair = 0;
+    int first_step = 0;
+    int last_step = 0;                       // one past the last
+    machine::AlignedVector stiffness;        // [step - first_step][stage node][lane], N/m
+    machine::AlignedVector damping_shape;    // likewise
+    machine::AlignedVector error = {};       // likewise, m
+    machine::AlignedVector error_rate = {};  // likewise, m per mesh period
+};
+
+// A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in
+// `lanes`. `filter` holds the sensor's coefficients (sensor_filter.hpp).
+template <class Lanes>
+using MarchKernel = void(const MarchPlan& plan, const Lanes& lanes,
+                         const machine::AlignedVector& filter,
+                         const std::vector<PairOverride>& overrides, TileState& state,
+                         MeshRecord& record);
+
+// Allocates a record of W lanes for the plan.
+MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,162 @@
+#include "lockstep/plan/stiffness_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/effects/mesh_damping.hpp"
+#include "stiffness/teeth/stretch.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+// A pair that is touched in the reverse order, as a pair in the forward one: `last` is the position
+// at which it ends.
+void mirror(StepPositions& steps, double last) {
+    for (auto* positions : {&steps.node, &steps.middle}) {
+        std::reverse(positions->begin(), positions->end());
+        for (double& position : *positions) {
+            position = last - position;
+        }
+    }
+}
+
+// total(positions, inside, values) for each run of steps that lie in one stretch.
+template <class Total>
+std::vector<double> by_stretches(const StepPositions& steps, std::span<const double> transitions,
+                                 std::span<const double> jumps, const Total& total) {
+    std::vector<double> values(steps.node.size()), positions(steps.node.size());
+    const std::size_t count = steps.middle.size();
+    const std::size_t nodes = count > 0 ? steps.node.size() / count : 0;
+    for (std::size_t step = 0; step < count;) {
+        const double inside = steps.middle[step];
+        const auto stretch = stiffness::stretch_around(transitions, jumps, inside);
+        const std::size_t first = step * nodes;
+        while (step < count && steps.middle[step] < stretch.end) {
+            ++step;
+        }
+        const std::size_t size = step * nodes - first;
+#pragma omp simd
+        for (std::size_t i = first; i < first + size; ++i) {
+            const double node = steps.node[i];
+            const double begun = node < stretch.begin ? stretch.begin : node;
+            positions[i] = begun > stretch.end ? stretch.end : begun;
+        }
+        total(std::span<const double>(positions).subspan(first, size), inside,
+              std::span<double>(values).subspan(first, size));
+    }
+    return values;
+}
+
+}  // namespace
+
+double PairSet::pitch_phase(int pair) const {
+    const auto& m = curve(pair);
+    return start[static_cast<std::size_t>(pair)] +
+           (reversed ? m.contact_ratio() - m.pitch_position() : m.pitch_position());
+}
+
+double PairSet::total(int pair, double phase) const {
+    const auto& m = curve(pair);
+    const double since = phase - start[static_cast<std::size_t>(pair)];
+    return reversed ? total_at(m, m.contact_ratio() - since, stiffness::Limit::from_below)
+                    : total_at(m, since, stiffness::Limit::from_above);
+}
+
+double phase_in_period(double phase) {
+    return phase - std::floor(phase);
+}
+
+std::vector<double> contact_transitions(const PairSet& pairs) {
+    std::vector<double> phases;
+    for (int i = 0; i < pairs.pairs(); ++i) {
+        const auto& mesh = pairs.curve(i);
+        const double start = pairs.start[static_cast<std::size_t>(i)];
+        for (const double transition : mesh.transitions()) {
+            phases.push_back(phase_in_period(
+                start + (pairs.reversed ? mesh.contact_ratio() - transition : transition)));
+        }
+    }
+    std::sort(phases.begin(), phases.end());
+    return phases;
+}
+
+StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, double duration) {
+    // A step lies wholly inside or outside; its middle decides.
+    const auto middle = [&](const Step& step) {
+        return mesh + step.phase + 0.5 * step.length - start;
+    };
+    const auto under_way = [&](const Step& step) {
+        return middle(step) > 0.0 && middle(step) < duration;
+    };
+    const auto first = std::find_if(grid.steps.begin(), grid.steps.end(), under_way);
+    const auto last = std::find_if_not(first, grid.steps.end(), under_way);
+    StepPositions positions;
+    positions.first_step = static_cast<int>(first - grid.steps.begin());
+    positions.last_step = static_cast<int>(last - grid.steps.begin());
+    positions.node.reserve(static_cast<std::size_t>(last - first) * grid.stage_nodes.size());
+    for (auto step = first; step != last; ++step) {
+        positions.middle.push_back(middle(*step));
+        for (const double part : grid.stage_nodes) {
+            positions.node.push_back(mesh + step->phase + part * step->length - start);
+        }
+    }
+    return positions;
+}
+
+std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
+                                  const StepPositions& steps) {
+    const auto total = [&](auto positions, double inside, auto values) {
+        mesh.total(positions, inside, values);
+    };
+    if (!reversed) {
+        return by_stretches(steps, mesh.transitions(), {}, total);
+    }
+    StepPositions mirrored = steps;
+    mirror(mirrored, mesh.contact_ratio());
+    std::vector<double> values = by_stretches(mirrored, mesh.transitions(), {}, total);
+    std::reverse(values.begin(), values.end());
+    return values;
+}
+
+std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
+                                 const stiffness::FaultyMesh& faulty, bool reversed,
+                                 const StepPositions& steps) {
+    const auto total = [&](auto positions, double inside, auto values) {
+        faulty.total(positions, inside, values);
+    };
+    if (!reversed) {
+        return by_stretches(steps, healthy.transitions(), faulty.jumps(), total);
+    }
+    StepPositions mirrored = steps;
+    mirror(mirrored, faulty.duration());
+    std::vector<double> values =
+        by_stretches(mirrored, healthy.transitions(), faulty.jumps(), total);
+    std::reverse(values.begin(), values.end());
+    return values;
+}
+
+StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
+                        dynamics::MeshDamping damping) {
+    constexpr double kForever = std::numeric_limits<double>::infinity();
+    StiffnessNodes nodes;
+    nodes.pairs = pairs.pairs();
+    const auto count = static_cast<std::size_t>(nodes.pairs);
+    nodes.stiffness.resize(grid.steps.size() * grid.stage_nodes.size() * count);
+    for (std::size_t pair = 0; pair < count; ++pair) {
+        // From an engagement before the mesh period.
+        const StepPositions steps = steps_under_way(grid, 0.0, pairs.start[pair] - 1.0, kForever);
+        const auto total = healthy_total(*pairs.mesh[pair], pairs.reversed, steps);
+        for (std::size_t i = 0; i < total.size(); ++i) {
+            nodes.stiffness[i * count + pair] = total[i];
+        }
+    }
+    nodes.damping_shape.resize(nodes.stiffness.size());
+    dynamics::with_mesh_damping(damping, [&](auto law) {
+        std::transform(nodes.stiffness.begin(), nodes.stiffness.end(), nodes.damping_shape.begin(),
+                       [&](double k) { return law.shape(k); });
+    });
+    return nodes;
+}
+
+}  // namespace gearpod::lockstep

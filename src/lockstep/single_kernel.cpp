@@ -1,8 +1,0 @@
-#include "lockstep/explicit_kernels.hpp"
-#include "lockstep/runge_kutta.hpp"
-
-namespace gearpod::lockstep {
-
-GEARPOD_SINGLE_MARCHES(linear_rk4_single, RungeKutta4, dynamics::LinearMesh)
-
-}  // namespace gearpod::lockstep

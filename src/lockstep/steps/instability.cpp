@@ -1,0 +1,151 @@
+#include "lockstep/steps/instability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lockstep/steps/step_limit.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+constexpr double kNoGrowth = 1.0 + 1e-5;
+constexpr int kLanes = 8;
+
+std::vector<double> stiffest_nodes(const MarchPlan& plan) {
+    const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
+    std::vector<double> stiffest(pairs, 0.0);
+    for (std::size_t i = 0; i < plan.nodes.stiffness.size(); ++i) {
+        stiffest[i % pairs] = std::max(stiffest[i % pairs], plan.nodes.stiffness[i]);
+    }
+    return stiffest;
+}
+
+bool step_too_long(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+    if (!is_explicit(plan.integrator)) {
+        return false;  // the implicit methods are stable at any step
+    }
+    const double longest = *std::max_element(plan.grid.lengths.begin(), plan.grid.lengths.end());
+    const auto matrices = dynamics::assemble(plan.layout, inputs, stiffest_nodes(plan));
+    return longest * dynamics::mesh_period_s(inputs) >
+           longest_stable_step(matrices, plan.integrator);
+}
+
+// The largest |eigenvalue| of a mesh period's map of (q, v), the rigid rotation taken out of q and
+// of v at its end.
+double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& map) {
+    if (!map.allFinite()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const Eigen::VectorXd turn = dynamics::rigid_rotation(plan.layout);
+    const Eigen::VectorXd weighted = mass * turn;
+    const Eigen::RowVectorXd turned = (weighted / weighted.dot(turn)).transpose();
+    const Eigen::Index n = turn.size();
+    Eigen::MatrixXd kept = map;
+    kept.topRows(n) -= (turn * (turned * map.topRows(n))).eval();
+    kept.bottomRows(n) -= (turn * (turned * map.bottomRows(n))).eval();
+    return Eigen::EigenSolver<Eigen::MatrixXd>(kept, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// What the displacements are multiplied with to be as large as the velocities: else the map's
+// eigenvalues lose as many digits as the vibration's rate has.
+double velocity_scale(const dynamics::GearboxMatrices& m) {
+    const double rate =
+        std::sqrt((m.stiffness.diagonal().array() / m.mass.diagonal().array()).maxCoeff());
+    return rate > 0.0 ? rate : 1.0;
+}
+
+// State of kLanes gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1 and
+// those past the last: not at all.
+TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
+    const auto degrees = static_cast<std::size_t>(n);
+    TileState state = still_state(degrees, channels, kLanes);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t unit = static_cast<std::size_t>(first) + lane;
+        if (unit >= 1 && unit <= degrees) {
+            state.q[(unit - 1) * kLanes + lane] = 1.0 / rate;
+        } else if (unit > degrees && unit <= 2 * degrees) {
+            state.v[(unit - 1 - degrees) * kLanes + lane] = 1.0;
+        }
+    }
+    return state;
+}
+
+// (rate q, v) after a mesh period, by the march itself. Column 0 is the motion from rest under the
+// load, which the others contain as well.
+Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs& inputs,
+                            Eigen::Index n, double rate) {
+    const std::vector<dynamics::GearboxInputs> alike(kLanes, inputs);
+    const auto march = make_mesh_march<kLanes>(plan, alike);
+    MeshRecord record = make_record(plan, kLanes, false);
+    Eigen::MatrixXd ends(2 * n, 2 * n + 1);
+    for (int first = 0; first < ends.cols(); first += kLanes) {
+        TileState state = unit_states(n, plan.channels(), first, rate);
+        (*march)({}, state, record);
+        for (int lane = 0; lane < kLanes && first + lane < ends.cols(); ++lane) {
+            for (Eigen::Index d = 0; d < n; ++d) {
+                const auto at = static_cast<std::size_t>(d * kLanes + lane);
+                ends(d, first + lane) = rate * state.q[at];
+                ends(n + d, first + lane) = state.v[at];
+            }
+        }
+    }
+    return ends.rightCols(2 * n).colwise() - ends.col(0);
+}
+
+}  // namespace
+
+std::vector<double> mean_stiffness(const MarchPlan& plan) {
+    const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
+    const std::size_t nodes = plan.grid.stage_nodes.size();
+    std::vector<double> mean(pairs, 0.0);
+    const double* stiffness = plan.nodes.stiffness.data();
+    for (const Step& step : plan.grid.steps) {
+        const double share = step.length / static_cast<double>(nodes);
+        for (std::size_t node = 0; node < nodes; ++node, stiffness += pairs) {
+            for (std::size_t pair = 0; pair < pairs; ++pair) {
+                mean[pair] += share * stiffness[pair];
+            }
+        }
+    }
+    return mean;
+}
+
+bool above_critical_speed(const dynamics::GearboxLayout& layout,
+                          const dynamics::GearboxInputs& inputs,
+                          const std::vector<double>& mean_stiffness) {
+    const auto m = dynamics::assemble(layout, inputs, mean_stiffness);
+    if (m.centrifugal.isZero(0.0)) {
+        return false;
+    }
+    // Scaled to unit masses, K holds at least W^2; the rigid rotation, which nothing holds, is held
+    // by far more than that.
+    const Eigen::VectorXd scale = m.mass.diagonal().cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
+    const Eigen::VectorXd turn = dynamics::rigid_rotation(layout).cwiseQuotient(scale).normalized();
+    held += (1e3 * held.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
+    return Eigen::LLT<Eigen::MatrixXd>(held).info() != Eigen::Success;
+}
+
+double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+    const auto matrices = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
+    return growth(plan, matrices.mass,
+                  marched_map(plan, inputs, matrices.mass.rows(), velocity_scale(matrices)));
+}
+
+Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
+    if (above_critical_speed(plan.layout, inputs, mean_stiffness(plan))) {
+        return Instability::turning_frame;
+    }
+    if (step_too_long(plan, inputs)) {
+        return Instability::step;
+    }
+    const bool linear = plan.mesh_law != dynamics::MeshLaw::separating;
+    return linear && growth_per_mesh(plan, inputs) > kNoGrowth ? Instability::parametric
+                                                               : Instability::none;
+}
+
+}  // namespace gearpod::lockstep

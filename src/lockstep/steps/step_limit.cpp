@@ -1,0 +1,149 @@
+#include "lockstep/steps/step_limit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+namespace gearpod::lockstep {
+namespace {
+
+// |R(z)|^2; without its root, as every mode asks for it thousands of times.
+double growth_squared(std::complex<double> z, Integrator integrator) {
+    const std::complex<double> fourth = integrator == Integrator::bs3 ? 0.0 : z / 4.0;
+    const std::complex<double> r = 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + fourth)));
+    return r.real() * r.real() + r.imag() * r.imag();
+}
+
+// The longest h along which |R(h lambda)| stays at most 1.
+double longest_step(std::complex<double> lambda, Integrator integrator) {
+    const double unit = 1.0 / std::abs(lambda);
+    constexpr double kResolution = 1e-3;  // of h |lambda|; the limits lie near 2.8 and 1.7 to 2.5
+    double z = kResolution;
+    while (z < 4.0 && growth_squared(z * unit * lambda, integrator) <= 1.0 + 2e-12) {
+        z += kResolution;
+    }
+    return (z - kResolution) * unit;
+}
+
+Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
+    return Eigen::EigenSolver<Eigen::MatrixXd>(state_matrix(m), false).eigenvalues();
+}
+
+// Below this a mode is the rigid rotation: what rounding, and the linearised centrifugal term,
+// leave of its rate 0. Both scale with the stiffest spring, never with the dampers.
+double rigid_rate(const dynamics::GearboxMatrices& m) {
+    const Eigen::VectorXd rates2 =
+        (m.stiffness.diagonal().array() / m.mass.diagonal().array()).matrix();
+    return 1e-4 * std::sqrt(rates2.maxCoeff());
+}
+
+}  // namespace
+
+Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
+    const Eigen::Index n = m.mass.rows();
+    const Eigen::MatrixXd inverse_mass = m.mass.inverse();
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    system.topRightCorner(n, n).setIdentity();
+    system.bottomLeftCorner(n, n) = -inverse_mass * (m.stiffness + m.centrifugal);
+    system.bottomRightCorner(n, n) = -inverse_mass * (m.damping + m.gyroscopic);
+    return system;
+}
+
+StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integrator) {
+    StepLimit limit{std::numeric_limits<double>::infinity(),
+                    std::numeric_limits<double>::infinity()};
+    const double rigid = rigid_rate(m);
+    for (const std::complex<double> lambda : modes(m)) {
+        const double size = std::abs(lambda);
+        if (size < rigid || lambda.real() > 1e-9 * size) {
+            continue;
+        }
+        limit.step_s = std::min(limit.step_s, longest_step(lambda, integrator));
+        limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
+    }
+    return limit;
+}
+
+double central_difference_limit(const dynamics::GearboxMatrices& m) {
+    const Eigen::MatrixXd stiffness = m.stiffness + m.centrifugal;
+    const auto stands = [&](double h) {
+        const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
+        return Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success;
+    };
+    // No body alone stands a longer step: m = h c + h^2/4 k.
+    double above = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < m.mass.rows(); ++i) {
+        const double c = m.damping(i, i), k = std::max(0.0, stiffness(i, i)), mass = m.mass(i, i);
+        const double rate = c + std::sqrt(c * c + k * mass);
+        above = rate > 0.0 ? std::min(above, 2.0 * mass / rate) : above;
+    }
+    if (!std::isfinite(above)) {
+        return above;
+    }
+    constexpr int kHalvings = 40;
+    double below = 0.0;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (below + above);
+        (stands(middle) ? below : above) = middle;
+    }
+    return below;
+}
+
+double longest_stable_step(const dynamics::GearboxMatrices& m, Integrator integrator) {
+    return integrator == Integrator::central_difference ? central_difference_limit(m)
+                                                        : runge_kutta_limit(m, integrator).step_s;
+}
+
+StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
+                        const dynamics::GearboxInputs& inputs,
+                        const std::vector<double>& pair_stiffness_N_m) {
+    const dynamics::GearboxMatrices m = dynamics::assemble(layout, inputs, pair_stiffness_N_m);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(m));
+    Eigen::Index fastest = 0;
+    solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
+    const double rate = std::abs(solver.eigenvalues()(fastest));
+    // The half of the eigenvector that holds the velocities; the displacements are far smaller.
+    const Eigen::Index n = m.mass.rows();
+    const Eigen::VectorXcd mode = solver.eigenvectors().col(fastest).tail(n);
+
+    StiffPart result;
+    result.rate_1_s = rate;
+    double most = 0.0;
+    for (const auto& spring : dynamics::spring_dampers(layout, inputs, pair_stiffness_N_m)) {
+        // The terms lambda c and k of the mode's equation lambda^2 m + lambda c + k = 0.
+        const double deflection = std::norm(spring.row.cast<std::complex<double>>().dot(mode));
+        const double by_damper = rate * spring.damping * deflection;
+        const double by_spring = spring.stiffness * deflection;
+        if (std::max(by_damper, by_spring) > most) {
+            most = std::max(by_damper, by_spring);
+            result.part =
+                (by_damper > by_spring ? "the damper of " : "the spring of ") + spring.name;
+        }
+    }
+    Eigen::Index heaviest = 0;
+    (m.mass.diagonal().array() * mode.cwiseAbs2().array()).maxCoeff(&heaviest);
+    result.motion = dynamics::motion_names(layout)[static_cast<std::size_t>(heaviest)];
+    return result;
+}
+
+Integrator choose_integrator(double stable_steps_per_mesh) {
+    return stable_steps_per_mesh <= kMostExplicitSteps ? Integrator::rk4 : Integrator::sdirk3;
+}
+
+double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,
+                      double mesh_period_s, double low_pass_rad_s) {
+    const double steps_per_period = integrator == Integrator::sdirk3 ? 25.0 : 100.0;
+    double fastest = low_pass_rad_s;
+    for (const std::complex<double> lambda : modes(m)) {
+        const double size = std::abs(lambda);
+        if (-lambda.real() < 0.5 * size) {
+            fastest = std::max(fastest, std::min(size, 5.0 * low_pass_rad_s));
+        }
+    }
+    return steps_per_period * fastest * mesh_period_s / (2.0 * std::numbers::pi);
+}
+
+}  // namespace gearpod::lockstep

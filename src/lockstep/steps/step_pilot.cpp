@@ -1,0 +1,235 @@
+#include "lockstep/steps/step_pilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+constexpr auto kLanes = static_cast<std::size_t>(kPilotLanes);
+
+// The tile on one grid.
+class PilotMarch {
+  public:
+    PilotMarch(const Pilot& pilot, PhaseGrid grid)
+        : pilot_(pilot),
+          plan_(pilot.plan(std::move(grid))),
+          march_(make_mesh_march<kPilotLanes>(plan_, pilot.inputs)),
+          rotation_(plan_.layout, pilot.inputs) {}
+
+    const MarchPlan& plan() const { return plan_; }
+
+    TileState orbit() const {
+        TileState state = rest_state(plan_, pilot_.inputs);
+        MeshRecord unseen = make_record(plan_, kPilotLanes, false);
+        for (int mesh = 0; mesh < pilot_.settle_meshes; ++mesh) {
+            step({}, state, unseen);
+        }
+        return state;
+    }
+
+    // From the orbit: a healthy mesh period, then those of the fault's first passage and one more.
+    std::vector<MeshRecord> records(TileState state, bool with_estimate) const {
+        const FaultSchedule schedule(plan_, pilot_.faults);
+        std::vector<MeshRecord> all;
+        const auto add = [&](const std::vector<PairOverride>& overrides) {
+            all.push_back(make_record(plan_, kPilotLanes, false));
+            if (with_estimate) {
+                all.back().estimate.resize(plan_.grid.steps.size() * kEstimateRows * kLanes);
+            }
+            step(overrides, state, all.back());
+        };
+        add({});
+        if (pilot_.faults.pattern.passages.empty()) {
+            return all;
+        }
+        const int length = pilot_.faults.pattern.length;
+        int k = static_cast<int>(std::floor(pilot_.faults.pattern.passages[0].start));
+        for (int last = k + length; k < last; ++k) {
+            add(schedule.all_overrides(k));
+            if (!schedule.continues_after((k % length + length) % length)) {
+                break;
+            }
+        }
+        add(schedule.all_overrides(k + 1));
+        return all;
+    }
+
+  private:
+    void step(const std::vector<PairOverride>& overrides, TileState& state,
+              MeshRecord& record) const {
+        (*march_)(overrides, state, record);
+        rotation_.remove(state);
+    }
+
+    const Pilot& pilot_;
+    const MarchPlan plan_;
+    const std::unique_ptr<const MeshMarch<kPilotLanes>> march_;
+    const RigidRotation rotation_;
+};
+
+// Largest of an estimate's rows over steps and mesh periods, one a lane.
+std::vector<double> largest_in_row(const std::vector<MeshRecord>& records, std::size_t row) {
+    std::vector<double> largest(kLanes, 0.0);
+    for (const MeshRecord& record : records) {
+        for (std::size_t i = row * kLanes; i < record.estimate.size();
+             i += kEstimateRows * kLanes) {
+            for (std::size_t l = 0; l < kLanes; ++l) {
+                largest[l] = std::max(largest[l], record.estimate[i + l]);
+            }
+        }
+    }
+    return largest;
+}
+
+// Squared deviation of a lane's values from others, or from their own mean.
+struct Squares {
+    double deviation = 0.0, own = 0.0;
+};
+Squares squares(const machine::AlignedVector& values, const machine::AlignedVector& other,
+                std::size_t lane, bool about_mean) {
+    double mean = 0.0;
+    const double count = static_cast<double>(values.size() / kLanes);
+    for (std::size_t i = lane; about_mean && i < values.size(); i += kLanes) {
+        mean += values[i] / count;
+    }
+    Squares s;
+    for (std::size_t i = lane; i < values.size(); i += kLanes) {
+        s.deviation += (values[i] - other[i]) * (values[i] - other[i]);
+        s.own += (values[i] - mean) * (values[i] - mean);
+    }
+    return s;
+}
+
+double relative(const Squares& s) {
+    return s.own > 0.0 ? std::sqrt(s.deviation / s.own) : 0.0;
+}
+
+// Of the worst lane; not a number counts as infinite.
+double difference(const std::vector<MeshRecord>& a, const std::vector<MeshRecord>& b) {
+    double worst = 0.0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        Squares sensor, te;
+        for (std::size_t r = 0; r < a.size(); ++r) {
+            const Squares x = squares(a[r].acceleration, b[r].acceleration, lane, false);
+            const Squares y = squares(a[r].te, b[r].te, lane, true);
+            sensor = {sensor.deviation + x.deviation, sensor.own + x.own};
+            te = {te.deviation + y.deviation, te.own + y.own};
+        }
+        const double error = std::max(relative(sensor), relative(te));
+        worst =
+            std::isfinite(error) ? std::max(worst, error) : std::numeric_limits<double>::infinity();
+    }
+    return worst;
+}
+
+bool coarser(const Grading& a, const Grading& b) {
+    return a.first >= b.first && a.growth >= b.growth && a.longest >= b.longest;
+}
+
+struct Candidate {
+    Grading grading;
+    std::size_t steps;
+};
+
+// Uniform steps of that length and everything coarser, fewest steps first.
+std::vector<Candidate> candidates(double step,
+                                  const std::function<PhaseGrid(const Grading&)>& grid_of) {
+    std::vector<Candidate> all;
+    const auto add = [&](const Grading& grading) {
+        all.push_back({grading, grid_of(grading).steps.size()});
+    };
+    add({step, 0.0, step});
+    for (const double first : {step, 2.0 * step, 4.0 * step}) {
+        for (const double ratio : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+            for (int halvings = 0; halvings <= 6; ++halvings) {
+                add({first, std::ldexp(1.0, -halvings), first * ratio});
+            }
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.steps < b.steps; });
+    return all;
+}
+
+}  // namespace
+
+double StepProfile::longest_step(double start, double end) const {
+    const auto after = std::upper_bound(phases_.begin(), phases_.end(), start);
+    std::size_t i =
+        after == phases_.begin() ? 0 : static_cast<std::size_t>(after - phases_.begin()) - 1;
+    double longest = longest_[i];
+    for (++i; i < phases_.size() && phases_[i] < end; ++i) {
+        longest = std::min(longest, longest_[i]);
+    }
+    return longest;
+}
+
+StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double tolerance) {
+    const PilotMarch march(pilot, grid);
+    const std::vector<MeshRecord> records = march.records(march.orbit(), true);
+    const std::vector<double> position = largest_in_row(records, 0);
+    const std::vector<double> velocity = largest_in_row(records, 1);
+    constexpr double kSafety = 0.9, kMostGrowth = 10.0, kMostCut = 100.0;
+    // The short steps beside a transition say little about how long one could be.
+    const double most = kMostGrowth * *std::max_element(grid.lengths.begin(), grid.lengths.end());
+    std::vector<double> phases, longest;
+    for (std::size_t i = 0; i < grid.steps.size(); ++i) {
+        double error = 0.0;
+        for (const MeshRecord& record : records) {
+            const double* rows = record.estimate.data() + i * kEstimateRows * kLanes;
+            for (std::size_t l = 0; l < kLanes; ++l) {
+                error = std::max({error, rows[2 * kLanes + l] / position[l],
+                                  rows[3 * kLanes + l] / velocity[l]});
+            }
+        }
+        const double length = grid.steps[i].length;
+        const double wanted = error > 0.0 ? kSafety * length * std::cbrt(tolerance / error) : most;
+        phases.push_back(grid.steps[i].phase);
+        longest.push_back(std::clamp(wanted, length / kMostCut, most));
+    }
+    return {std::move(phases), std::move(longest)};
+}
+
+GradedChoice choose_grading(const Pilot& pilot, double step, double tolerance,
+                            const std::function<PhaseGrid(const Grading&)>& grid_of) {
+    constexpr int kMostHalvings = 3;
+    GradedChoice best;
+    for (int halving = 0; halving <= kMostHalvings; ++halving, step /= 2.0) {
+        const PilotMarch fine(pilot, grid_of({step / 2.0, 0.0, step / 2.0}));
+        const TileState orbit = fine.orbit();
+        const std::vector<MeshRecord> reference = fine.records(orbit, false);
+        const auto error_of = [&](const PhaseGrid& grid) {
+            return difference(reference, PilotMarch(pilot, grid).records(orbit, false));
+        };
+        best.grading = {step, 0.0, step};
+        best.grid = grid_of(best.grading);
+        best.error = error_of(best.grid);
+        if (!(best.error <= tolerance)) {
+            continue;
+        }
+        best.reached = true;
+        std::vector<Grading> failed;
+        for (const Candidate& candidate : candidates(step, grid_of)) {
+            if (std::any_of(failed.begin(), failed.end(), [&](const Grading& grading) {
+                    return coarser(candidate.grading, grading);
+                })) {
+                continue;
+            }
+            PhaseGrid grid = grid_of(candidate.grading);
+            const double error = error_of(grid);
+            if (error <= tolerance) {
+                return {std::move(grid), candidate.grading, error, true};
+            }
+            failed.push_back(candidate.grading);
+        }
+        return best;
+    }
+    return best;
+}
+
+}  // namespace gearpod::lockstep

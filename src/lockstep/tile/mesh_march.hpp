@@ -1,0 +1,40 @@
+// Marches W gearboxes through one mesh period after the other: an integrator together with the
+// parameters of its gearboxes.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lockstep/plan/march.hpp"
+
+namespace gearpod::lockstep {
+
+// Immutable.
+template <int W>
+class MeshMarch {
+  public:
+    virtual ~MeshMarch() = default;
+    // Marches `state` through one mesh period that begins at an integer phase and records it.
+    // `record` must have its sizes (make_record).
+    virtual void operator()(const std::vector<PairOverride>& overrides, TileState& state,
+                            MeshRecord& record) const = 0;
+};
+
+// The march that the plan's gearbox kind, effects and integrator call for. `inputs` holds W
+// gearboxes of the plan's kind. The plan must outlive the result. Throws std::invalid_argument for
+// single precision with an integrator that has no such kernels, and for W = 16 in double precision.
+template <int W>
+std::unique_ptr<const MeshMarch<W>> make_mesh_march(
+    const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs);
+
+#define GEARPOD_MESH_MARCH(W)                                               \
+    extern template std::unique_ptr<const MeshMarch<W>> make_mesh_march<W>( \
+        const MarchPlan&, std::span<const dynamics::GearboxInputs>);
+GEARPOD_MESH_MARCH(1)
+GEARPOD_MESH_MARCH(4)
+GEARPOD_MESH_MARCH(8)
+GEARPOD_MESH_MARCH(16)
+#undef GEARPOD_MESH_MARCH
+
+}  // namespace gearpod::lockstep

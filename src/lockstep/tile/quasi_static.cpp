@@ -1,0 +1,221 @@
+#include "lockstep/tile/quasi_static.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "lockstep/driven/driven_forces.hpp"
+#include "lockstep/driven/excitation_rows.hpp"
+#include "lockstep/tile/static_lanes.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+void solve_static(const StaticLanes<1>& lanes, StaticState<1>& state) {
+    solve_static_1(lanes, state);
+}
+void solve_static(const StaticLanes<4>& lanes, StaticState<4>& state) {
+    solve_static_4(lanes, state);
+}
+void solve_static(const StaticLanes<8>& lanes, StaticState<8>& state) {
+    solve_static_8(lanes, state);
+}
+
+double largest_stiffness(const StiffnessNodes& nodes) {
+    return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
+}
+
+template <int W>
+class QuasiStatic {
+  public:
+    QuasiStatic(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+                const FaultCurves& faults, const TileSettings& settings)
+        : plan_(plan),
+          faults_(faults),
+          schedule_(plan, faults),
+          settings_(settings),
+          lanes_(make_static_lanes<W>(plan.layout, plan.mesh_law, inputs,
+                                      largest_stiffness(plan.nodes))),
+          steady_force_(lanes_.force),
+          state_(lanes_) {
+        result_.status.assign(W, LaneStatus::ok);
+        drive(inputs);
+        if (plan.grid.stage_nodes.front() != 0.0) {
+            throw std::invalid_argument(
+                "a quasi-static tile needs the stiffness at the start of every step");
+        }
+    }
+
+    TileResult run() {
+        add_record(0, {});
+        const bool repeats = settings_.excitation == nullptr || settings_.excitation->repeats();
+        if (faults_.tooth_errors || !repeats) {
+            for (int k = 0; k < settings_.march_meshes; ++k) {
+                result_.content.push_back(add_record(k, schedule_.all_overrides(k)));
+            }
+        } else {
+            solve_pattern();
+        }
+        retire_loose_lanes();
+        return std::move(result_);
+    }
+
+  private:
+    void solve_pattern() {
+        const int length = faults_.pattern.length;
+        for (int k = 0; k < length; ++k) {
+            const std::vector<PairOverride> passages = schedule_.overrides(k);
+            result_.content.push_back(passages.empty() ? 0 : add_record(0, passages));
+        }
+        for (int k = length; k < settings_.march_meshes; ++k) {
+            result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
+        }
+        if (settings_.march_meshes > 0) {
+            result_.content.resize(static_cast<std::size_t>(settings_.march_meshes));
+        }
+    }
+
+    void load_meshes(const std::vector<PairOverride>& overrides, int step) {
+        const int pairs = plan_.nodes.pairs;
+        const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
+        const auto shared = static_cast<std::size_t>(step * nodes * pairs);
+        for (std::size_t i = 0; i < state_.k.size(); ++i) {
+            state_.k[i] = plan_.nodes.stiffness[shared + i / W];
+            state_.e[i] = plan_.nodes.error.empty() ? 0.0 : plan_.nodes.error[shared + i / W];
+        }
+        for (const PairOverride& o : overrides) {
+            if (step < o.first_step || step >= o.last_step) {
+                continue;
+            }
+            const int row = (step - o.first_step) * nodes * W;
+            if (!o.stiffness.empty()) {
+                std::copy_n(o.stiffness.begin() + row, W, state_.k.begin() + o.pair * W);
+            }
+            if (!o.error.empty()) {
+                std::copy_n(o.error.begin() + row, W, state_.e.begin() + o.pair * W);
+            }
+        }
+    }
+
+    // The varying forces; there is no speed for inertia to feel.
+    void drive(std::span<const dynamics::GearboxInputs> inputs) {
+        if (settings_.excitation == nullptr) {
+            return;
+        }
+        if (settings_.excitation->speed) {
+            throw std::invalid_argument("a quasi-static gearbox feels no change of speed");
+        }
+        forces_ = make_driven_forces<W>(plan_, *settings_.excitation, inputs, false);
+        rows_ = std::make_unique<ExcitationRows>(plan_, *settings_.excitation, inputs);
+        forces_.rows = rows_->rows().data();
+        for (std::size_t l = 0; l < W; ++l) {
+            for (int e = 0; e < forces_.first[forces_.columns]; ++e) {
+                lanes_.force_size[l] =
+                    std::max(lanes_.force_size[l], std::abs(forces_.pattern[e][l]));
+            }
+        }
+    }
+
+    void load_forces(int step) {
+        if (rows_ != nullptr) {
+            lanes_.force = steady_force_;
+            forces_.add(forces_.row(step, 0), lanes_.force.data());
+        }
+    }
+
+    int add_record(int mesh, const std::vector<PairOverride>& overrides) {
+        if (rows_ != nullptr) {
+            rows_->fill(mesh);
+        }
+        MeshRecord record = make_record(plan_, W, settings_.with_motion);
+        record.acceleration.clear();
+        const int steps = static_cast<int>(plan_.grid.steps.size());
+        for (int i = 0; i < steps; ++i) {
+            const int sample = plan_.grid.steps[static_cast<std::size_t>(i)].sample;
+            if (sample >= 0) {
+                load_meshes(overrides, i);
+                load_forces(i);
+                solve_static(lanes_, state_);
+                write(static_cast<std::size_t>(sample), record);
+                note_status();
+            }
+        }
+        result_.records.push_back(std::move(record));
+        ++result_.marched;
+        return static_cast<int>(result_.records.size()) - 1;
+    }
+
+    void write(std::size_t sample, MeshRecord& record) const {
+        for (std::size_t l = 0; l < W; ++l) {
+            double te = 0.0;
+            for (std::size_t d = plan_.te_weight.size(); d-- > 0;) {
+                te = std::fma(plan_.te_weight[d], state_.q[d * W + l], te);
+            }
+            record.te[sample * W + l] = te;
+        }
+        if (!record.motion.empty()) {
+            std::copy(
+                state_.q.begin(), state_.q.end(),
+                record.motion.begin() + static_cast<std::ptrdiff_t>(sample * state_.q.size()));
+        }
+    }
+
+    void note_status() {
+        for (std::size_t l = 0; l < W; ++l) {
+            LaneStatus& status = result_.status[l];
+            if (state_.loose[l] != 0.0) {
+                status = LaneStatus::diverged;
+            } else if (state_.restless[l] != 0.0 && status == LaneStatus::ok) {
+                status = LaneStatus::unsettled;
+            }
+        }
+    }
+
+    void retire_loose_lanes() {
+        for (std::size_t l = 0; l < W; ++l) {
+            if (result_.status[l] != LaneStatus::diverged) {
+                continue;
+            }
+            for (MeshRecord& record : result_.records) {
+                for (auto* values : {&record.te, &record.motion}) {
+                    for (std::size_t i = l; i < values->size(); i += W) {
+                        (*values)[i] = NAN;
+                    }
+                }
+            }
+        }
+    }
+
+    const MarchPlan& plan_;
+    const FaultCurves& faults_;
+    const FaultSchedule schedule_;
+    const TileSettings& settings_;
+    StaticLanes<W> lanes_;
+    const machine::AlignedVector steady_force_;
+    DrivenForces<W> forces_;                // only with
+    std::unique_ptr<ExcitationRows> rows_;  // an excitation
+    StaticState<W> state_;
+    TileResult result_;
+};
+
+}  // namespace
+
+template <int W>
+TileResult run_quasi_static(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
+                            const FaultCurves& faults, const TileSettings& settings) {
+    assert(inputs.size() == W);
+    check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
+    check_excitation(settings.excitation, settings.march_meshes);
+    return QuasiStatic<W>(plan, inputs, faults, settings).run();
+}
+
+template TileResult run_quasi_static<1>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+                                        const FaultCurves&, const TileSettings&);
+template TileResult run_quasi_static<4>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+                                        const FaultCurves&, const TileSettings&);
+template TileResult run_quasi_static<8>(const MarchPlan&, std::span<const dynamics::GearboxInputs>,
+                                        const FaultCurves&, const TileSettings&);
+
+}  // namespace gearpod::lockstep

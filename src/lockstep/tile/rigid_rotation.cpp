@@ -1,0 +1,60 @@
+#include "lockstep/tile/rigid_rotation.hpp"
+
+#include "lockstep/integrators/sensor_filter.hpp"
+
+namespace gearpod::lockstep {
+
+RigidRotation::RigidRotation(const dynamics::GearboxLayout& layout,
+                             std::span<const dynamics::GearboxInputs> inputs)
+    : turn_(dynamics::rigid_rotation(layout)) {
+    const std::vector<double> none(static_cast<std::size_t>(dynamics::pairs(layout)), 0.0);
+    for (const dynamics::GearboxInputs& in : inputs) {
+        const auto m = dynamics::assemble(layout, in, none);
+        const Eigen::VectorXd weighted = m.mass * turn_;
+        weight_.emplace_back(weighted / weighted.dot(turn_));
+    }
+}
+
+void RigidRotation::remove(machine::AlignedVector& motion) const {
+    const std::size_t lanes = weight_.size();
+    for (std::size_t l = 0; l < lanes; ++l) {
+        double turned = 0.0;
+        for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+            turned += weight_[l](d) * motion[static_cast<std::size_t>(d) * lanes + l];
+        }
+        for (Eigen::Index d = 0; d < turn_.size(); ++d) {
+            motion[static_cast<std::size_t>(d) * lanes + l] -= turned * turn_(d);
+        }
+    }
+}
+
+void RigidRotation::remove(TileState& state) const {
+    remove(state.q);
+    remove(state.v);
+}
+
+TileState still_state(std::size_t degrees, int channels, std::size_t lanes) {
+    TileState state;
+    state.q.assign(degrees * lanes, 0.0);
+    state.v.assign(degrees * lanes, 0.0);
+    state.filter.assign(static_cast<std::size_t>(channels) * kFilterStates * lanes, 0.0);
+    return state;
+}
+
+TileState rest_state(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs) {
+    const std::size_t lanes = inputs.size();
+    const auto pairs = plan.nodes.stiffness.begin();
+    const std::vector<double> stiffness(pairs, pairs + plan.nodes.pairs);
+    const auto degrees = static_cast<std::size_t>(dynamics::degrees_of_freedom(plan.layout));
+    TileState state = still_state(degrees, plan.channels(), lanes);
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const Eigen::VectorXd q =
+            dynamics::static_equilibrium(dynamics::assemble(plan.layout, inputs[l], stiffness));
+        for (std::size_t d = 0; d < degrees; ++d) {
+            state.q[d * lanes + l] = q(static_cast<Eigen::Index>(d));
+        }
+    }
+    return state;
+}
+
+}  // namespace gearpod::lockstep

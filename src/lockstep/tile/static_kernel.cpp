@@ -1,0 +1,207 @@
+#include <cmath>
+
+#include "lockstep/tile/static_lanes.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+// A pivot below this part of its diagonal is rounding: nothing holds that motion.
+constexpr double kNoPivot = 1e-12;
+// A load below this part of the largest one is rounding.
+constexpr double kNoLoad = 1e-6;
+// What of its stiffness a mesh out of contact keeps: a planet between two gaps then rests between
+// them, and its contacts close when the gaps do. Its force is a billionth of a contact's.
+constexpr double kOpenMesh = 1e-9;
+// Contacts change a few times until they fit the load.
+constexpr int kMostChanges = 60;
+
+// Meshes as springs on d - preload: all in contact on their front flanks.
+template <int W>
+GEARPOD_INLINE void close_contacts(StaticState<W>& s) {
+    const int size = static_cast<int>(s.k.size());
+    for (int i = 0; i < size; ++i) {
+        s.held[i] = s.k[i];
+        s.preload[i] = s.e[i];
+    }
+}
+
+// K with the meshes held, and f with their preloads.
+template <int W>
+GEARPOD_INLINE void assemble_equations(const StaticLanes<W>& lanes, StaticState<W>& s) {
+    std::copy(lanes.stiffness.begin(), lanes.stiffness.end(), s.factor.begin());
+    std::copy(lanes.force.begin(), lanes.force.end(), s.right_hand.begin());
+    for (int pair = 0; pair < lanes.pairs; ++pair) {
+        const double* __restrict k = s.held.data() + pair * W;
+        const double* __restrict preload = s.preload.data() + pair * W;
+        for (int i = lanes.first[pair]; i < lanes.first[pair + 1]; ++i) {
+            const int row = lanes.motion[i];
+            const double weight = lanes.weight[i];
+            double* __restrict f = s.right_hand.data() + row * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                f[l] = std::fma(k[l] * preload[l], weight, f[l]);
+            }
+            for (int j = lanes.first[pair]; j <= i; ++j) {
+                const double product = weight * lanes.weight[j];
+                double* __restrict a =
+                    s.factor.data() + (row * (row + 1) / 2 + lanes.motion[j]) * W;
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    a[l] = std::fma(k[l], product, a[l]);
+                }
+            }
+        }
+    }
+}
+
+// K = L D L^T in place, rows of L below the diagonal; 1 / D, or 0 for a motion that nothing holds.
+template <int W>
+GEARPOD_INLINE void factorise(int n, double* __restrict factor, double* __restrict inverse) {
+    for (int i = 0; i < n; ++i) {
+        double* __restrict row = factor + i * (i + 1) / 2 * W;
+        alignas(64) double pivot[W], least[W];
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            pivot[l] = row[i * W + l];
+            least[l] = kNoPivot * pivot[l];
+        }
+        for (int j = 0; j < i; ++j) {
+            const double* __restrict above = factor + j * (j + 1) / 2 * W;
+            alignas(64) double sum[W];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                sum[l] = row[j * W + l];
+            }
+            for (int k = 0; k < j; ++k) {
+#pragma omp simd
+                for (int l = 0; l < W; ++l) {
+                    sum[l] = std::fma(-row[k * W + l], above[k * W + l], sum[l]);
+                }
+            }
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                row[j * W + l] = sum[l];
+            }
+        }
+        for (int k = 0; k < i; ++k) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const double scaled = row[k * W + l] * inverse[k * W + l];
+                pivot[l] = std::fma(-row[k * W + l], scaled, pivot[l]);
+                row[k * W + l] = scaled;
+            }
+        }
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            inverse[i * W + l] = pivot[l] > least[l] ? 1.0 / pivot[l] : 0.0;
+        }
+    }
+}
+
+template <int W>
+GEARPOD_INLINE void substitute(const StaticLanes<W>& lanes, StaticState<W>& s) {
+    const int n = lanes.degrees;
+    const double* __restrict size = lanes.force_size.data();
+    double* __restrict loose = s.loose.data();
+    double* __restrict y = s.right_hand.data();
+    double* __restrict q = s.q.data();
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        loose[l] = 0.0;
+    }
+    for (int i = 0; i < n; ++i) {
+        const double* __restrict row = s.factor.data() + i * (i + 1) / 2 * W;
+        const double* __restrict inverse = s.inverse.data() + i * W;
+        for (int k = 0; k < i; ++k) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                y[i * W + l] = std::fma(-row[k * W + l], y[k * W + l], y[i * W + l]);
+            }
+        }
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const bool resting = std::fabs(y[i * W + l]) <= kNoLoad * size[l];
+            loose[l] = inverse[l] != 0.0 || resting ? loose[l] : 1.0;
+            q[i * W + l] = y[i * W + l] * inverse[l];
+        }
+    }
+    for (int i = n - 1; i > 0; --i) {
+        const double* __restrict row = s.factor.data() + i * (i + 1) / 2 * W;
+        for (int k = 0; k < i; ++k) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                q[k * W + l] = std::fma(-row[k * W + l], q[i * W + l], q[k * W + l]);
+            }
+        }
+    }
+}
+
+// Opens and closes contacts by the deflections; says which lanes had to.
+template <int W>
+GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>& s) {
+    double* __restrict restless = s.restless.data();
+    const double* __restrict backlash = lanes.backlash.data();
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        restless[l] = 0.0;
+    }
+    for (int pair = 0; pair < lanes.pairs; ++pair) {
+        alignas(64) double d[W] = {};
+        for (int i = lanes.first[pair]; i < lanes.first[pair + 1]; ++i) {
+            const double* __restrict q = s.q.data() + lanes.motion[i] * W;
+            const double weight = lanes.weight[i];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                d[l] = std::fma(weight, q[l], d[l]);
+            }
+        }
+        const double* __restrict k = s.k.data() + pair * W;
+        const double* __restrict e = s.e.data() + pair * W;
+        double* __restrict held = s.held.data() + pair * W;
+        double* __restrict preload = s.preload.data() + pair * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double front = d[l] - e[l];
+            const bool on_back = front + backlash[l] < 0.0;
+            const double new_held = front > 0.0 || on_back ? k[l] : kOpenMesh * k[l];
+            const double new_preload = on_back ? e[l] - backlash[l] : e[l];
+            const bool same = new_held == held[l] && new_preload == preload[l];
+            restless[l] = same ? restless[l] : 1.0;
+            held[l] = new_held;
+            preload[l] = new_preload;
+        }
+    }
+}
+
+template <int W>
+GEARPOD_INLINE void solve(const StaticLanes<W>& lanes, StaticState<W>& s) {
+    close_contacts(s);
+    for (int change = 0; change < kMostChanges; ++change) {
+        assemble_equations(lanes, s);
+        factorise<W>(lanes.degrees, s.factor.data(), s.inverse.data());
+        substitute(lanes, s);
+        if (!lanes.separating) {
+            break;
+        }
+        change_contacts(lanes, s);
+        bool any = false;
+        for (int l = 0; l < W; ++l) {
+            any = any || s.restless[l] != 0.0;
+        }
+        if (!any) {
+            break;
+        }
+    }
+}
+
+}  // namespace
+
+GEARPOD_KERNEL(solve_static_8, (const StaticLanes<8>& lanes, StaticState<8>& state), (lanes, state),
+               solve<8>(lanes, state))
+GEARPOD_NARROW_KERNEL(solve_static_4, (const StaticLanes<4>& lanes, StaticState<4>& state),
+                      (lanes, state), solve<4>(lanes, state))
+GEARPOD_NARROW_KERNEL(solve_static_1, (const StaticLanes<1>& lanes, StaticState<1>& state),
+                      (lanes, state), solve<1>(lanes, state))
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,37 @@
+#include <cmath>
+
+#include "machine/dispatch.hpp"
+#include "signals/noise/chi_squared_table.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+static_assert(kChiPowers == 6);
+
+// One by one: a piece is one cache line, which gathering over lanes would look up six times.
+GEARPOD_INLINE void all_values(long values, const double* __restrict pieces,
+                               double* __restrict value) {
+    constexpr double kScale = 0.5 * kChiPieces / kChiRange;
+    for (long b = 0; b < values; ++b) {
+        double z = value[b];
+        z = z > kChiRange ? kChiRange : z;
+        z = z < -kChiRange ? -kChiRange : z;
+        const double place = std::fma(z, kScale, 0.5 * kChiPieces);
+        int piece = static_cast<int>(place);
+        piece = piece < kChiPieces ? piece : kChiPieces - 1;
+        const double t = std::fma(2.0, place - piece, -1.0);
+        const double* c = pieces + static_cast<long>(piece) * kChiStride;
+        double sum = std::fma(c[5], t, c[4]);
+        sum = std::fma(sum, t, c[3]);
+        sum = std::fma(sum, t, c[2]);
+        sum = std::fma(sum, t, c[1]);
+        value[b] = std::fma(sum, t, c[0]);
+    }
+}
+
+}  // namespace
+
+GEARPOD_NARROW_KERNEL(chi_squared_values, (long values, const double* pieces, double* value),
+                      (values, pieces, value), all_values(values, pieces, value))
+
+}  // namespace gearpod::signals

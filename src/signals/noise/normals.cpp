@@ -1,0 +1,16 @@
+#include "signals/noise/normals.hpp"
+
+#include <stdexcept>
+
+#include "signals/noise/normal_blocks.hpp"
+
+namespace gearpod::signals {
+
+void normals_from_words(std::span<const std::uint64_t> words, std::span<double> normals) {
+    if (words.size() != normals.size() || words.size() % kNormalBlock != 0) {
+        throw std::invalid_argument("normals: as many words as values, in whole blocks");
+    }
+    normal_blocks(static_cast<long>(words.size() / kNormalBlock), words.data(), normals.data());
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,94 @@
+// Additive sensor noise, white, rms sigma per sample, added after the low-pass filter.
+//
+// A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
+// a noncentral chi-square variable; split along and across the noise-free samples,
+//
+//     F_noisy = (sigma Z + sqrt F)^2 + sigma^2 G,    Z ~ N(0,1),    G ~ chi^2(Z_r - 1),
+//
+// independent between bins. So two random numbers a bin replace the Z_r noise samples, and one draw
+// serves all noise levels (windowing.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "signals/noise/chi_squared.hpp"
+#include "signals/noise/normals.hpp"
+
+namespace gearpod::signals {
+
+// (Z, G) of every bin of one gearbox.
+struct NoiseDraw {
+    std::vector<double> along;   // Z
+    std::vector<double> across;  // G
+};
+
+class SensorNoise {
+  public:
+    // Throws std::invalid_argument unless ring_teeth >= 3.
+    explicit SensorNoise(int ring_teeth) : across_(ring_teeth - 1) {}
+
+    // All Z first, then all G. Engine: a 64-bit uniform random bit generator.
+    template <typename Engine>
+    void draw(Engine& engine, std::size_t bins, NoiseDraw& out) const {
+        out.along.resize(bins);
+        out.across.resize(bins);
+        draw_normals(engine, out.along);
+        draw_normals(engine, out.across);
+        across_.from_normal(out.across);
+    }
+
+  private:
+    ChiSquaredTransform across_;
+};
+
+// The unit noise n (times sigma it is in m/s^2) that turns a bin's Z_r noise-free samples into
+// noisy ones whose squares sum to exactly the bin's F_noisy: Z along the samples, sqrt(G) in a
+// random direction across them. `normals` are Z_r further standard normals, which give that
+// direction. Throws std::invalid_argument on unequal sizes or fewer than two samples.
+void noise_of_bin(std::span<const double> samples, double along, double across,
+                  std::span<const double> normals, std::span<double> noise);
+
+// The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
+// sigma times it the signal folds to F_noisy. Bins are visited in order b = 0, 1,
+// ...; the engine gives the directions.
+template <typename Engine>
+std::vector<double> unit_noise(std::span<const double> signal, std::size_t bins,
+                               const NoiseDraw& draw, Engine& engine) {
+    if (bins == 0 || signal.size() % bins != 0 || draw.along.size() != bins ||
+        draw.across.size() != bins) {
+        throw std::invalid_argument("unit noise: signal, bins and draw disagree in size");
+    }
+    const std::size_t turns = signal.size() / bins;
+    std::vector<double> all(signal.size());
+    // Eight bins, a cache line of the signal, at a time.
+    constexpr std::size_t kBlock = 8;
+    std::vector<double> samples(kBlock * turns), normals(kBlock * turns), noise(kBlock * turns);
+    for (std::size_t b = 0; b < bins; b += kBlock) {
+        const std::size_t count = std::min(kBlock, bins - b);
+        for (std::size_t i = 0; i < turns; ++i) {
+            for (std::size_t c = 0; c < count; ++c) {
+                samples[c * turns + i] = signal[i * bins + b + c];
+            }
+        }
+        draw_normals(engine, normals);
+        for (std::size_t c = 0; c < count; ++c) {
+            const auto of_bin = [&](std::vector<double>& values) {
+                return std::span(values).subspan(c * turns, turns);
+            };
+            noise_of_bin(of_bin(samples), draw.along[b + c], draw.across[b + c], of_bin(normals),
+                         of_bin(noise));
+        }
+        for (std::size_t i = 0; i < turns; ++i) {
+            for (std::size_t c = 0; c < count; ++c) {
+                all[i * bins + b + c] = noise[c * turns + i];
+            }
+        }
+    }
+    return all;
+}
+
+}  // namespace gearpod::signals

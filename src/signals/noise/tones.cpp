@@ -1,0 +1,80 @@
+#include "signals/noise/tones.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace gearpod::signals {
+namespace {
+
+struct Phasor {
+    double sine;
+    double cosine;
+};
+
+// At `turns` times `count`, plus an angle. The whole turns go before the product is rounded.
+Phasor phasor(double turns, long count, double angle) {
+    const double whole = std::rint(turns * static_cast<double>(count));
+    const double rest = std::fma(turns, static_cast<double>(count), -whole);
+    const double radians = std::fma(2.0 * std::numbers::pi, rest, angle);
+    return {std::sin(radians), std::cos(radians)};
+}
+
+// sine[i * stride], cosine[i * stride] at first + i steps of `turns`: products of two phasors, one
+// for every 64th step and one for the steps between, so that no error builds up along the way.
+void fill_phasors(double turns, double angle, long first, int count, std::size_t stride,
+                  double* sine, double* cosine) {
+    constexpr int kBetween = 64;
+    Phasor between[kBetween];
+    for (int i = 0; i < kBetween; ++i) {
+        between[i] = phasor(turns, i, 0.0);
+    }
+    // Blocks begin at multiples of 64, whatever the first step: same bits for any part of a span.
+    Phasor block{};
+    for (long i = 0; i < count; ++i) {
+        const long step = first + i;
+        if (i == 0 || step % kBetween == 0) {
+            block = phasor(turns, step - step % kBetween, angle);
+        }
+        const Phasor& fine = between[step % kBetween];
+        sine[i * stride] = std::fma(block.sine, fine.cosine, block.cosine * fine.sine);
+        cosine[i * stride] = std::fma(block.cosine, fine.cosine, -(block.sine * fine.sine));
+    }
+}
+
+}  // namespace
+
+ToneTable::ToneTable(const Tones& tones, int lanes, int first_mesh, int meshes, int phases) {
+    const auto width = static_cast<std::size_t>(lanes);
+    const std::size_t values = tones.frequency_Hz.size();
+    if (lanes < 1 || values % width != 0 || tones.amplitude_m_s2.size() != values ||
+        tones.phase_rad.size() != values || (values > 0 && tones.mesh_period_s.size() != width) ||
+        first_mesh < 0 || meshes < 0 || phases < 1) {
+        throw std::invalid_argument(fmt::format(
+            "tones: {} frequencies, {} amplitudes, {} phases, {} mesh periods for {} lanes", values,
+            tones.amplitude_m_s2.size(), tones.phase_rad.size(), tones.mesh_period_s.size(),
+            lanes));
+    }
+    tones_ = static_cast<int>(values / width);
+    const auto span = static_cast<std::size_t>(meshes);
+    mesh_sine_.resize(values * span);
+    mesh_cosine_.resize(values * span);
+    phase_sine_.resize(values * static_cast<std::size_t>(phases));
+    phase_cosine_.resize(values * static_cast<std::size_t>(phases));
+    for (std::size_t i = 0; i < values; ++i) {
+        const std::size_t lane = i % width;
+        const double turns = tones.frequency_Hz[i] * tones.mesh_period_s[lane];
+        const std::size_t at = i / width * span * width + lane;
+        fill_phasors(turns, 0.0, first_mesh, meshes, width, &mesh_sine_[at], &mesh_cosine_[at]);
+        fill_phasors(turns / phases, tones.phase_rad[i], 0, phases, values, &phase_sine_[i],
+                     &phase_cosine_[i]);
+    }
+    for (std::size_t i = 0; i < phase_sine_.size(); ++i) {
+        phase_sine_[i] *= tones.amplitude_m_s2[i % values];
+        phase_cosine_[i] *= tones.amplitude_m_s2[i % values];
+    }
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,72 @@
+// The path weights g(x) over lanes, at all carrier indices of one phase: see PathGrid.
+#pragma once
+
+#include <numbers>
+
+#include "machine/dispatch.hpp"
+#include "machine/lane_exp.hpp"
+#include "signals/path/transmission_path.hpp"
+
+namespace gearpod::signals {
+
+// exp(alpha h^2 m^2) for m = 0 .. M_c/2: table[m][lane].
+template <int W>
+GEARPOD_INLINE void whole_step_table(int positions, const double* __restrict exponent,
+                                     double* __restrict table) {
+    const double h = 2.0 * std::numbers::pi / positions;
+    for (int m = 0; m <= positions / 2; ++m) {
+        const double square = h * m * (h * m);
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            table[m * W + l] = lane_exp(exponent[l] * square);
+        }
+    }
+}
+
+// weight[c][n][lane] at phase p. The powers grow by one factor a step: at most M_c/2 roundings.
+template <int N, int W>
+GEARPOD_INLINE void path_weights(const PathGrid& grid, long p, const double* __restrict exponent,
+                                 const double* __restrict table, double* __restrict weight) {
+    const int positions = grid.positions();
+    const double h = 2.0 * std::numbers::pi / positions;
+    const double* window = grid.window() + p * positions * N;
+    const int* centre = grid.centre() + p * N;
+    alignas(64) double ratio[N * W], inverse[N * W], up[N * W], down[N * W];
+    for (int n = 0; n < N; ++n) {
+        const double f = grid.fraction()[p * N + n];
+        const double linear = 2.0 * h * h * f;
+        const double square = h * f * (h * f);
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            ratio[n * W + l] = lane_exp(exponent[l] * linear);
+            inverse[n * W + l] = lane_exp(-exponent[l] * linear);
+            up[n * W + l] = lane_exp(exponent[l] * square);
+            down[n * W + l] = up[n * W + l] * inverse[n * W + l];
+        }
+    }
+    // Upwards from m = 0 and downwards from m = -1, all planets side by side.
+    const int below = positions / 2;
+    for (int m = 0; m < positions - below; ++m) {
+        for (int n = 0; n < N; ++n) {
+            const int c = centre[n] + m < positions ? centre[n] + m : centre[n] + m - positions;
+            const double w = window[c * N + n];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                weight[(c * N + n) * W + l] = w * table[m * W + l] * up[n * W + l];
+                up[n * W + l] *= ratio[n * W + l];
+            }
+        }
+        for (int n = 0; n < N && m < below; ++n) {
+            const int c =
+                centre[n] - m - 1 >= 0 ? centre[n] - m - 1 : centre[n] - m - 1 + positions;
+            const double w = window[c * N + n];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                weight[(c * N + n) * W + l] = w * table[(m + 1) * W + l] * down[n * W + l];
+                down[n * W + l] *= inverse[n * W + l];
+            }
+        }
+    }
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,113 @@
+#include "signals/spectra/fourier_transform.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "signals/spectra/prime_stage.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+using Complex = std::complex<double>;
+
+// kissfft has butterflies of its own for factors up to here.
+constexpr int kSmallFactor = 5;
+
+int largest_prime_factor(int n) {
+    int largest = 1;
+    for (int p = 2; p * p <= n; ++p) {
+        while (n % p == 0) {
+            largest = p;
+            n /= p;
+        }
+    }
+    return n > 1 ? n : largest;
+}
+
+int prime_worth_taking_out(int points) {
+    if (points < 1) {
+        throw std::invalid_argument("Fourier transform: needs a point");
+    }
+    const int prime = largest_prime_factor(points);
+    return prime > kSmallFactor && prime < points ? prime : 1;
+}
+
+// Of the angle 2 pi i / n, i reduced first.
+double angle(long i, long n) {
+    return 2.0 * std::numbers::pi * static_cast<double>(i % n) / static_cast<double>(n);
+}
+
+}  // namespace
+
+FourierTransform::FourierTransform(int points, Way way)
+    : prime_(prime_worth_taking_out(points)),
+      part_(points / prime_),
+      fft_(static_cast<std::size_t>(part_), way == Way::back),
+      row_((static_cast<std::size_t>(part_) + kColumns - 1) / kColumns * kColumns),
+      of_part_(part_) {
+    if (prime_ == 1) {
+        return;
+    }
+    const double sign = way == Way::back ? 1.0 : -1.0;
+    for (long r = 0; r < prime_; ++r) {
+        for (long k = 0; k < part_; ++k) {
+            twiddle_.emplace_back(std::cos(angle(r * k, points)),
+                                  sign * std::sin(angle(r * k, points)));
+        }
+    }
+    const int half = (prime_ - 1) / 2;
+    for (long s = 1; s <= half; ++s) {
+        for (long r = 1; r <= half; ++r) {
+            cosine_.push_back(std::cos(angle(r * s, prime_)));
+            sine_.push_back(sign * std::sin(angle(r * s, prime_)));
+        }
+    }
+    for (machine::AlignedVector* values : {&real_, &imaginary_, &out_real_, &out_imaginary_}) {
+        values->resize(static_cast<std::size_t>(prime_) * row_);
+    }
+}
+
+// Part r is every q-th point from r on.
+void FourierTransform::transform_parts(std::span<const Complex> in) {
+    const Complex* twiddle = twiddle_.data();
+    for (int r = 0; r < prime_; ++r) {
+        fft_.transform(in.data() + r, of_part_.data(), 0, 1, static_cast<std::size_t>(prime_));
+        double* real = real_.data() + static_cast<std::size_t>(r) * row_;
+        double* imaginary = imaginary_.data() + static_cast<std::size_t>(r) * row_;
+        for (int k = 0; k < part_; ++k) {
+            const Complex z = of_part_[k] * *twiddle++;
+            real[k] = z.real();
+            imaginary[k] = z.imag();
+        }
+    }
+}
+
+void FourierTransform::transform(std::span<const Complex> in, std::span<Complex> out) {
+    if (in.size() != static_cast<std::size_t>(points()) || out.size() != in.size()) {
+        throw std::invalid_argument("Fourier transform: signal and plan disagree in size");
+    }
+    if (prime_ == 1) {
+        fft_.transform(in.data(), out.data());
+        return;
+    }
+    transform_parts(in);
+    PrimeStageArguments a;
+    a.prime = prime_;
+    a.row = static_cast<long>(row_);
+    a.cosine = cosine_.data();
+    a.sine = sine_.data();
+    a.real = real_.data();
+    a.imaginary = imaginary_.data();
+    a.out_real = out_real_.data();
+    a.out_imaginary = out_imaginary_.data();
+    prime_stage(a);
+    for (int s = 0; s < prime_; ++s) {
+        for (int k = 0; k < part_; ++k) {
+            const std::size_t at = static_cast<std::size_t>(s) * row_ + k;
+            out[static_cast<std::size_t>(s) * part_ + k] = {out_real_[at], out_imaginary_[at]};
+        }
+    }
+}
+
+}  // namespace gearpod::signals

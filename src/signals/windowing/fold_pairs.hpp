@@ -1,0 +1,48 @@
+// The signal of every pair of mesh and carrier index, which both folds begin with
+// (fold_squares.hpp).
+#pragma once
+
+#include "signals/path/path_weights.hpp"
+#include "signals/path/planet_count.hpp"
+#include "signals/path/resultant.hpp"
+#include "signals/windowing/fold_squares.hpp"
+
+namespace gearpod::signals {
+
+// y^2, or y, of one mesh's pairs at phase p. The accelerations stay in registers over the carrier
+// indices.
+template <int N, int W, bool kSquared>
+GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh,
+                                   double* pairs_of_phase) {
+    const FoldPlan::Pairs& pairs = a.plan->pairs();
+    const double* sine = a.path->sine() + p * a.path->positions();
+    const double* cosine = a.path->cosine() + p * a.path->positions();
+    alignas(64) double accel[2 * N * W];
+    for (int i = 0; i < 2 * N * W; ++i) {
+        accel[i] = a.accel[mesh][p * 2 * N * W + i];
+    }
+    for (long q = pairs.first[mesh]; q < pairs.first[mesh + 1]; ++q) {
+        const long c = pairs.carrier[q];
+        const double* __restrict weight = a.weight + c * N * W;
+        double* __restrict pair = pairs_of_phase + q * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double y = resultant<N, W>(accel, weight, sine[c], cosine[c], l);
+            pair[l] = kSquared ? y * y : y;
+        }
+    }
+}
+
+// All pairs at B phases from p on.
+template <int N, int B, int W, bool kSquared>
+GEARPOD_INLINE void evaluate_phases(const FoldArguments& a, long p) {
+    const long pairs = static_cast<long>(a.plan->pairs().carrier.size());
+    for (long b = 0; b < B; ++b) {
+        path_weights<N, W>(*a.path, p + b, a.exponent, a.whole_steps, a.weight);
+        for (int mesh = 0; mesh <= a.plan->largest_mesh(); ++mesh) {
+            evaluate_pairs<N, W, kSquared>(a, p + b, mesh, a.pairs + b * pairs * W);
+        }
+    }
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,36 @@
+// The kernels behind fold_squares, without and with tones; see folded_signal.hpp.
+#pragma once
+
+#include "signals/windowing/folded_signal.hpp"
+
+namespace gearpod::signals {
+
+// Phases whose samples get their tones together.
+inline constexpr int kTonePhases = 4;
+
+// What the kernel reads and writes. Shapes as in TileSignals, PathGrid and FoldPlan, which must
+// agree.
+struct FoldArguments {
+    const PathGrid* path = nullptr;
+    const FoldPlan* plan = nullptr;
+    const double* const* accel = nullptr;
+    const double* exponent = nullptr;  // [lane]
+    const ToneTable* tones = nullptr;  // if any, over the whole span
+    double* whole_steps = nullptr;     // scratch, [M_c/2 + 1][lane]
+    double* weight = nullptr;          // scratch, [carrier index][planet][lane]
+    double* pairs = nullptr;   // scratch, [pair][lane]: y^2; with tones y, [phase][pair][lane]
+    double* totals = nullptr;  // scratch, [sum][lane]
+    double* folded = nullptr;  // [tooth * P + p][lane]
+};
+
+void fold_squares_1(const FoldArguments& a);
+void fold_squares_4(const FoldArguments& a);
+void fold_squares_8(const FoldArguments& a);
+void fold_squares_16(const FoldArguments& a);
+
+void fold_tones_1(const FoldArguments& a);
+void fold_tones_4(const FoldArguments& a);
+void fold_tones_8(const FoldArguments& a);
+void fold_tones_16(const FoldArguments& a);
+
+}  // namespace gearpod::signals

@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/detection/condition_detection.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+// A feature that is torque plus fault, in small steps: no scatter beyond `step`.
+struct Sample {
+    std::vector<double> size, torque, value;
+};
+
+Sample sample(int count, double fault) {
+    Sample out;
+    for (int i = 0; i < count; ++i) {
+        const double torque = 100.0 * (1 + i % 3);
+        out.size.push_back(fault > 0.0 ? 1e-3 : 0.0);
+        out.torque.push_back(torque);
+        out.value.push_back(torque + fault + 0.1 * (i / 3));
+    }
+    return out;
+}
+
+DetectionRequest request() {
+    DetectionRequest out;
+    out.noise_levels = {1.0};
+    out.groups = {{1e-3, 1e-3}};
+    return out;
+}
+
+TEST_CASE("Thresholds by condition find what hides behind the torque") {
+    const Sample healthy = sample(597, 0.0);
+    const Sample faulty = sample(90, 30.0);
+    const FeatureSample one{healthy.size, healthy.value}, other{faulty.size, faulty.value};
+    // With one threshold only the highest torque alarms, healthy or not.
+    const FeatureDetection global = detect("f", Alarm::high, one, other, request());
+    CHECK(global.levels[0].cells[0].detected == 30);
+    const ConditionDetection own =
+        detect_by_condition("f", Alarm::high, one, other,
+                            {"torque_N_m", "N m", healthy.torque, faulty.torque}, request());
+    CHECK(own.refusal == "");
+    CHECK(own.warnings.empty());
+    REQUIRE(own.levels[0].thresholds.size() == 3);
+    // 199 values a torque: the 190th.
+    CHECK(own.levels[0].thresholds[0].threshold == Approx(100.0 + 18.9));
+    CHECK(own.levels[0].thresholds[2].threshold == Approx(300.0 + 18.9));
+    CHECK(own.levels[0].thresholds[1].sample == 199);
+    CHECK(own.levels[0].cells[0].detected == 90);
+    CHECK(own.levels[0].cells[0].tested == 90);
+}
+
+TEST_CASE("Conditions without a threshold do not count, continuous inputs are no conditions") {
+    const Sample healthy = sample(60, 0.0);
+    Sample faulty = sample(9, 5.0);
+    faulty.torque[0] = 700.0;
+    const FeatureSample one{healthy.size, healthy.value}, other{faulty.size, faulty.value};
+    const ConditionColumn column{"torque_N_m", "N m", healthy.torque, faulty.torque};
+    const ConditionDetection own =
+        detect_by_condition("f", Alarm::high, one, other, column, request());
+    CHECK(own.levels[0].without == 1);
+    CHECK(own.levels[0].cells[0].tested == 8);
+    REQUIRE(own.warnings.size() == 2);
+    CHECK_THAT(own.warnings[0], Catch::Contains("3 of 3 conditions of torque_N_m have too few"));
+    const ConditionColumn continuous{"f", "1", healthy.value, faulty.value};
+    CHECK_THAT(detect_by_condition("f", Alarm::high, one, other, continuous, request()).refusal,
+               Catch::Contains("conditions are levels"));
+    const ConditionColumn none{"torque_N_m", "N m", {}, {}};
+    CHECK(detect_by_condition("f", Alarm::high, {}, {}, none, request()).refusal ==
+          "no healthy gearboxes");
+    CHECK_THROWS_AS(detect_by_condition("f", Alarm::high, one, other, none, request()),
+                    std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gearpod::analysis

@@ -1,0 +1,176 @@
+#include <boost/math/distributions/normal.hpp>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "analysis/detection/detection.hpp"
+#include "analysis/detection/feature_alarm.hpp"
+#include "analysis/detection/reliable_size.hpp"
+#include "analysis/detection/threshold.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> counted(int n) {
+    std::vector<double> values;
+    for (int i = 1; i <= n; ++i) {
+        values.push_back(i);
+    }
+    return values;
+}
+
+TEST_CASE("The threshold is the order statistic that keeps the false-alarm rate") {
+    // 99 values at 5 %: (n+1)(1-rate) = 95 exactly, so the 95th, with 4 of the sample beyond.
+    const Threshold high = alarm_threshold(counted(99), Alarm::high, 0.05);
+    CHECK(high.value == 95.0);
+    CHECK(high.alarms == 4);
+    const Threshold low = alarm_threshold(counted(99), Alarm::low, 0.05);
+    CHECK(low.value == 5.0);
+    CHECK(low.alarms == 4);
+    CHECK(alarm_threshold(counted(100), Alarm::high, 0.05).value == 96.0);
+    CHECK(alarm_threshold(counted(19), Alarm::high, 0.05).value == 19.0);
+    CHECK(std::isnan(alarm_threshold(counted(18), Alarm::high, 0.05).value));
+    CHECK(std::isnan(alarm_threshold({}, Alarm::high, 0.05).value));
+}
+
+TEST_CASE("The expected false-alarm rate of a threshold is the one asked for, not above it") {
+    std::mt19937_64 engine(21);
+    std::normal_distribution<double> draw;
+    const boost::math::normal normal;
+    double sum = 0.0;
+    constexpr int kTrials = 4000;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        std::vector<double> healthy(39);
+        for (double& value : healthy) {
+            value = draw(engine);
+        }
+        sum += cdf(complement(normal, alarm_threshold(healthy, Alarm::high, 0.05).value));
+    }
+    // (n+1)(1-rate) = 38 is whole, so the rate is met exactly: 2/40. Its standard deviation in one
+    // trial is that of Beta(2, 38), 0.034; of the mean 5.4e-4.
+    CHECK(sum / kTrials == Approx(0.05).margin(4 * 5.4e-4));
+}
+
+TEST_CASE("Values at the threshold raise no alarm, values that are not numbers never do") {
+    CHECK(!is_alarm(2.0, 2.0, Alarm::high));
+    CHECK(is_alarm(2.1, 2.0, Alarm::high));
+    CHECK(!is_alarm(2.0, 2.0, Alarm::low));
+    CHECK(is_alarm(1.9, 2.0, Alarm::low));
+    CHECK(!is_alarm(kNan, 2.0, Alarm::low));
+    CHECK(!is_alarm(3.0, kNan, Alarm::high));
+}
+
+DetectionRequest request_for(std::vector<SizeGroup> groups, std::vector<double> levels) {
+    DetectionRequest request;
+    request.groups = std::move(groups);
+    request.noise_levels = std::move(levels);
+    return request;
+}
+
+TEST_CASE("Alarms are counted per size and noise level, failures apart") {
+    // Two noise levels: values, and values shifted so that nothing alarms.
+    std::vector<double> healthy;
+    for (const double value : counted(99)) {
+        healthy.push_back(value);
+        healthy.push_back(value + 1000.0);
+    }
+    const std::vector<double> none(99, 0.0);
+    const std::vector<double> size{0.0, 1e-3, 1e-3, 2e-3, 2e-3, 2e-3};
+    const std::vector<double> values{1.0,  0.0, 95.0, 0.0, 95.5,  0.0,
+                                     96.0, 0.0, kNan, 0.0, 200.0, 0.0};
+    const FeatureDetection result =
+        detect("f", Alarm::high, {none, healthy}, {size, values},
+               request_for({{0.0, 0.0}, {1e-3, 1e-3}, {2e-3, 2e-3}}, {1.0, 2.0}));
+    REQUIRE(result.levels.size() == 2);
+    CHECK(result.levels[0].threshold == 95.0);
+    CHECK(result.levels[1].threshold == 1095.0);
+    CHECK(result.levels[0].threshold_sample == 99);
+    const auto& cells = result.levels[0].cells;
+    REQUIRE(cells.size() == 3);
+    CHECK((cells[0].tested == 1 && cells[0].detected == 0));
+    CHECK((cells[1].tested == 2 && cells[1].detected == 1 && cells[1].pd == 0.5));
+    CHECK((cells[2].tested == 2 && cells[2].detected == 2 && cells[2].failed == 1));
+    CHECK(cells[2].lower == Approx(2.0 / (2.0 + 3.841458820694124)));  // n/(n + z^2) at p = 1
+    CHECK(result.levels[1].cells[2].detected == 0);
+    REQUIRE(result.warnings.size() == 2);  // one a noise level
+    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 100"));
+}
+
+TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
+    const std::vector<double> none(19, 0.0);
+    const std::vector<double> size{0.0, 0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.1e-3};
+    const std::vector<double> values(6, 50.0);
+    const FeatureDetection result = detect("f", Alarm::high, {none, counted(19)}, {size, values},
+                                           request_for({{0.0, 1e-3}, {1e-3, 2e-3}}, {1.0}));
+    CHECK(result.levels[0].cells[0].tested == 2);
+    CHECK(result.levels[0].cells[1].tested == 3);
+    REQUIRE(result.warnings.size() == 2);
+    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy gearboxes fix"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("1 of 6 gearboxes"));
+}
+
+TEST_CASE("A healthy sample too small for the rate gives no rates, and says so") {
+    const std::vector<double> none(10, 0.0);
+    const std::vector<double> size{1e-3, 1e-3};
+    const std::vector<double> values{5.0, 50.0};
+    const FeatureDetection result = detect("f", Alarm::high, {none, counted(10)}, {size, values},
+                                           request_for({{1e-3, 1e-3}}, {1.0}));
+    CHECK(std::isnan(result.levels[0].threshold));
+    CHECK(std::isnan(result.levels[0].cells[0].pd));
+    CHECK(result.levels[0].cells[0].tested == 2);
+    REQUIRE(result.warnings.size() == 1);
+    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 19"));
+}
+
+TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported") {
+    std::vector<double> healthy = counted(20);
+    healthy[4] = kNan;
+    const std::vector<double> none(20, 0.0);
+    const FeatureDetection result =
+        detect("f", Alarm::low, {none, healthy}, {{}, {}}, request_for({{1e-3, 1e-3}}, {1.0}));
+    CHECK(result.levels[0].threshold_sample == 19);
+    CHECK(result.levels[0].threshold == 1.0);
+    REQUIRE(result.warnings.size() == 2);
+    CHECK_THAT(result.warnings[0], Catch::Contains("1 of 20 healthy"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy gearboxes fix"));
+}
+
+TEST_CASE("Samples and groups that do not fit are refused") {
+    const std::vector<double> two(2, 0.0);
+    const std::vector<double> three(3, 0.0);
+    CHECK_THROWS_AS(detect("f", Alarm::high, {two, three}, {two, two}, request_for({}, {1.0})),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(detect("f", Alarm::high, {two, two}, {two, two},
+                           request_for({{2e-3, 3e-3}, {1e-3, 2e-3}}, {1.0})),
+                    std::invalid_argument);
+}
+
+TEST_CASE("The reliable size needs all larger sizes above it and is never the healthy group") {
+    const auto cell = [](double size, double lower) {
+        DetectionCell c;
+        c.size = {size, size};
+        c.lower = lower;
+        return c;
+    };
+    LevelDetection level;
+    level.cells = {cell(0.0, 0.0), cell(1e-3, 0.95), cell(2e-3, 0.85), cell(3e-3, 0.92),
+                   cell(4e-3, 0.99)};
+    CHECK(reliable_size(level, 0.9)->high == 3e-3);
+    level.cells.back().lower = 0.5;
+    CHECK(!reliable_size(level, 0.9));
+    level.cells = {cell(0.0, 0.99), cell(1e-3, 0.95)};
+    CHECK(reliable_size(level, 0.9)->high == 1e-3);
+    level.cells.back().lower = kNan;
+    CHECK(!reliable_size(level, 0.9));
+}
+
+TEST_CASE("Features keep their alarm side in detection") {
+    CHECK(alarm_of(*features::find_feature("te_fc")) == Alarm::low);
+    CHECK(alarm_of(*features::find_feature("te_rms")) == Alarm::high);
+}
+
+}  // namespace
+}  // namespace gearpod::analysis

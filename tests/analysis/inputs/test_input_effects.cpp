@@ -1,0 +1,211 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "analysis/inputs/input_bins.hpp"
+#include "analysis/inputs/input_effects.hpp"
+#include "analysis/statistics/wilson.hpp"
+#include "tests/analysis/reference_data.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+using Where = SizeEstimate::Where;
+
+// A pod whose curve is given and not fitted: form and tested sizes are all that is taken from it.
+HitMissPod pod_of_form(const PodForm& form, double smallest, double largest) {
+    HitMissPod pod;
+    pod.chosen.curve = {form, 0.0, 0.0, 1.0};
+    pod.smallest = smallest;
+    pod.largest = largest;
+    return pod;
+}
+
+TEST_CASE("Test and a90 map agree with statsmodels and Fieller's bounds") {
+    const auto columns = reference_columns("inputs_300.csv");
+    const std::vector<int> hit(columns[2].begin(), columns[2].end());
+    const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.1, 20.0);
+    const InputEffects result =
+        input_effects(columns[0], hit, {{"z", "1", columns[1]}}, pod, {0.0, 5.0}, 0.95);
+    const InputEffect& z = result.inputs.at(0);
+    CHECK(z.degrees == 2);
+    CHECK(z.statistic == Approx(22.08586602).epsilon(1e-8));
+    CHECK(z.p_value == Approx(1.599982119e-05).epsilon(1e-6));
+    // reference/robustness_py.txt
+    const double a90[][4] = {{6.708111, 3.355907471, 3.672758021, 4.056032315},
+                             {8.792695, 3.085616424, 3.309180786, 3.599181739},
+                             {10.06425, 2.846893438, 3.065423489, 3.349432313},
+                             {11.279575, 2.599767996, 2.816876989, 3.097865396},
+                             {13.19128, 2.054896835, 2.395120559, 2.795355218}};
+    REQUIRE(z.values.size() == 5);
+    for (std::size_t i = 0; i < 5; ++i) {
+        CHECK(z.values[i] == Approx(a90[i][0]).epsilon(1e-9));
+        CHECK(z.a90[i].lower.size == Approx(a90[i][1]).epsilon(1e-7));
+        CHECK(z.a90[i].estimate.size == Approx(a90[i][2]).epsilon(1e-7));
+        CHECK(z.a90[i].upper.size == Approx(a90[i][3]).epsilon(1e-7));
+    }
+}
+
+TEST_CASE("Bins have equal counts and Wilson's bounds; few values have a bin each") {
+    std::vector<double> size, z, levels;
+    std::vector<int> hit;
+    for (int i = 0; i < 500; ++i) {
+        size.push_back(i % 2 == 0 ? 1.0 : 3.0);
+        z.push_back((i * 37) % 500);
+        levels.push_back(100.0 * (i % 3));
+        hit.push_back(i % 10 == 9 ? -1 : z.back() >= 250 ? 1 : 0);
+    }
+    const InputEffects result =
+        input_effects(size, hit, {{"z", "1", z}, {"levels", "1", levels}, {"fixed", "1", size}},
+                      pod_of_form({}, 1.0, 3.0), {3.0, 3.0}, 0.95);
+    const auto& bins = result.inputs.at(0).bins;
+    REQUIRE(bins.size() == 5);
+    long tested = 0;
+    for (const InputBin& bin : bins) {
+        CHECK(bin.tested == 40);  // 250 of size 3, of which 50 have no value
+        CHECK(bin.low <= bin.middle);
+        CHECK(bin.middle <= bin.high);
+        CHECK(bin.bounds.lower == wilson_interval(bin.detected, bin.tested, 0.95).lower);
+        tested += bin.tested;
+    }
+    CHECK(tested == 200);
+    CHECK(bins[0].pd == 0.0);
+    CHECK(bins[4].pd == 1.0);
+    const InputEffect& few = result.inputs.at(1);
+    REQUIRE(few.bins.size() == 3);
+    CHECK(few.bins[1].low == 100.0);
+    CHECK(few.bins[1].high == 100.0);
+    CHECK(few.values == std::vector<double>{0.0, 100.0, 200.0});
+}
+
+TEST_CASE("Values that repeat share a bin") {
+    const InputBins bins = equal_count_bins(std::vector<double>{5, 5, 5, 5, 5, 1, 2, 3, 4, 6}, 4);
+    CHECK(bins.of == std::vector<std::size_t>{2, 2, 2, 2, 2, 0, 0, 0, 1, 3});
+    CHECK(bins.bins == 4);
+    CHECK(equal_count_bins({}, 4).bins == 0);
+    CHECK(equal_count_bins(std::vector<double>{7, 7, 7}, 4).bins == 1);
+}
+
+// Gearboxes detected with probability F(-4 + 2 a + z), F logistic.
+struct Study {
+    std::vector<double> size, z, idle;
+    std::vector<int> hit;
+
+    Study(int count, unsigned seed, double effect = 1.0) {
+        std::mt19937_64 engine(seed);
+        std::uniform_real_distribution<double> draw;
+        std::normal_distribution<double> normal;
+        for (int i = 0; i < count; ++i) {
+            size.push_back(4.0 * (1.0 - draw(engine)));
+            z.push_back(normal(engine));
+            idle.push_back(normal(engine));
+            const double eta = -4.0 + 2.0 * size.back() + effect * z.back();
+            hit.push_back(draw(engine) < link_probability(Link::logit, eta) ? 1 : 0);
+        }
+    }
+};
+
+TEST_CASE("The curve of the study itself gives the map; the idle input has no effect") {
+    const Study study(2000, 3);
+    const HitMissPod pod = hit_miss_pod(
+        hit_miss_table(study.size, std::vector<char>(study.hit.begin(), study.hit.end())),
+        {0.0, 0.95});
+    REQUIRE(pod.refusal == "");
+    const InputEffects result =
+        input_effects(study.size, study.hit, {{"z", "1", study.z}, {"idle", "1", study.idle}}, pod,
+                      {1.0, 3.0}, 0.95);
+    CHECK(result.inputs[0].p_value < 1e-20);
+    CHECK(result.inputs[1].p_value > 0.05);
+    // a90 = (4 + ln 9 - z) / 2.
+    for (std::size_t i = 1; i < 5; ++i) {
+        const double truth = 0.5 * (4.0 + std::log(9.0) - result.inputs[0].values[i]);
+        CHECK(result.inputs[0].a90[i].estimate.size == Approx(truth).margin(0.25));
+    }
+}
+
+TEST_CASE("Sizes beyond the tested ones are not extrapolated") {
+    const Study study(2000, 3, 3.0);
+    const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.01, 4.0);
+    const InputEffects result =
+        input_effects(study.size, study.hit, {{"z", "1", study.z}}, pod, {1.0, 3.0}, 0.95);
+    // z = -1.64: (4 + 2.2 + 4.9) / 2 > 4; z = 1.64: 0.63.
+    CHECK(result.inputs[0].a90.front().estimate.where == Where::not_reached);
+    CHECK(result.inputs[0].a90.front().upper.where == Where::not_reached);
+    CHECK(result.inputs[0].a90.back().estimate.where == Where::reached);
+}
+
+TEST_CASE("One class, no gearbox, no curve: the reason instead of a number") {
+    Study study(200, 5);
+    const auto effects = [&](const std::vector<int>& hit, const HitMissPod& pod) {
+        return input_effects(study.size, hit, {{"z", "1", study.z}}, pod, {0.0, 4.0}, 0.95);
+    };
+    const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.01, 4.0);
+    for (const int outcome : {0, 1}) {
+        const InputEffects same = effects(std::vector<int>(200, outcome), pod);
+        CHECK(same.inputs[0].refusal == "all outcomes are alike");
+        CHECK(std::isnan(same.inputs[0].p_value));
+        CHECK(same.inputs[0].a90.empty());
+        CHECK(same.inputs[0].bins.size() == 5);
+    }
+    CHECK(effects(std::vector<int>(200, -1), pod).left_out == std::vector<std::string>{"z"});
+    HitMissPod none = pod;
+    none.refusal = "no threshold";
+    CHECK(effects(study.hit, none).inputs[0].refusal == "no threshold");
+    // Hits and misses that one input parts completely have no maximum.
+    std::vector<int> parted;
+    for (const double z : study.z) {
+        parted.push_back(z > 0.0 ? 1 : 0);
+    }
+    CHECK(!effects(parted, pod).inputs[0].refusal.empty());
+}
+
+TEST_CASE("Bins are of sizes at which detection is neither rare nor sure") {
+    const auto cell = [](double size, double pd) {
+        DetectionCell c;
+        c.size = {size, size};
+        c.pd = pd;
+        return c;
+    };
+    const SizeGroup middle =
+        transition_sizes({cell(0, 0.2), cell(1, 0.05), cell(2, 0.3), cell(3, 0.9), cell(4, 1.0)});
+    CHECK(middle.low == 2.0);
+    CHECK(middle.high == 3.0);
+    const SizeGroup nearest = transition_sizes({cell(0, 0.05), cell(1, 0.07), cell(2, 1.0)});
+    CHECK(nearest.low == 1.0);
+    CHECK(std::isnan(transition_sizes({cell(0, 0.05)}).low));
+    CHECK(!in_range(1.0, transition_sizes({})));
+}
+
+TEST_CASE("Bounds of the a90 map cover the truth, the test keeps its level", "[.coverage]") {
+    constexpr int kStudies = 2000;
+    const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.001, 4.0);
+    double upper[5] = {}, lower[5] = {}, false_alarms = 0.0;
+    for (int s = 0; s < kStudies; ++s) {
+        const Study study(600, 1000 + s, 0.6);
+        const InputEffects result =
+            input_effects(study.size, study.hit, {{"z", "1", study.z}, {"idle", "1", study.idle}},
+                          pod, {1.0, 3.0}, 0.95);
+        for (std::size_t i = 0; i < 5; ++i) {
+            const InputEffect& z = result.inputs[0];
+            const double truth = 0.5 * (4.0 + std::log(9.0) - 0.6 * z.values[i]);
+            const SizeBounds& a90 = z.a90.at(i);
+            upper[i] += a90.upper.where == Where::not_reached || a90.upper.size >= truth;
+            lower[i] += a90.lower.where == Where::reached && a90.lower.size <= truth;
+        }
+        // Alone, so that no adjustment hides the level.
+        false_alarms +=
+            input_effects(study.size, study.hit, {{"idle", "1", study.idle}}, pod, {1.0, 3.0}, 0.95)
+                .inputs[0]
+                .p_value < 0.05;
+    }
+    for (std::size_t i = 0; i < 5; ++i) {
+        CAPTURE(i, upper[i] / kStudies, lower[i] / kStudies);
+        CHECK(upper[i] / kStudies == Approx(0.95).margin(0.015));
+        CHECK(lower[i] / kStudies == Approx(0.95).margin(0.015));
+    }
+    CHECK(false_alarms / kStudies == Approx(0.05).margin(0.015));
+}
+
+}  // namespace
+}  // namespace gearpod::analysis

@@ -1,0 +1,47 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/statistics/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+TEST_CASE("Wilson intervals agree with the published examples") {
+    struct Row {
+        long detected, tested;
+        double lower, upper;
+    };
+    // Newcombe, Statistics in Medicine 17 (1998), 857-872, Table I, score method without continuity
+    // correction, 95 %.
+    for (const Row& row : {Row{81, 263, 0.2553, 0.3662}, Row{15, 148, 0.0624, 0.1605},
+                           Row{0, 20, 0.0, 0.1611}, Row{1, 29, 0.0061, 0.1718}}) {
+        const Interval interval = wilson_interval(row.detected, row.tested, 0.95);
+        CHECK(interval.lower == Approx(row.lower).margin(5.1e-5));
+        CHECK(interval.upper == Approx(row.upper).margin(5.1e-5));
+    }
+}
+
+TEST_CASE("Wilson bounds are the rates at which the observation is just z standard errors away") {
+    const double z = 2.5758293035489004;  // 99 %
+    for (const int detected : {3, 50, 97}) {
+        const Interval interval = wilson_interval(detected, 100, 0.99);
+        for (const double p : {interval.lower, interval.upper}) {
+            CHECK(std::abs(detected / 100.0 - p) == Approx(z * std::sqrt(p * (1.0 - p) / 100.0)));
+        }
+    }
+}
+
+TEST_CASE("Wilson intervals mirror, end exactly at 0 and 1, and need a sample") {
+    const Interval low = wilson_interval(7, 40, 0.9);
+    const Interval high = wilson_interval(33, 40, 0.9);
+    CHECK(low.lower == Approx(1.0 - high.upper));
+    CHECK(low.upper == Approx(1.0 - high.lower));
+    CHECK(wilson_interval(0, 12, 0.95).lower == 0.0);
+    CHECK(wilson_interval(12, 12, 0.95).upper == 1.0);
+    CHECK(std::isnan(wilson_interval(0, 0, 0.95).lower));
+    CHECK_THROWS_AS(wilson_interval(5, 4, 0.95), std::invalid_argument);
+    CHECK_THROWS_AS(wilson_interval(1, 4, 1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gearpod::analysis

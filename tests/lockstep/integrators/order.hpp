@@ -1,0 +1,65 @@
+// What tests of an integrator's order share: marches of one gearbox and how far apart they end, and
+// a gearbox without any transition.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lockstep/tile/mesh_march.hpp"
+#include "tests/lockstep/tian_gearbox.hpp"
+
+namespace gearpod::test {
+
+struct Marched {
+    lockstep::TileState state;
+    lockstep::MeshRecord record;  // of the last mesh period
+};
+
+// `meshes` mesh periods from `start`.
+inline Marched march(const lockstep::MarchPlan& plan, const dynamics::GearboxInputs& in,
+                     lockstep::TileState start, int meshes) {
+    const auto marching = lockstep::make_mesh_march<1>(plan, std::span(&in, 1));
+    Marched m{std::move(start), lockstep::make_record(plan, 1, false)};
+    for (int mesh = 0; mesh < meshes; ++mesh) {
+        (*marching)({}, m.state, m.record);
+    }
+    return m;
+}
+
+inline double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        largest = std::max(largest, std::abs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+// Tian's gearbox with nothing stiff but its one pair.
+inline dynamics::FixedShaftInputs soft_tian() {
+    dynamics::FixedShaftInputs in = TianGearbox::instance().inputs();
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.coupling_damping_N_m_s_rad[g] = 5.0;
+        in.bearing_damping_N_s_m[g] = 1.8e3;
+    }
+    return in;
+}
+
+// Its pair's stiffness swings as a sine about 8e8 N/m: no transition anywhere.
+inline lockstep::MarchPlan smooth_plan(int steps, lockstep::Integrator integrator) {
+    lockstep::MarchPlan plan = TianGearbox::instance().plan(20, steps, integrator);
+    plan.grid = lockstep::make_phase_grid(20, steps, {});
+    plan.grid.stage_nodes = lockstep::stage_nodes(integrator);
+    plan.nodes.stiffness.clear();
+    for (const lockstep::Step& step : plan.grid.steps) {
+        for (const double node : plan.grid.stage_nodes) {
+            const double phase = step.phase + node * step.length;
+            plan.nodes.stiffness.push_back(8e8 *
+                                           (1.0 + 0.3 * std::sin(2 * std::numbers::pi * phase)));
+        }
+    }
+    plan.nodes.damping_shape = plan.nodes.stiffness;
+    return plan;
+}
+
+}  // namespace gearpod::test

@@ -1,0 +1,179 @@
+// The explicit integrators' order: on a smooth stiffness, across contact transitions with a node on
+// each, and without such nodes; and the error that bs3 estimates.
+#include <catch2/catch.hpp>
+#include <complex>
+#include <numbers>
+
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+#include "tests/lockstep/integrators/order.hpp"
+#include "tests/lockstep/liang_train.hpp"
+#include "tests/lockstep/pair_of_masses.hpp"
+
+using namespace gearpod;
+using namespace gearpod::lockstep;
+using test::largest_difference;
+using test::LiangTrain;
+using test::march;
+using test::Marched;
+
+namespace {
+
+constexpr Integrator kExplicit[] = {Integrator::rk4, Integrator::bs3,
+                                    Integrator::central_difference};
+
+double order_of(Integrator integrator) {
+    return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::bs3 ? 3.0 : 2.0;
+}
+
+double largest(const machine::AlignedVector& a) {
+    return largest_difference(a, machine::AlignedVector(a.size(), 0.0));
+}
+
+// Slope of log error over log step, by least squares.
+double slope(const std::vector<double>& steps, const std::vector<double>& errors) {
+    double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
+    const double n = static_cast<double>(steps.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        mx -= std::log(steps[i]) / n;
+        my += std::log(errors[i]) / n;
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const double x = -std::log(steps[i]) - mx;
+        xx += x * x;
+        xy += x * (std::log(errors[i]) - my);
+    }
+    return xy / xx;
+}
+
+// Liang's train at twenty times its speed, 24 samples; with no node on the transitions if asked.
+MarchPlan liang_plan(int steps, Integrator integrator, bool nodes_on_transitions) {
+    const auto& train = LiangTrain::instance();
+    MarchPlan plan = train.plan(24, steps, dynamics::Motion::translational_torsional);
+    plan.integrator = integrator;
+    if (!nodes_on_transitions) {
+        plan.grid = make_phase_grid(24, steps, {});
+    }
+    plan.grid.stage_nodes = stage_nodes(integrator);
+    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
+    return plan;
+}
+
+}  // namespace
+
+TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
+    const dynamics::FixedShaftInputs in = test::soft_tian();
+    const MarchPlan fine = test::smooth_plan(12800, Integrator::rk4);
+    const dynamics::GearboxInputs inputs = in;
+    TileState away = rest_state(fine, std::span(&inputs, 1));
+    away.q[dynamics::u_1] += 2e-6;
+    const Marched exact = march(fine, in, away, 2);
+    for (const Integrator integrator : kExplicit) {
+        std::vector<double> motions, sensors;
+        for (const int steps : {400, 800, 1600}) {
+            const Marched m = march(test::smooth_plan(steps, integrator), in, away, 2);
+            motions.push_back(largest_difference(m.state.q, exact.state.q));
+            sensors.push_back(largest_difference(m.record.acceleration, exact.record.acceleration));
+        }
+        CHECK(slope({400, 800, 1600}, motions) == Approx(order_of(integrator)).margin(0.25));
+        CHECK(slope({400, 800, 1600}, sensors) == Approx(order_of(integrator)).margin(0.25));
+    }
+}
+
+TEST_CASE(
+    "Explicit integrators keep their order across transitions with nodes, else have order 1") {
+    const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
+    const MarchPlan fine = liang_plan(19200, Integrator::rk4, true);
+    const TileState rest = rest_state(fine, std::span(&in, 1));
+    const Marched exact = march(fine, in, rest, 2);
+    for (const Integrator integrator : kExplicit) {
+        for (const bool nodes : {true, false}) {
+            // Several numbers of steps: without nodes the error depends on where within its step a
+            // transition falls.
+            std::vector<double> counts, motions, sensors;
+            for (const int steps : {960, 1080, 1320, 1560, 1920, 2280, 2760, 3240, 3840}) {
+                const Marched m = march(liang_plan(steps, integrator, nodes), in, rest, 2);
+                counts.push_back(steps);
+                motions.push_back(largest_difference(m.state.q, exact.state.q));
+                sensors.push_back(
+                    largest_difference(m.record.acceleration, exact.record.acceleration));
+            }
+            INFO("integrator " << static_cast<int>(integrator) << ", nodes " << nodes);
+            for (const auto& errors : {motions, sensors}) {
+                if (nodes) {
+                    CHECK(slope(counts, errors) == Approx(order_of(integrator)).margin(0.3));
+                } else {
+                    CHECK(slope(counts, errors) < 1.3);
+                    CHECK(slope(counts, errors) > 0.3);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("A step of next to no length leaves an explicit march as it is") {
+    const dynamics::GearboxInputs in = LiangTrain::instance().inputs(20.0);
+    const TileState rest = rest_state(liang_plan(1200, Integrator::rk4, true), std::span(&in, 1));
+    for (const Integrator integrator : kExplicit) {
+        const MarchPlan plan = liang_plan(1200, integrator, true);
+        MarchPlan cut = plan;
+        std::vector<double> transitions = contact_transitions(LiangTrain::instance().pairs);
+        transitions.push_back(0.3 + 1e-11);  // just after a node
+        cut.grid = make_phase_grid(24, 1200, transitions);
+        cut.grid.stage_nodes = stage_nodes(integrator);
+        cut.nodes = tabulate(LiangTrain::instance().pairs, cut.grid, dynamics::MeshDamping::ratio);
+        REQUIRE(cut.grid.steps.size() == plan.grid.steps.size() + 1);
+        for (const Precision precision :
+             {Precision::double_precision, Precision::single_precision}) {
+            if (precision == Precision::single_precision && !marches_singles(integrator)) {
+                continue;
+            }
+            MarchPlan whole = plan;
+            whole.precision = cut.precision = precision;
+            const Marched a = march(whole, in, rest, 2), b = march(cut, in, rest, 2);
+            INFO(name(integrator) << (precision == Precision::single_precision ? " single" : ""));
+            CHECK(largest_difference(a.state.q, b.state.q) < 1e-5 * largest(a.state.q));
+            CHECK(largest_difference(a.record.acceleration, b.record.acceleration) <
+                  1e-4 * largest(a.record.acceleration));
+        }
+    }
+}
+
+TEST_CASE("The error that bs3 estimates is the distance of its two solutions") {
+    // d'' = -w^2 d as z' = i w z, z = d + i d'/w: one step by the pair's printed coefficients.
+    using Complex = std::complex<double>;
+    test::PairOfMasses pair(dynamics::MeshLaw::linear, 4, 4e-5, 0.0, Integrator::bs3);
+    pair.plan.grid.stage_nodes.push_back(1.0);
+    const std::size_t nodes = pair.plan.grid.steps.size() * 4;
+    pair.plan.nodes.stiffness.clear();
+    pair.plan.nodes.damping_shape.clear();
+    for (std::size_t i = 0; i < nodes; ++i) {
+        pair.plan.nodes.stiffness.insert(pair.plan.nodes.stiffness.end(),
+                                         {test::PairOfMasses::kStiffness, 0.0});
+        pair.plan.nodes.damping_shape.insert(pair.plan.nodes.damping_shape.end(), {1.0, 0.0});
+    }
+    // The masses move against one another, the planet more.
+    const double share = test::PairOfMasses::kMass / test::PairOfMasses::kPlanet;
+    pair.state.q[2] = 1e-6 * test::PairOfMasses::kMass / test::PairOfMasses::kSun;
+    pair.state.q[3] = 1e-6 * share;
+    const dynamics::GearboxInputs inputs = pair.in;
+    MeshRecord record = make_record(pair.plan, 1, false);
+    record.estimate.resize(4 * kEstimateRows);
+    (*make_mesh_march<1>(pair.plan, std::span(&inputs, 1)))({}, pair.state, record);
+
+    const double w = pair.natural_rad_s(), h = 1e-5;
+    Complex z = 1e-6;
+    for (std::size_t step = 0; step < 4; ++step) {
+        const Complex rate(0.0, -w);
+        const Complex k1 = rate * z, k2 = rate * (z + h / 2 * k1), k3 = rate * (z + 0.75 * h * k2);
+        const Complex third = z + h * (2.0 / 9 * k1 + 1.0 / 3 * k2 + 4.0 / 9 * k3);
+        const Complex k4 = rate * third;
+        const Complex second = z + h * (7.0 / 24 * k1 + 1.0 / 4 * k2 + 1.0 / 3 * k3 + 1.0 / 8 * k4);
+        z = third;
+        const double* rows = record.estimate.data() + step * kEstimateRows;
+        CHECK(rows[0] == Approx(share * std::abs(third.real())).epsilon(1e-6));
+        CHECK(rows[1] == Approx(share * w * std::abs(third.imag())).epsilon(1e-6));
+        CHECK(rows[2] == Approx(share * std::abs((third - second).real())).epsilon(1e-6));
+        CHECK(rows[3] == Approx(share * w * std::abs((third - second).imag())).epsilon(1e-6));
+    }
+}

@@ -1,0 +1,357 @@
+// The implicit integrators against a much finer march by another method, a conserved energy and
+// each other's bits.
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/tile/mesh_march.hpp"
+#include "machine/dispatch.hpp"
+#include "tests/lockstep/integrators/order.hpp"
+#include "tests/lockstep/liang_train.hpp"
+
+using namespace gearpod;
+using namespace gearpod::lockstep;
+using test::largest_difference;
+using test::LiangTrain;
+using test::march;
+using test::Marched;
+using test::TianGearbox;
+
+namespace {
+
+constexpr Integrator kImplicit[] = {Integrator::newmark, Integrator::sdirk3,
+                                    Integrator::generalized_alpha};
+
+double order_of(Integrator integrator) {
+    return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::sdirk3 ? 3.0 : 2.0;
+}
+
+MarchPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
+    const auto& train = LiangTrain::instance();
+    MarchPlan plan = train.plan(24, steps, motion);
+    plan.integrator = integrator;
+    plan.grid.stage_nodes = stage_nodes(integrator);
+    plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+    return plan;
+}
+
+TileState state_at(const MarchPlan& plan, const Eigen::VectorXd& q) {
+    TileState state;
+    state.q.assign(q.begin(), q.end());
+    state.v.assign(state.q.size(), 0.0);
+    state.filter.assign(static_cast<std::size_t>(plan.channels() * kFilterStates), 0.0);
+    return state;
+}
+
+// One lane's values.
+std::vector<double> column(const machine::AlignedVector& values, std::size_t lane,
+                           std::size_t width) {
+    std::vector<double> result;
+    for (std::size_t i = lane; i < values.size(); i += width) {
+        result.push_back(values[i]);
+    }
+    return result;
+}
+
+// The record of a tile of eight again, from tiles of W.
+template <int W, class Faults>
+void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+                 const Faults& faults, const TileSettings& settings, std::size_t record,
+                 const TileResult& eight) {
+    for (std::size_t first = 0; first < 8; first += W) {
+        const TileResult tile =
+            run_tile<W>(plan, std::span(inputs).subspan(first, W), faults(first, W), settings);
+        for (std::size_t l = 0; l < W; ++l) {
+            const MeshRecord &a = tile.records[record], &b = eight.records[record];
+            CHECK(column(a.acceleration, l, W) == column(b.acceleration, first + l, 8));
+            CHECK(column(a.te, l, W) == column(b.te, first + l, 8));
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("The implicit integrators keep their order across contact transitions") {
+    const auto& train = LiangTrain::instance();
+    const auto in = train.inputs(20.0);
+    for (const auto motion :
+         {dynamics::Motion::translational_torsional, dynamics::Motion::torsional}) {
+        const MarchPlan fine = liang_plan(9600, motion, Integrator::rk4);
+        const std::vector<double> k(fine.nodes.stiffness.begin(), fine.nodes.stiffness.begin() + 8);
+        const Eigen::VectorXd rest =
+            dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, k));
+        const Marched exact = march(fine, in, state_at(fine, rest), 2);
+        for (const Integrator integrator : kImplicit) {
+            std::vector<double> motions, sensors;
+            for (const int steps : {2400, 4800}) {
+                const MarchPlan plan = liang_plan(steps, motion, integrator);
+                const Marched m = march(plan, in, state_at(plan, rest), 2);
+                motions.push_back(largest_difference(m.state.q, exact.state.q));
+                sensors.push_back(
+                    largest_difference(m.record.acceleration, exact.record.acceleration));
+            }
+            const double order = order_of(integrator);
+            CHECK(std::log2(motions[0] / motions[1]) == Approx(order).margin(0.25));
+            CHECK(std::log2(sensors[0] / sensors[1]) == Approx(order).margin(0.25));
+        }
+    }
+}
+
+TEST_CASE("Without nodes on the contact transitions every integrator falls to order 1") {
+    const auto& train = LiangTrain::instance();
+    const auto in = train.inputs(20.0);
+    const auto motion = dynamics::Motion::torsional;
+    const MarchPlan fine = liang_plan(9600, motion, Integrator::rk4);
+    const std::vector<double> k(fine.nodes.stiffness.begin(), fine.nodes.stiffness.begin() + 8);
+    const TileState start =
+        state_at(fine, dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, k)));
+    const Marched exact = march(fine, in, start, 2);
+    const auto error = [&](Integrator integrator, int steps, bool nodes) {
+        MarchPlan plan = liang_plan(steps, motion, integrator);
+        if (!nodes) {
+            plan.grid = make_phase_grid(24, steps, {});
+            plan.grid.stage_nodes = stage_nodes(integrator);
+            plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+        }
+        return largest_difference(march(plan, in, start, 2).state.q, exact.state.q);
+    };
+    for (const Integrator integrator : {Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
+                                        Integrator::generalized_alpha}) {
+        // Where a transition falls within its step is chance: the mean of three grids, over three
+        // octaves.
+        double coarse = 0.0, close = 0.0;
+        for (const int more : {0, 24, 48}) {
+            coarse += error(integrator, 2400 + more, false);
+            close += error(integrator, 8 * (2400 + more), false);
+        }
+        INFO("integrator " << static_cast<int>(integrator));
+        CHECK(std::log2(coarse / close) / 3.0 == Approx(1.0).margin(0.3));
+        CHECK(close / 3.0 > 5.0 * error(integrator, 19200, true));
+    }
+}
+
+TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
+    const dynamics::FixedShaftInputs in = test::soft_tian();
+    const MarchPlan fine = test::smooth_plan(3200, Integrator::rk4);
+    Eigen::VectorXd away = dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, {8e8}));
+    away(dynamics::u_1) += 2e-6;
+    const Marched exact = march(fine, in, state_at(fine, away), 3);
+    for (const Integrator integrator : kImplicit) {
+        std::vector<double> errors;
+        for (const int steps : {200, 400, 800}) {
+            const MarchPlan plan = test::smooth_plan(steps, integrator);
+            errors.push_back(largest_difference(march(plan, in, state_at(plan, away), 3).state.q,
+                                                exact.state.q));
+        }
+        const double order = order_of(integrator);
+        CHECK(std::log2(errors[0] / errors[1]) == Approx(order).margin(0.25));
+        CHECK(std::log2(errors[1] / errors[2]) == Approx(order).margin(0.15));
+    }
+}
+
+TEST_CASE("Newmark keeps the energy of an undamped, unloaded gearbox of constant stiffness") {
+    const auto energy = [](const dynamics::GearboxMatrices& m, const TileState& s) {
+        const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
+        const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
+        return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
+    };
+    dynamics::PlanetaryInputs train = LiangTrain::instance().inputs(20.0);
+    std::fill(std::begin(train.bearing_damping_N_s_m), std::end(train.bearing_damping_N_s_m), 0.0);
+    std::fill(std::begin(train.force_N), std::end(train.force_N), 0.0);
+    train.support_damping_N_s_m = train.mesh_damping = 0.0;
+    dynamics::FixedShaftInputs stage = TianGearbox::instance().inputs();
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        stage.bearing_damping_N_s_m[g] = stage.coupling_damping_N_m_s_rad[g] = 0.0;
+    }
+    stage.mesh_damping = stage.motor_torque_N_m = stage.load_torque_N_m = 0.0;
+
+    MarchPlan planetary =
+        liang_plan(1200, dynamics::Motion::translational_torsional, Integrator::newmark);
+    std::get<dynamics::PlanetaryLayout>(planetary.layout).inertial_terms = false;
+    const MarchPlan torsional = liang_plan(1200, dynamics::Motion::torsional, Integrator::newmark);
+    const MarchPlan fixed_shaft = TianGearbox::instance().plan(20, 200, Integrator::newmark);
+    const std::vector<std::pair<MarchPlan, dynamics::GearboxInputs>> scenes{
+        {planetary, train}, {torsional, train}, {fixed_shaft, stage}};
+    for (auto [plan, in] : scenes) {
+        std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 6e8);
+        const std::vector<double> k(static_cast<std::size_t>(plan.nodes.pairs), 6e8);
+        const auto matrices = dynamics::assemble(plan.layout, in, k);
+        Eigen::VectorXd away = 1e-6 * Eigen::VectorXd::LinSpaced(matrices.mass.rows(), -1.0, 2.0);
+        const TileState start = state_at(plan, away);
+        const Marched m = march(plan, in, start, 20);
+        CHECK(energy(matrices, m.state) == Approx(energy(matrices, start)).epsilon(1e-10));
+        CHECK(largest_difference(m.state.q, start.q) > 1e-7);  // it did move
+    }
+}
+
+TEST_CASE("Generalized-alpha lets decay what its steps cannot follow") {
+    // An undamped stage a million times stiffer than Tian's, in 60 steps of many periods each.
+    // Newmark's method keeps its energy; here rho^2 is left of it a step (2e-12 in all), once it
+    // has overshot in the first one.
+    const auto& gearbox = TianGearbox::instance();
+    dynamics::FixedShaftInputs in = gearbox.inputs();
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.bearing_damping_N_s_m[g] = in.coupling_damping_N_m_s_rad[g] = 0.0;
+        in.bearing_stiffness_N_m[g] *= 1e6;
+        in.coupling_stiffness_N_m_rad[g] *= 1e6;
+    }
+    in.mesh_damping = in.motor_torque_N_m = in.load_torque_N_m = 0.0;
+    for (const auto integrator : {Integrator::generalized_alpha, Integrator::newmark}) {
+        MarchPlan plan = gearbox.plan(20, 60, integrator);
+        plan.grid = make_phase_grid(20, 60, {});
+        plan.grid.stage_nodes = stage_nodes(integrator);
+        plan.nodes.stiffness.assign(180, 8e14);
+        plan.nodes.damping_shape = plan.nodes.stiffness;
+        const auto m = dynamics::assemble(plan.layout, in, {8e14});
+        const auto energy = [&](const TileState& s) {
+            const Eigen::Map<const Eigen::VectorXd> q(s.q.data(), m.mass.rows());
+            const Eigen::Map<const Eigen::VectorXd> v(s.v.data(), m.mass.rows());
+            return 0.5 * v.dot(m.mass * v) + 0.5 * q.dot(m.stiffness * q);
+        };
+        const TileState start = state_at(plan, 1e-6 * Eigen::VectorXd::LinSpaced(8, -1.0, 2.0));
+        const double left = energy(march(plan, in, start, 1).state) / energy(start);
+        if (integrator == Integrator::newmark) {
+            CHECK(left == Approx(1.0).epsilon(1e-6));
+        } else {
+            CHECK(left < 1e-5);
+        }
+    }
+}
+
+TEST_CASE("Implicit integrators settle on the orbit of Runge-Kutta") {
+    const auto& train = LiangTrain::instance();
+    const std::vector<dynamics::GearboxInputs> one{train.inputs(10.0)};
+    const auto full = dynamics::Motion::translational_torsional;
+    const TileResult exact =
+        run_tile<1>(liang_plan(4800, full, Integrator::rk4), one, train.no_fault(1), {});
+    double largest = 0.0;
+    for (const double a : exact.records[0].acceleration) {
+        largest = std::max(largest, std::abs(a));
+    }
+    for (const Integrator integrator : kImplicit) {
+        const TileResult tile =
+            run_tile<1>(liang_plan(4800, full, integrator), one, train.no_fault(1), {});
+        REQUIRE(tile.status[0] == LaneStatus::ok);
+        CHECK(largest_difference(tile.records[0].acceleration, exact.records[0].acceleration) <
+              2e-3 * largest);
+    }
+}
+
+TEST_CASE(
+    "Implicit marches give the same bits for eight lanes, four and one, on every instruction set") {
+    const auto& train = LiangTrain::instance();
+    const std::vector<double> depths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
+    std::vector<dynamics::GearboxInputs> inputs;
+    for (int l = 0; l < 8; ++l) {
+        inputs.push_back(train.inputs(10.0 + l, 1e8 * (0.8 + 0.05 * l)));
+    }
+    TileSettings settings;
+    settings.max_meshes = 4;
+    for (const Integrator integrator : kImplicit) {
+        const MarchPlan plan =
+            liang_plan(240, dynamics::Motion::translational_torsional, integrator);
+        settings.march_meshes = 6;
+        const auto cracks = [&](std::size_t first, std::ptrdiff_t count) {
+            const auto depth = depths.begin() + static_cast<std::ptrdiff_t>(first);
+            return train.ring_side_cracks({depth, depth + count});
+        };
+        const auto faults = cracks(0, 8);
+        const TileResult wide = run_tile<8>(plan, inputs, faults, settings);
+        check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
+        check_lanes<1>(plan, inputs, cracks, settings, 5, wide);
+        const machine::InstructionSet best = machine::best_instruction_set();
+        for (const auto set :
+             {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
+            if (set >= best) {
+                continue;
+            }
+            machine::use_instruction_set(set);
+            const TileResult other = run_tile<8>(plan, inputs, faults, settings);
+            check_lanes<4>(plan, inputs, cracks, settings, 5, wide);
+            machine::use_instruction_set(best);
+            CHECK(other.records[5].acceleration == wide.records[5].acceleration);
+            CHECK(other.records[5].te == wide.records[5].te);
+        }
+    }
+}
+
+TEST_CASE("Separating meshes march implicitly as they do explicitly") {
+    // A light load on Tian's gearbox with gentle dampers: a strong transmission error makes the
+    // teeth bounce, against their back flanks as well.
+    const auto& gearbox = TianGearbox::instance();
+    dynamics::FixedShaftInputs in = gearbox.inputs();
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.coupling_damping_N_m_s_rad[g] = 5.0;
+        in.bearing_damping_N_s_m[g] = 1.8e3;
+    }
+    in.motor_torque_N_m = 1.0;
+    in.load_torque_N_m = 48.0 / 19.0;
+    const auto plan_of = [&](int steps, Integrator integrator, double error_m,
+                             dynamics::MeshLaw law) {
+        MarchPlan plan = gearbox.plan(40, steps, integrator);
+        plan.mesh_law = law;
+        for (const Step& step : plan.grid.steps) {
+            for (const double node : plan.grid.stage_nodes) {
+                const double angle = 2 * std::numbers::pi * (step.phase + node * step.length);
+                plan.nodes.error.push_back(error_m * std::sin(angle));
+                plan.nodes.error_rate.push_back(2 * std::numbers::pi * error_m * std::cos(angle));
+            }
+        }
+        return plan;
+    };
+    const auto run = [&](const MarchPlan& plan, double backlash_m, int meshes) {
+        in.backlash_m = backlash_m;
+        const Eigen::VectorXd rest = dynamics::static_equilibrium(
+            dynamics::assemble(plan.layout, in, {plan.nodes.stiffness[0]}));
+        return march(plan, in, state_at(plan, rest), meshes).state.q;
+    };
+    using dynamics::MeshLaw;
+    for (const double backlash_m : {dynamics::kNoBackContact, 3e-6}) {
+        const auto exact =
+            run(plan_of(12800, Integrator::rk4, 5e-6, MeshLaw::separating), backlash_m, 2);
+        const auto linear =
+            run(plan_of(12800, Integrator::rk4, 5e-6, MeshLaw::with_error), backlash_m, 2);
+        double scale = 0.0;
+        for (const double q : exact) {
+            scale = std::max(scale, std::abs(q));
+        }
+        CHECK(largest_difference(exact, linear) > 0.1 * scale);  // the teeth did part
+        for (const Integrator integrator : kImplicit) {
+            const auto separating =
+                run(plan_of(6400, integrator, 5e-6, MeshLaw::separating), backlash_m, 2);
+            CHECK(largest_difference(separating, exact) < 2e-3 * scale);
+            const auto with_error =
+                run(plan_of(6400, integrator, 5e-6, MeshLaw::with_error), backlash_m, 2);
+            CHECK(largest_difference(with_error, linear) < 1e-4 * scale);
+        }
+    }
+    // Under full load and little error the teeth never part: the same motion as the linear mesh's.
+    in = gearbox.inputs();
+    for (const Integrator integrator : kImplicit) {
+        const auto separating = run(plan_of(400, integrator, 1e-7, MeshLaw::separating), 1e-4, 2);
+        const auto linear = run(plan_of(400, integrator, 1e-7, MeshLaw::with_error), 1e-4, 2);
+        CHECK(separating == linear);
+    }
+
+    // Lanes part and touch in different rounds, and keep their bits.
+    for (const auto g : {dynamics::pinion, dynamics::gear}) {
+        in.coupling_damping_N_m_s_rad[g] = 5.0;
+    }
+    std::vector<dynamics::GearboxInputs> lanes;
+    for (int l = 0; l < 8; ++l) {
+        in.motor_torque_N_m = 0.5 * l;
+        in.load_torque_N_m = in.motor_torque_N_m * 48.0 / 19.0;
+        in.backlash_m = 1e-6 * (1 + l);
+        lanes.push_back(in);
+    }
+    for (const Integrator integrator : kImplicit) {
+        const MarchPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
+        TileSettings settings;
+        settings.max_meshes = 1;
+        settings.march_meshes = 3;
+        const TileResult wide = run_tile<8>(plan, lanes, gearbox.no_fault(8), settings);
+        const auto healthy = [&](std::size_t, int count) { return gearbox.no_fault(count); };
+        check_lanes<4>(plan, lanes, healthy, settings, 2, wide);
+        check_lanes<1>(plan, lanes, healthy, settings, 2, wide);
+    }
+}

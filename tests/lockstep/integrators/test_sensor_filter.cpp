@@ -1,0 +1,91 @@
+// The sensor's low-pass against the closed form of a 4th-order Butterworth filter,
+// |H|^2 = 1 / (1 + (f / f_c)^8).
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "lockstep/integrators/sensor_filter.hpp"
+
+using namespace gearpod::lockstep;
+
+namespace {
+
+// Gain of the stepped filter for a sine at `frequency` (times the cutoff), from its steady
+// response.
+double gain(Integrator integrator, double frequency, double steps_per_cutoff_period) {
+    const double w = 2 * std::numbers::pi;  // cutoff 1 Hz
+    const double h = 1.0 / steps_per_cutoff_period;
+    double m[kFilterCoefficients];
+    filter_step(integrator, w, h, m);
+    // newmark has no middle: it takes the input at the start and the end; generalized-alpha does so
+    // a little before them. central-difference takes it at the middle alone.
+    const std::vector<double> given = stage_nodes(integrator);
+    const double lag = integrator == Integrator::generalized_alpha ? ChungHulbert::kLag : 0.0;
+    const std::vector<double> nodes = given.size() == 1 ? std::vector<double>(3, given[0])
+                                      : given.size() == 3 && lag == 0.0
+                                          ? given
+                                          : std::vector<double>{-lag, 0.5, 1.0 - lag};
+    double z[kFilterStates] = {};
+    double sine = 0.0, cosine = 0.0;
+    const auto input = [&](double t) { return std::sin(w * frequency * t); };
+    const int settle = static_cast<int>(20 / h), measure = static_cast<int>(10 / frequency / h);
+    for (int i = 0; i < settle + measure; ++i) {
+        const double t = i * h;
+        if (i >= settle) {
+            sine += z[kFilterOutput] * std::sin(w * frequency * t);
+            cosine += z[kFilterOutput] * std::cos(w * frequency * t);
+        }
+        double next[kFilterStates];
+        for (int r = 0; r < 2; ++r) {
+            next[r] = m[kFilterXX + 2 * r] * z[0] + m[kFilterXX + 2 * r + 1] * z[1];
+            next[2 + r] = m[kFilterYX + 2 * r] * z[0] + m[kFilterYX + 2 * r + 1] * z[1] +
+                          m[kFilterYY + 2 * r] * z[2] + m[kFilterYY + 2 * r + 1] * z[3];
+        }
+        for (int r = 0; r < kFilterStates; ++r) {
+            z[r] = next[r] + m[kFilterInput + r] * input(t + nodes[0] * h) +
+                   m[kFilterInput + 4 + r] * input(t + nodes[1] * h) +
+                   m[kFilterInput + 8 + r] * input(t + nodes[2] * h);
+        }
+    }
+    return 2.0 * std::hypot(sine, cosine) / measure;
+}
+
+double butterworth(double frequency) {
+    return 1.0 / std::sqrt(1.0 + std::pow(frequency, 8));
+}
+
+}  // namespace
+
+TEST_CASE("The low-pass has the gain of a 4th-order Butterworth filter") {
+    for (const double frequency : {0.1, 0.5, 1.0, 2.0, 4.0}) {
+        INFO("frequency over cutoff " << frequency);
+        CHECK(gain(Integrator::rk4, frequency, 100) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::bs3, frequency, 200) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::sdirk3, frequency, 400) ==
+              Approx(butterworth(frequency)).epsilon(2e-4));
+        CHECK(gain(Integrator::newmark, frequency, 800) ==
+              Approx(butterworth(frequency)).epsilon(2e-3));
+        CHECK(gain(Integrator::generalized_alpha, frequency, 800) ==
+              Approx(butterworth(frequency)).epsilon(2e-3));
+        CHECK(gain(Integrator::central_difference, frequency, 800) ==
+              Approx(butterworth(frequency)).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("The low-pass converges at its integrator's order in the step") {
+    // At twice the cutoff, where the gain is small and its error shows.
+    const auto order = [](Integrator integrator, double steps) {
+        const double coarse = std::abs(gain(integrator, 2.0, steps) - butterworth(2.0));
+        const double fine = std::abs(gain(integrator, 2.0, 2 * steps) - butterworth(2.0));
+        return std::log2(coarse / fine);
+    };
+    CHECK(order(Integrator::rk4, 40) > 3.5);
+    CHECK(order(Integrator::bs3, 80) > 2.7);
+    CHECK(order(Integrator::sdirk3, 80) > 2.7);
+    CHECK(order(Integrator::newmark, 80) == Approx(2.0).margin(0.1));
+    CHECK(order(Integrator::generalized_alpha, 80) == Approx(2.0).margin(0.1));
+    CHECK(order(Integrator::central_difference, 80) == Approx(2.0).margin(0.1));
+}

@@ -1,0 +1,184 @@
+// Single precision: what it costs in accuracy, and the same bits for any lanes.
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "lockstep/tile/mesh_march.hpp"
+#include "lockstep/tile/rigid_rotation.hpp"
+#include "machine/dispatch.hpp"
+#include "tests/lockstep/liang_train.hpp"
+
+using namespace gearpod;
+using namespace gearpod::lockstep;
+using test::LiangTrain;
+
+namespace {
+
+constexpr auto kFull = dynamics::Motion::translational_torsional;
+const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3,
+                                  0.0, 1.5e-3, 2e-3, 4e-3, 3e-3, 4.28e-3, 5e-3, 7e-3};
+
+MarchPlan by(Integrator integrator, MarchPlan plan) {
+    plan.integrator = integrator;
+    plan.grid.stage_nodes = stage_nodes(integrator);
+    plan.nodes =
+        tabulate(LiangTrain::instance().pairs, plan.grid, dynamics::mesh_damping(plan.layout));
+    return plan;
+}
+
+MarchPlan single(MarchPlan plan) {
+    plan.precision = Precision::single_precision;
+    return plan;
+}
+
+std::vector<dynamics::GearboxInputs> sixteen(double speedup) {
+    std::vector<dynamics::GearboxInputs> inputs;
+    for (int l = 0; l < 16; ++l) {
+        inputs.push_back(LiangTrain::instance().inputs(speedup, 1e8 * (0.8 + 0.025 * l)));
+    }
+    return inputs;
+}
+
+TileSettings settings() {
+    TileSettings s;
+    s.tolerance = 1e-5;
+    return s;
+}
+
+template <int W>
+TileResult tile(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+                std::size_t first, const TileSettings& how = settings()) {
+    const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
+    return run_tile<W>(plan, std::span(inputs).subspan(first, W),
+                       LiangTrain::instance().ring_side_cracks({depth, depth + W}), how);
+}
+
+// Lane `lane` of all records in the order in which the pattern shows them.
+std::vector<double> unrolled(const TileResult& tile, machine::AlignedVector MeshRecord::*member,
+                             std::size_t lane, std::size_t width) {
+    std::vector<double> all;
+    for (const int id : tile.content) {
+        const auto& values = tile.records[static_cast<std::size_t>(id)].*member;
+        for (std::size_t i = lane; i < values.size(); i += width) {
+            all.push_back(values[i]);
+        }
+    }
+    return all;
+}
+
+template <int W>
+void check_width(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+                 const TileResult& wide) {
+    for (std::size_t first = 0; first < 16; first += W) {
+        const TileResult narrow = tile<W>(plan, inputs, first);
+        for (std::size_t l = 0; l < W; ++l) {
+            for (const auto member : {&MeshRecord::acceleration, &MeshRecord::te}) {
+                CHECK(unrolled(narrow, member, l, W) == unrolled(wide, member, first + l, 16));
+            }
+        }
+    }
+}
+
+// rms of a - b over the rms of b about its mean.
+double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
+    double mean = 0.0, deviation = 0.0, own = 0.0;
+    for (const double x : b) {
+        mean += x / static_cast<double>(b.size());
+    }
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        deviation += (a[i] - b[i]) * (a[i] - b[i]);
+        own += (b[i] - mean) * (b[i] - mean);
+    }
+    return std::sqrt(deviation / own);
+}
+
+}  // namespace
+
+TEST_CASE("Sixteen singles, eight, four and one give the same bits, on every instruction set") {
+    const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
+    const MarchPlan plan = single(by(integrator, LiangTrain::instance().plan(24, 1200, kFull)));
+    const auto inputs = sixteen(10.0);
+    const TileResult wide = tile<16>(plan, inputs, 0);
+    CHECK(wide.status == std::vector(16, LaneStatus::ok));
+    check_width<8>(plan, inputs, wide);
+    check_width<4>(plan, inputs, wide);
+    check_width<1>(plan, inputs, wide);
+    const machine::InstructionSet best = machine::best_instruction_set();
+    for (const auto set : {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
+        if (set >= best) {
+            continue;
+        }
+        machine::use_instruction_set(set);
+        const TileResult other = tile<16>(plan, inputs, 0);
+        machine::use_instruction_set(best);
+        for (std::size_t l = 0; l < 16; ++l) {
+            CHECK(unrolled(other, &MeshRecord::te, l, 16) ==
+                  unrolled(wide, &MeshRecord::te, l, 16));
+            CHECK(unrolled(other, &MeshRecord::acceleration, l, 16) ==
+                  unrolled(wide, &MeshRecord::acceleration, l, 16));
+        }
+    }
+}
+
+TEST_CASE("Singles keep sensor signal and transmission error close to the doubles'") {
+    // Liang's own speed, where a step changes a motion by 1e-4 of itself, and ten times it, where
+    // a mesh period brings the orbit less far: that it counts as reached at 1e-5 then costs most.
+    const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
+    const int steps = integrator == Integrator::rk4 ? 5200 : 10400;
+    for (const auto& [speedup, allowed] : {std::pair{1.0, 1e-4}, std::pair{10.0, 5e-4}}) {
+        const MarchPlan plan =
+            by(integrator, LiangTrain::instance().plan(48, speedup > 1.0 ? 1200 : steps, kFull));
+        const auto inputs = sixteen(speedup);
+        const TileResult exact = tile<8>(plan, inputs, 0, {});
+        const TileResult rounded = tile<8>(single(plan), inputs, 0);
+        CHECK(rounded.status == std::vector(8, LaneStatus::ok));
+        for (std::size_t l = 0; l < 8; ++l) {
+            for (const auto member : {&MeshRecord::acceleration, &MeshRecord::te}) {
+                const double error =
+                    relative_rms(unrolled(rounded, member, l, 8), unrolled(exact, member, l, 8));
+                CHECK(error < allowed);
+                CHECK(error > 1e-9);  // they are not the doubles
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "Small steps do not drown in a single's rounding: an undamped mode swings as its cosine") {
+    const auto& train = LiangTrain::instance();
+    dynamics::PlanetaryInputs in = train.inputs();
+    std::fill(std::begin(in.bearing_damping_N_s_m), std::end(in.bearing_damping_N_s_m), 0.0);
+    std::fill(std::begin(in.force_N), std::end(in.force_N), 0.0);
+    in.support_damping_N_s_m = in.mesh_damping = 0.0;
+    in.mesh_period_s = 2e-3;
+    const auto integrator = GENERATE(Integrator::rk4, Integrator::central_difference);
+    MarchPlan plan = single(by(integrator, train.plan(10, 40000, kFull, false)));
+    std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 1.5e9);
+    const auto matrices = dynamics::assemble(plan.layout, in, std::vector<double>(8, 1.5e9));
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.stiffness,
+                                                                          matrices.mass);
+    const dynamics::GearboxInputs inputs = in;
+    for (const Eigen::Index mode : {1, 5}) {
+        const Eigen::VectorXd shape = 1e-6 * modes.eigenvectors().col(mode);
+        TileState state = rest_state(plan, std::span(&inputs, 1));
+        std::copy(shape.begin(), shape.end(), state.q.begin());
+        MeshRecord record = make_record(plan, 1, false);
+        (*make_mesh_march<1>(plan, std::span(&inputs, 1)))({}, state, record);
+        const double w = std::sqrt(modes.eigenvalues()(mode));
+        for (std::size_t d = 0; d < state.q.size(); ++d) {
+            const double expected =
+                shape(static_cast<Eigen::Index>(d)) * std::cos(w * in.mesh_period_s);
+            CHECK(state.q[d] == Approx(expected).margin(2e-6 * shape.cwiseAbs().maxCoeff()));
+        }
+    }
+}
+
+TEST_CASE("Singles march by two methods alone, and doubles at most eight abreast") {
+    const auto& train = LiangTrain::instance();
+    const auto inputs = sixteen(10.0);
+    MarchPlan plan = train.plan(24, 1200, kFull);
+    CHECK_THROWS_AS(make_mesh_march<16>(plan, inputs), std::invalid_argument);
+    for (const Integrator other : {Integrator::newmark, Integrator::sdirk3, Integrator::bs3}) {
+        plan.integrator = other;
+        CHECK_THROWS_AS(make_mesh_march<16>(single(plan), inputs), std::invalid_argument);
+    }
+}

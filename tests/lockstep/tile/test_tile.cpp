@@ -1,0 +1,157 @@
+// Tiles: the healthy orbit, the passage of a crack, and lanes that never feel their neighbours.
+#include <catch2/catch.hpp>
+
+#include "machine/dispatch.hpp"
+#include "tests/lockstep/liang_train.hpp"
+
+using namespace gearpod;
+using namespace gearpod::lockstep;
+using test::LiangTrain;
+
+namespace {
+
+constexpr auto kFull = dynamics::Motion::translational_torsional;
+
+// Ten times the speed keeps the mesh period short; the disturbance then spans several periods.
+constexpr double kSpeedup = 10.0;
+
+std::vector<dynamics::GearboxInputs> spread_inputs(double speedup = kSpeedup) {
+    std::vector<dynamics::GearboxInputs> inputs;
+    for (int l = 0; l < 8; ++l) {
+        inputs.push_back(LiangTrain::instance().inputs(speedup, 1e8 * (0.8 + 0.05 * l)));
+    }
+    return inputs;
+}
+
+std::vector<double> lane_of(const machine::AlignedVector& values, std::size_t lane,
+                            std::size_t width) {
+    std::vector<double> result;
+    for (std::size_t i = lane; i < values.size(); i += width) {
+        result.push_back(values[i]);
+    }
+    return result;
+}
+
+// Lane `lane`'s acceleration and TE over the whole pattern.
+std::vector<double> unrolled(const TileResult& tile, std::size_t lane, std::size_t width) {
+    std::vector<double> all;
+    for (const int id : tile.content) {
+        const MeshRecord& record = tile.records[static_cast<std::size_t>(id)];
+        for (const auto* values : {&record.acceleration, &record.te}) {
+            const auto one = lane_of(*values, lane, width);
+            all.insert(all.end(), one.begin(), one.end());
+        }
+    }
+    return all;
+}
+
+const std::vector<double> kDepths{0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 4.28e-3, 6e-3, 8.5e-3};
+
+// The gearboxes of a tile of eight again, W at a time.
+template <int W>
+void check_lanes(const MarchPlan& plan, const std::vector<dynamics::GearboxInputs>& inputs,
+                 const TileResult& eight) {
+    for (std::size_t first = 0; first < 8; first += W) {
+        const auto depth = kDepths.begin() + static_cast<std::ptrdiff_t>(first);
+        const TileResult tile =
+            run_tile<W>(plan, std::span(inputs).subspan(first, W),
+                        LiangTrain::instance().ring_side_cracks({depth, depth + W}), {});
+        for (std::size_t l = 0; l < W; ++l) {
+            CHECK(unrolled(tile, l, W) == unrolled(eight, first + l, 8));
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Eight lanes, four and one give the same bits, on every instruction set") {
+    const auto& train = LiangTrain::instance();
+    const MarchPlan plan = train.plan(24, 1200, kFull);
+    const auto inputs = spread_inputs();
+    const TileResult wide = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), {});
+    CHECK(wide.status == std::vector(8, LaneStatus::ok));
+    check_lanes<4>(plan, inputs, wide);
+    check_lanes<1>(plan, inputs, wide);
+    const machine::InstructionSet best = machine::best_instruction_set();
+    for (const auto set : {machine::InstructionSet::baseline, machine::InstructionSet::x86_64_v3}) {
+        if (set >= best) {
+            continue;
+        }
+        machine::use_instruction_set(set);
+        const TileResult other = run_tile<8>(plan, inputs, train.ring_side_cracks(kDepths), {});
+        check_lanes<4>(plan, inputs, wide);
+        machine::use_instruction_set(best);
+        for (std::size_t l = 0; l < 8; ++l) {
+            CHECK(unrolled(other, l, 8) == unrolled(wide, l, 8));
+        }
+    }
+}
+
+TEST_CASE("A diverging lane is reported and its neighbours keep their bits") {
+    const auto& train = LiangTrain::instance();
+    const MarchPlan plan = train.plan(24, 1200, kFull);
+    auto inputs = spread_inputs();
+    const auto faults = train.ring_side_cracks(kDepths);
+    const TileResult before = run_tile<8>(plan, inputs, faults, {});
+    std::get<dynamics::PlanetaryInputs>(inputs[3]).mass_kg[dynamics::sun] =
+        1e-7;  // far too light for this step
+    const TileResult after = run_tile<8>(plan, inputs, faults, {});
+    for (std::size_t l = 0; l < 8; ++l) {
+        if (l == 3) {
+            CHECK(after.status[l] == LaneStatus::diverged);
+            CHECK(std::isnan(after.records[0].te[l]));
+        } else {
+            CHECK(after.status[l] == LaneStatus::ok);
+            CHECK(unrolled(after, l, 8) == unrolled(before, l, 8));
+        }
+    }
+}
+
+TEST_CASE("Reused orbits and passages agree with marching every mesh period") {
+    const auto& train = LiangTrain::instance();
+    const auto inputs = spread_inputs();
+    // Decay within a few periods, and a disturbance that outlives the pattern.
+    for (const double speedup : {kSpeedup, 60.0}) {
+        const MarchPlan plan = train.plan(24, 1200, kFull);
+        const std::vector<dynamics::GearboxInputs> one{train.inputs(speedup)};
+        const auto faults = train.ring_side_cracks({4.28e-3});
+        TileSettings reuse;
+        reuse.max_meshes = 2000;
+        TileSettings march = reuse;
+        march.march_meshes = 31 * 12;
+        const TileResult a = run_tile<1>(plan, one, faults, reuse);
+        const TileResult b = run_tile<1>(plan, one, faults, march);
+        REQUIRE(a.status[0] == LaneStatus::ok);
+        double difference = 0.0, scale = 0.0;
+        for (std::size_t k = 31 * 11; k < 31 * 12; ++k) {  // once the march has settled as well
+            const auto& ra = a.records[static_cast<std::size_t>(a.content[k % 31])];
+            const auto& rb = b.records[static_cast<std::size_t>(b.content[k])];
+            for (std::size_t i = 0; i < ra.acceleration.size(); ++i) {
+                difference =
+                    std::max(difference, std::abs(ra.acceleration[i] - rb.acceleration[i]));
+                scale = std::max(scale, std::abs(rb.acceleration[i]));
+            }
+        }
+        INFO("speedup " << speedup << ", records " << a.records.size());
+        CHECK(difference < 1e-6 * scale);
+    }
+}
+
+TEST_CASE("A gearbox without a fault shows one mesh period, at rest in the mean") {
+    const auto& train = LiangTrain::instance();
+    const MarchPlan plan = train.plan(24, 1200, kFull);
+    const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
+    const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), {});
+    CHECK(tile.records.size() == 1);
+    CHECK(tile.content == std::vector<int>{0});
+    // The orbit repeats, so the vibration's mean acceleration is that of the frame alone: W^2 x.
+    for (std::size_t channel = 0; channel < 8; ++channel) {
+        double mean = 0.0, rms = 0.0;
+        for (std::size_t i = 0; i < 24; ++i) {
+            const double a = tile.records[0].acceleration[i * 8 + channel];
+            mean += a / 24;
+            rms += a * a / 24;
+        }
+        CHECK(std::abs(mean) < 0.05 * std::sqrt(rms));
+    }
+}

@@ -1,0 +1,263 @@
+// What accuracy costs: errors against closed forms and an independent method, and the choice that
+// numerics.tolerance makes.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "mc/accuracy/report.hpp"
+#include "mc/commands/commands.hpp"
+#include "mc/numerics/choice.hpp"
+#include "mc/numerics/ladder.hpp"
+#include "mc/numerics/numerical_error.hpp"
+#include "mc/numerics/reference.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+using test::shipped_study;
+
+namespace {
+
+// Tian's cracked pinion behind a sensor of a narrower band, so that it is cheap.
+const std::vector<std::string> kNarrow{"sensor.sampling_Hz=34200", "sensor.low_pass_Hz=15390",
+                                       "sensor.encoder_sampling_Hz=34200"};
+
+Study tian(std::vector<std::string> more = {}) {
+    more.insert(more.end(), kNarrow.begin(), kNarrow.end());
+    return shipped_study("tian-fig-4-9.toml", more);
+}
+
+Reference tian_reference() {
+    const Scene scene(tian());
+    ReferenceRequest request;
+    request.agreement = 1e-6;
+    return converged_reference(tian(), Pilot(scene), request);
+}
+
+PilotRecord record(std::vector<double> sensor, std::vector<double> te,
+                   std::vector<double> features) {
+    PilotRecord r;
+    r.ok = {true};
+    r.sensor = {std::move(sensor)};
+    r.te = {std::move(te)};
+    r.features_used = static_cast<int>(features.size());
+    r.features = {std::move(features)};
+    r.levels = 1;
+    return r;
+}
+
+}  // namespace
+
+TEST_CASE("errors of a pilot are relative L2 norms") {
+    const PilotRecord reference = record({3.0, 4.0}, {1.0, -1.0}, {10.0, -2.0});
+    const PilotRecord other = record({3.0, 4.5}, {1.0, -1.0}, {10.1, -2.0});
+    const PilotError error = pilot_error(other, reference);
+    CHECK(error.sensor == Approx(0.5 / 5.0));
+    CHECK(error.te == 0.0);
+    CHECK(error.feature(0, 1) == Approx(0.01));
+    CHECK(error.feature(1, 1) == 0.0);
+    CHECK(error.largest_feature() == Approx(0.01));
+    CHECK(error.largest[0] == Approx(0.1));
+
+    PilotRecord failed = other;
+    failed.ok = {false};
+    CHECK(std::isinf(pilot_error(failed, reference).sensor));
+    CHECK(std::isinf(pilot_error(failed, reference).largest_feature()));
+}
+
+TEST_CASE("the reference is what two independent methods converge to", "[accuracy]") {
+    const Reference reference = tian_reference();
+    CHECK(reference.reached);
+    CHECK(reference.first.integrator != reference.second.integrator);
+    CHECK(reference.agreement.signals() <= 1e-6);
+    CHECK(reference.agreement.sensor > 0.0);
+}
+
+TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") {
+    const Reference reference = tian_reference();
+    const Scene own(tian());
+    const Pilot pilot(own);
+    const PilotRecord before = pilot.run(own);
+    double cost = std::numeric_limits<double>::infinity();
+    for (const double tolerance : {1e-4, 1e-3, 1e-2}) {
+        const Scene scene(tian({"numerics.tolerance=" + std::to_string(tolerance)}));
+        REQUIRE(scene.numerics_choice() != nullptr);
+        const PilotRecord found = pilot.run(scene);
+        CHECK(pilot_error(found, reference.record).largest_feature() <= 1.1 * tolerance);
+        const NumericsChoice& choice = *scene.numerics_choice();
+        CHECK(choice.error <= tolerance);
+        CHECK(choice.cost <= cost);  // a looser tolerance never costs more
+        cost = choice.cost;
+    }
+    CHECK(cost < 0.3 * step_cost(own.study(), "sdirk3", {}).value() * before.steps *
+                     before.meshes_per_tile());
+}
+
+TEST_CASE("a tolerance chooses the same on any lanes and instruction set", "[accuracy]") {
+    const NumericsChoice choice = *choose_numerics(tian({"numerics.tolerance=1e-3"}));
+    for (const char* other : {"numerics.lanes=1", "numerics.instruction_set=baseline"}) {
+        const Study study = tian({"numerics.tolerance=1e-3", other});
+        const NumericsChoice again = *choose_numerics(study);
+        CHECK(again.rung.text() == choice.rung.text());
+        CHECK(again.error == choice.error);
+    }
+}
+
+TEST_CASE("a study with its choice spelled out reads back to the same choice", "[accuracy]") {
+    const Scene scene(tian({"numerics.tolerance=1e-3"}));
+    const StudyReading back = read_study_text(resolved_text(scene.study()), "resolved");
+    INFO(format(back.problems));
+    REQUIRE(back.study.has_value());
+    CHECK(*back.study == scene.study());
+    CHECK(Scene(*back.study).study() == scene.study());
+}
+
+TEST_CASE("a tolerance that the steps given cannot keep is refused", "[accuracy]") {
+    const Study study = tian(
+        {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
+    CHECK_THROWS_AS(Scene(study), SceneError);
+    CHECK_THROWS_WITH(Scene(study), Catch::Contains("no rung keeps the features within 0.001"));
+}
+
+TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]") {
+    for (const std::string& integrator : integrator_names()) {
+        INFO(integrator);
+        CHECK(step_cost(tian(), integrator, {}).has_value());
+    }
+}
+
+// Newmark has order 2: four times the steps leave a sixteenth of its error.
+TEST_CASE("the numerical error that finer steps find is the error against a reference",
+          "[accuracy]") {
+    const Scene scene(tian(
+        {"numerics.verify=true", "numerics.integrator=newmark", "numerics.steps_per_mesh=480"}));
+    const auto found = find_numerical_error(scene);
+    REQUIRE(found.has_value());
+    CHECK(found->gearboxes == 8);
+    const Pilot pilot(scene);  // the study has two kinds of gearboxes, and both pilots hold them
+    const PilotError error = pilot_error(pilot.run(scene), tian_reference().record);
+    const auto& use = scene.study().features.use;
+    const auto rms =
+        static_cast<std::size_t>(std::find(use.begin(), use.end(), "sensor_rms") - use.begin());
+    CHECK(found->rms[rms] == Approx(error.rms[rms]).epsilon(0.15));
+    CHECK(found->largest[rms] >= found->rms[rms]);
+    CHECK_FALSE(find_numerical_error(Scene(tian())).has_value());
+}
+
+TEST_CASE("the share of verdicts that a numerical error could turn is counted", "[accuracy]") {
+    Results r;
+    r.parameters = {{"fault_depth_m", "m", {}}};
+    r.noise_levels = {1.0};
+    r.features = {{"te_rms", "rad", analysis::Alarm::high, {}}};
+    r.request = {0.05, 0.95, {1.0}, {{0.001, 0.001}}, {"fault_depth_m", "m"}};
+    for (int i = 0; i < 100; ++i) {  // healthy: 0, 0.01, ...; faulty: 0.5, 0.51, ...
+        r.group.push_back(static_cast<int>(Group::threshold));
+        r.parameters[0].values.push_back(0.0);
+        r.features[0].values.push_back(0.01 * i);
+    }
+    for (int i = 0; i < 100; ++i) {
+        r.group.push_back(static_cast<int>(Group::graded));
+        r.parameters[0].values.push_back(0.001);
+        r.features[0].values.push_back(0.5 + 0.01 * i);
+    }
+    r.status.assign(r.group.size(), 0);
+    analysis::LevelDetection level;
+    level.noise_level = 1.0;
+    level.threshold = 0.955;
+    level.cells = {{{0.001, 0.001}, 100, 54, 0, 0.54, 0.44, 0.64, {}}};
+    r.detection = {{"te_rms", analysis::Alarm::high, {level}, {}}};
+    // Within 2 x 0.01 of 0.955 lie 0.94, 0.95, 0.96 and 0.97.
+    r.numerical = NumericalError{"here", "finer", 8, {0.004}, {0.01}};
+    const auto shares = numerical_shares(r, ColumnRows(r), std::nullopt);
+    REQUIRE(shares.size() == 1);
+    CHECK(shares[0].pd == Approx(0.04));
+    CHECK(shares[0].pd_half_width == Approx(0.1));
+    CHECK_FALSE(shares[0].numerical_dominates);
+    // Standard deviation of 0 ... 99 is sqrt(100 101 / 12).
+    CHECK(shares[0].spread == Approx(0.01 * std::sqrt(100.0 * 101.0 / 12.0)));
+    CHECK(std::isnan(shares[0].a90));
+
+    r.numerical->largest = {0.1};
+    CHECK(numerical_shares(r, ColumnRows(r), std::nullopt)[0].numerical_dominates);
+
+    const test::Folder folder;
+    write_results(folder.file("r.h5"), r);
+    const Results back = read_results(folder.file("r.h5"));
+    REQUIRE(back.numerical.has_value());
+    CHECK(back.numerical->rung == "here");
+    CHECK(back.numerical->gearboxes == 8);
+    CHECK(back.numerical->rms == r.numerical->rms);
+    CHECK(back.numerical->largest == r.numerical->largest);
+}
+
+namespace {
+
+std::string sets() {
+    std::string text;
+    for (const std::string& key : kNarrow) {
+        text += " --set " + key;
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("accuracy lists every rung, marks the frontier and says what is refused", "[accuracy]") {
+    const test::Folder folder;
+    test::write_bytes(
+        folder.file("peers.csv"),
+        "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
+    const test::Outcome run =
+        test::program("accuracy " + test::study("tian-fig-4-9.toml") + sets() +
+                      " --quiet --repeats 1 --gearboxes 0 --peers " + folder.file("peers.csv") +
+                      " --json " + folder.file("accuracy.json"));
+    INFO(run.output);
+    REQUIRE(run.code == kDone);
+    CHECK(run.mentions("refused: the explicit method would need"));
+    const auto json = nlohmann::json::parse(test::bytes_of(folder.file("accuracy.json")));
+    CHECK(json["reference"]["agreement"]["sensor"].get<double>() < 1e-7);
+    CHECK(json["explicit_limit"]["refused"].get<bool>());
+    CHECK(json["explicit_limit"]["steps"].get<double>() > 8e5);
+    CHECK(json["peers"][0]["command"].get<std::string>() == "a, b");
+    CHECK(json["peers"][0]["worst_feature"].get<double>() == 0.3);
+    std::vector<std::pair<double, double>> frontier;
+    double fastest = 1e9, closest = 1e9;
+    for (const auto& rung : json["rungs"]) {
+        // A rung may be unstable: then it has no error.
+        if (rung.contains("refused") || rung["error"]["worst_feature"].is_null()) {
+            continue;
+        }
+        const double error = rung["error"]["worst_feature"], time = rung["gearbox_s"];
+        fastest = std::min(fastest, time);
+        closest = std::min(closest, error);
+        if (rung["frontier"].get<bool>()) {
+            frontier.emplace_back(time, error);
+        }
+    }
+    std::sort(frontier.begin(), frontier.end());
+    REQUIRE(frontier.size() > 2);
+    CHECK(frontier.front().first == fastest);
+    CHECK(frontier.back().second == closest);
+    for (std::size_t i = 1; i < frontier.size(); ++i) {
+        CHECK(frontier[i].second < frontier[i - 1].second);
+    }
+    // 1e-3 is kept with fewer steps and less settling than the study's own.
+    CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
+    CHECK(json["choices"][1].contains("chosen"));
+}
+
+TEST_CASE("accuracy says what it cannot do", "[accuracy]") {
+    const test::Outcome still = test::program("accuracy " + test::study("park-fig-13.toml"));
+    CHECK(still.code == kBadInput);
+    CHECK(still.mentions("effects.motion"));
+    const test::Folder folder;
+    test::write_bytes(folder.file("bad.csv"),
+                      "name,command,march_s,mesh_s,sensor,te\nx,y,1,2,z,3\n");
+    const test::Outcome bad = test::program("accuracy " + test::study("tian-fig-4-9.toml") +
+                                            " --quiet --peers " + folder.file("bad.csv"));
+    CHECK(bad.code == kBadInput);
+    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is no number >= 0"));
+}

@@ -1,0 +1,230 @@
+// gearpod features: a measured signal's features.
+#include <matio.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "features/feature.hpp"
+#include "mc/files/hdf5_data.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::string kReference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
+const std::string kSmall = kReference + "small.toml";
+
+nlohmann::json features_of(const std::string& signal, const std::string& options) {
+    const Outcome outcome = program("features " + signal + " --study " + options + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.output);
+}
+
+using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
+
+void write_csv(const std::string& path, const Columns& columns, const char* separator = ",") {
+    std::ofstream stream(path);
+    stream.precision(17);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        stream << (c == 0 ? "" : separator) << columns[c].first;
+    }
+    for (std::size_t i = 0; i < columns[0].second.size(); ++i) {
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            stream << (c == 0 ? "\n" : separator) << columns[c].second[i];
+        }
+    }
+    stream << "\n";
+}
+
+void write_mat(const std::string& path, const Columns& columns, bool rows) {
+    mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+    REQUIRE(file != nullptr);
+    for (const auto& [name, values] : columns) {
+        std::size_t dims[2] = {rows ? 1 : values.size(), rows ? values.size() : 1};
+        matvar_t* variable =
+            Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims,
+                          const_cast<double*>(values.data()), MAT_F_DONT_COPY_DATA);
+        REQUIRE(Mat_VarWrite(file, variable, MAT_COMPRESSION_ZLIB) == 0);
+        Mat_VarFree(variable);
+    }
+    Mat_Close(file);
+}
+
+Columns simulated(const std::string& path) {
+    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+    const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
+    Columns columns;
+    for (const char* name : {"time", "mesh_phase", "sensor_noise_1", "te"}) {
+        columns.emplace_back(name, mc::read_numbers(group.get(), name, 1000000).values);
+    }
+    return columns;
+}
+
+std::vector<double> simulated_feature(const std::string& path, const std::string& name) {
+    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+    const mc::Hdf5Handle group = mc::open_group(file.get(), "features");
+    return mc::read_numbers(group.get(), name, 100).values;
+}
+
+// tests/features/reference/README.md: definitions in numpy on stored signals.
+TEST_CASE("Every feature equals what numpy makes of the same signals") {
+    const auto result = features_of(kReference + "faulty.csv", kSmall + " --healthy " + kReference +
+                                                                   "healthy-1.csv --healthy " +
+                                                                   kReference + "healthy-2.csv");
+    std::ifstream stream(kReference + "expected.json");
+    const auto expected = nlohmann::json::parse(stream);
+    CHECK(result["unavailable"].empty());
+    for (const features::Feature& feature : features::all_features()) {
+        const std::string name(feature.name);
+        INFO(name);
+        REQUIRE(expected.contains(name));
+        const double numpy = expected[name];
+        CHECK(std::abs(result["features"][name].get<double>() - numpy) <= 1e-9 * std::abs(numpy));
+    }
+}
+
+TEST_CASE("A simulated signal that is read back has the features that the simulation had") {
+    const Folder folder;
+    const std::string options =
+        kSmall + " --set fault.reduction=0.5 --set 'sensor.noise_levels=[0, 1]'";
+    REQUIRE(
+        program("simulate " + options + " --instance 2 --meshes 455 --out " + folder.file("s.h5"))
+            .code == 0);
+    const Columns columns = simulated(folder.file("s.h5"));
+    // One time base at a time: mesh phase, time, and the rate alone.
+    write_csv(folder.file("phase.csv"), {columns[1], columns[2], columns[3]}, ";");
+    write_csv(folder.file("time.csv"), {columns[0], columns[2], columns[3]}, "\t");
+    const double rate = 1.0 / columns[0].second[1];
+    write_mat(folder.file("rate.mat"), {{"sampling_Hz", {rate}}, columns[2], columns[3]}, true);
+    write_mat(folder.file("column.mat"), {columns[2], columns[3]}, false);
+    const std::string noisy = " --sensor sensor_noise_1 --noise-level 1";
+    for (const std::string& file :
+         {folder.file("s.h5"), folder.file("phase.csv"), folder.file("time.csv"),
+          folder.file("rate.mat"),
+          folder.file("column.mat") + " --sampling-Hz " + std::to_string(rate)}) {
+        INFO(file);
+        const auto result = features_of(file, options + noisy);
+        CHECK(result["unavailable"].empty());
+        for (const features::Feature& feature : features::all_features()) {
+            const std::string name(feature.name);
+            INFO(name);
+            // The exported transmission error is the one without noise.
+            const std::size_t level = feature.from_sensor ? 1 : 0;
+            const double was = simulated_feature(folder.file("s.h5"), name)[level];
+            CHECK(std::abs(result["features"][name].get<double>() - was) <= 1e-9 * std::abs(was));
+        }
+    }
+}
+
+TEST_CASE("All features have the same bits for any lanes, threads, ranks and instruction set") {
+    const Folder folder;
+    const std::string study = " run " + kSmall +
+                              " --quiet --set fault.reduction=0.3 --set ensemble.instances=9"
+                              " --set ensemble.threshold_instances=4 --out ";
+    REQUIRE(program(study + folder.file("a.h5")).code == 0);
+    const auto reference = bits(folder.file("a.h5"));
+    for (const char* change : {"numerics.lanes=4", "numerics.lanes=1", "numerics.threads=1",
+                               "numerics.instruction_set=baseline"}) {
+        INFO(change);
+        REQUIRE(program(study + folder.file("b.h5") + " --set " + change).code == 0);
+        CHECK(bits(folder.file("b.h5")) == reference);
+    }
+    REQUIRE(shell(mpirun(2) + GEARPOD_PROGRAM + study + folder.file("c.h5")).code == 0);
+    CHECK(bits(folder.file("c.h5")) == reference);
+}
+
+TEST_CASE("A recording at changing speed is followed by its speed column") {
+    // Mesh harmonics only, while the speed rises by a fifth; sampled ten times finer than the
+    // band needs, so that interpolation does not matter.
+    const Folder folder;
+    constexpr double kRate_Hz = 2800.0, kMesh_Hz = 35.0;  // at 60 rpm of the carrier
+    std::vector<double> speed_rpm, sensor;
+    const double seconds = 12.5;
+    for (int i = 0; i < static_cast<int>(seconds * kRate_Hz); ++i) {
+        const double t = i / kRate_Hz;
+        speed_rpm.push_back(60.0 * (1.0 + 0.2 * t / seconds));
+        const double phase = kMesh_Hz * (t + 0.1 * t * t / seconds);
+        sensor.push_back(std::sin(2.0 * std::numbers::pi * phase) +
+                         0.5 * std::sin(4.0 * std::numbers::pi * phase));
+    }
+    const std::string study = kSmall + " --set sensor.sampling_Hz=2800 --sampling-Hz 2800";
+    write_csv(folder.file("speed.csv"), {{"sensor", sensor}, {"speed_rpm", speed_rpm}});
+    write_csv(folder.file("blind.csv"), {{"sensor", sensor}});
+    const auto tracked = features_of(folder.file("speed.csv"), study)["features"];
+    CHECK(tracked["energy_ratio"].get<double>() < 1e-3);
+    CHECK(tracked["sensor_rms"].get<double>() == Approx(std::sqrt(0.5 * 1.25)).epsilon(1e-3));
+    CHECK(tracked["window_ratio"].get<double>() == Approx(1.0).epsilon(1e-3));
+    CHECK(!tracked.contains("te_rms"));
+    CHECK(features_of(folder.file("blind.csv"), study)["features"]["energy_ratio"] > 0.3);
+}
+
+TEST_CASE("What is wrong with a signal is said in one message, with exit code 2") {
+    const Folder folder;
+    const auto refused = [&](const std::string& arguments, const std::string& message) {
+        const Outcome outcome = program("features " + arguments + " --study " + kSmall);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions(message));
+    };
+    const std::vector<double> eight{0, 1, 2, 3, 4, 5, 6, 7};
+    std::vector<double> phase(80), time(80), bad(80, 1.0), good(80, 1.0);
+    for (std::size_t i = 0; i < 80; ++i) {
+        phase[i] = static_cast<double>(i) / 8.0;
+        time[i] = static_cast<double>(i) / 280.0;
+    }
+    bad[17] = bad[40] = NAN;
+
+    refused(folder.file("none.csv"), "no such file");
+    write_bytes(folder.file("a.wav"), "RIFF");
+    refused(folder.file("a.wav"), "must end in .csv, .h5, .hdf5 or .mat");
+    for (const char* name : {"a.h5", "a.mat"}) {
+        write_bytes(folder.file(name), "not what the name says");
+        refused(folder.file(name), "or damaged");
+    }
+    write_bytes(folder.file("empty.csv"), "# nothing\n\n");
+    refused(folder.file("empty.csv"), "is empty");
+    write_bytes(folder.file("bare.csv"), "0.5,0.25\n0.5,0.75\n");
+    refused(folder.file("bare.csv"), ":1: column 1 has no name");
+    write_bytes(folder.file("ragged.csv"), "time,sensor\n0,1\n1\n");
+    refused(folder.file("ragged.csv"), ":3: 1 values, but the header names 2 columns");
+    write_bytes(folder.file("word.csv"), "time,sensor\n0,1\n1,one\n");
+    refused(folder.file("word.csv"), ":3: column sensor: \"one\" is no number");
+
+    write_csv(folder.file("other.csv"), {{"mesh_phase", phase}, {"accel", good}});
+    refused(folder.file("other.csv"),
+            "no column sensor and none te; its columns are mesh_phase, accel");
+    refused(folder.file("other.csv") + " --sensor sensr --te angle",
+            "no column sensr; its columns are mesh_phase, accel");
+    refused(folder.file("other.csv") + " --sensor sensr --te angle", "no column angle");
+    refused(folder.file("other.csv") + " --sensor accel",
+            "too short: 10 mesh periods of sensor signal and 0 of transmission error; at least 385 "
+            "are needed");
+    write_csv(folder.file("te.csv"), {{"mesh_phase", phase}, {"te", good}});
+    refused(folder.file("te.csv"), "at least 11 are needed");
+    write_csv(folder.file("nan.csv"), {{"mesh_phase", phase}, {"sensor", bad}});
+    refused(folder.file("nan.csv"),
+            "column sensor: 2 of 80 samples are no finite numbers, the first is sample 18");
+    write_csv(folder.file("rate.csv"), {{"sensor", good}});
+    refused(folder.file("rate.csv"), "no sampling rate");
+    refused(folder.file("rate.csv") + " --sampling-Hz 5000",
+            "set sensor.sampling_Hz to the recording's, about 5000 Hz");
+    refused(folder.file("rate.csv") + " --sampling-Hz 100", "lower sensor.low_pass_Hz");
+    time[50] += 1e-3;
+    write_csv(folder.file("uneven.csv"), {{"time", time}, {"sensor", good}});
+    refused(folder.file("uneven.csv"), "the samples must be evenly spaced");
+    phase[30] = phase[29];
+    write_csv(folder.file("back.csv"), {{"mesh_phase", phase}, {"sensor", good}});
+    refused(folder.file("back.csv"), "the mesh phase does not rise from sample 30 to the next");
+    write_mat(folder.file("long.mat"), {{"sensor", good}, {"te", eight}}, true);
+    refused(folder.file("long.mat") + " --sampling-Hz 280",
+            "column te has 8 samples, but sensor has 80");
+}
+
+}  // namespace
+}  // namespace gearpod::test

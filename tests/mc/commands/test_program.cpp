@@ -1,0 +1,192 @@
+// The program as a user runs it: exit codes, what it prints and what it leaves behind.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/mc/program.hpp"
+
+using gearpod::test::Folder;
+using gearpod::test::Outcome;
+using gearpod::test::program;
+using gearpod::test::study;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool mentions(const Outcome& outcome, const std::string& text) {
+    return outcome.mentions(text);
+}
+
+}  // namespace
+
+TEST_CASE("A run ends with the table and a file that report reads to the same numbers") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const Outcome run =
+        program("run " + study("planet-crack.toml") +
+                " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
+    CHECK(run.code == 0);
+    CHECK(mentions(run, "window_ratio"));
+    CHECK(mentions(run, "where the time went"));
+    CHECK(mentions(run, out));
+    const Outcome text = program("report " + out);
+    CHECK(text.code == 0);
+    CHECK(run.output.find(text.output) != std::string::npos);
+    const Outcome json = program("report " + out + " --json -");
+    const auto parsed = nlohmann::json::parse(json.output);
+    CHECK(parsed["gearboxes"] == 54);
+    CHECK(parsed["failed"] == 0);
+    CHECK(parsed["detection"]["features"].size() == 7);
+    CHECK(parsed["provenance"]["seed"] == "2");
+    CHECK(parsed["reliability"]["features"].size() == 7);
+    const Outcome by = program("report --by gearbox_colour " + out);
+    CHECK(by.code == 2);
+    CHECK(mentions(by, "torque_N_m"));
+}
+
+TEST_CASE("Natural frequencies come as JSON, with the published value") {
+    const Outcome modes = program("modes " + study("lin-parker-n4.toml") + " --json -");
+    CHECK(modes.code == 0);
+    const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
+    REQUIRE(frequencies.size() == 21);
+    CHECK(frequencies[20].get<double>() == Approx(13071.1).margin(0.4));
+}
+
+TEST_CASE("Stiffness curves have the contract's columns and the mean that the summary prints") {
+    const Outcome csv =
+        program("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
+    CHECK(csv.code == 0);
+    CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
+    CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
+}
+
+TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and description") {
+    const std::string chip = study("tian-fig-4-6.toml");
+    const Outcome csv = program("stiffness " + chip + " --csv - --points 50");
+    CHECK(csv.code == 0);
+    CHECK(csv.output.rfind("phase,m1,m1_chip_8mm_period1,m1_chip_8mm_period2", 0) == 0);
+    const Outcome modes = program("modes " + chip + " --json -");
+    CHECK(modes.code == 0);
+    const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
+    REQUIRE(frequencies.size() == 8);
+    CHECK(frequencies[0].get<double>() < 1e-2);
+    // Across the line of action either gear swings on its bearing alone.
+    for (const double mass_kg : {0.96, 2.88}) {
+        const double bearing = std::sqrt(6.56e7 / mass_kg) / (2 * M_PI);
+        CHECK(std::any_of(frequencies.begin(), frequencies.end(), [&](const auto& f) {
+            return std::abs(f.template get<double>() - bearing) < 1e-6 * bearing;
+        }));
+    }
+    const Outcome described = program("describe " + chip);
+    CHECK(described.code == 0);
+    CHECK(mentions(described, "torques out of balance"));
+    CHECK(mentions(described, "sdirk3"));
+    const Outcome refused = program("run " + chip + " --set numerics.integrator=rk4");
+    CHECK(refused.code == 2);
+    CHECK(mentions(refused, "the damper of the motor coupling"));
+}
+
+TEST_CASE("The keys of study files are described without a study") {
+    const Outcome keys = program("describe --keys");
+    CHECK(keys.code == 0);
+    CHECK(mentions(keys, "growth_depth_mm"));
+    CHECK(program("describe").code == 2);
+}
+
+TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const std::string good = study("planet-crack.toml");
+    const struct {
+        std::string arguments, words;
+    } cases[] = {
+        {"run " + folder.file("missing.toml") + " --out " + out, "missing.toml"},
+        {"run " + good + " --set gearbox.modul_mm=3 --out " + out, "module_mm"},
+        {"run " + good + " --set gearbox.sun_mass_kg=-1 --out " + out, "sun_mass_kg"},
+        {"run " + good + " --set gearbox.ring_teeth=80 --out " + out, "ring"},
+        {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
+        {"run " + study("tian-fig-4-3.toml") + " --set 'numerics.integrator=\"rk4\"' --out " + out,
+         "damper of the motor coupling"},
+        {"run " + good + " --instances none --out " + out, "instances"},
+        {"run " + good + " --out " + folder.file("no/such/folder/r.h5"), "no/such/folder"},
+        {"run " + good + " --frobnicate", "frobnicate"},
+        {"frobnicate", "frobnicate"},
+        {"describ " + good, "describe"},
+        {"report " + folder.file("missing.h5"), "missing.h5"},
+        {"report " + good, "planet-crack.toml"},
+        {"stiffness " + study("lin-parker-n4.toml"), "teeth"},
+        {"simulate " + good + " --instance 99999999 --out " + folder.file("s.csv"), "--instance"},
+        {"simulate " + good + " --instance 1 --out " + folder.file("s.xyz"), ".csv"},
+    };
+    for (const auto& c : cases) {
+        const Outcome outcome = program(c.arguments);
+        INFO(c.arguments << "\n" << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(mentions(outcome, c.words));
+        CHECK(folder.empty());
+    }
+}
+
+TEST_CASE("Problems of the study and of the output are told together") {
+    const Outcome outcome = program("run " + study("planet-crack.toml") +
+                                    " --set gearbox.sun_mass_kg=-1 --set gearbox.frob=1"
+                                    " --out /nonexistent-folder/r.h5");
+    CHECK(outcome.code == 2);
+    CHECK(mentions(outcome, "sun_mass_kg"));
+    CHECK(mentions(outcome, "frob"));
+    CHECK(mentions(outcome, "/nonexistent-folder"));
+}
+
+TEST_CASE("Gearboxes that fail are counted, exit with 3 and leave a file") {
+    const Folder folder;
+    const Outcome outcome = program("run " + study("planet-crack.toml") +
+                                    " --instances 7 --set ensemble.threshold_instances=20"
+                                    " --set numerics.max_meshes=1 --out " +
+                                    folder.file("r.h5"));
+    CHECK(outcome.code == 3);
+    CHECK(mentions(outcome, "27 of 27 failed (0 diverged, 27 did not settle)"));
+    CHECK(fs::exists(folder.file("r.h5")));
+}
+
+TEST_CASE("A simulated gearbox has the features that the ensemble found for its row") {
+    const Folder folder;
+    const std::string small = " --set ensemble.instances=14 --set ensemble.threshold_instances=5";
+    const std::string good = study("planet-crack.toml");
+    CHECK(program("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
+    CHECK(
+        program("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5")).code ==
+        0);
+    // The row's five noise levels as h5dump prints them, from either file.
+    const auto values = [&](const std::string& file, const std::string& subset) {
+        const std::string command = "h5dump -y -w 0 -m %.17g -d /features/te_rms " + subset +
+                                    folder.file(file) + " | sed -n '/DATA {/,/}/p' | tr -d ' \\n'";
+        FILE* pipe = popen(command.c_str(), "r");
+        REQUIRE(pipe != nullptr);
+        std::array<char, 4096> line{};
+        REQUIRE(fgets(line.data(), line.size(), pipe) != nullptr);
+        pclose(pipe);
+        const std::string text = line.data();  // attributes follow the data
+        return text.substr(0, text.find('}'));
+    };
+    const std::string from_run = values("r.h5", "-s 18,0 -c 1,5 ");
+    CHECK(std::count(from_run.begin(), from_run.end(), ',') == 4);
+    CHECK(values("s.h5", "") == from_run);
+}
+
+TEST_CASE("The C library's choice of elementary functions leaves no trace in the results") {
+    // As on a processor without fused multiply-adds, which the C library would serve otherwise.
+    const Folder folder;
+    const std::string run = "run " + study("planet-crack.toml") +
+                            " --quiet --instances 10 --set ensemble.threshold_instances=6 --out ";
+    CHECK(program(run + folder.file("a.h5")).code == 0);
+    REQUIRE(setenv("GLIBC_TUNABLES",
+                   "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable",
+                   1) == 0);
+    CHECK(program(run + folder.file("b.h5")).code == 0);
+    unsetenv("GLIBC_TUNABLES");
+    for (const char* group : {"/features", "/instances"}) {
+        const std::string command =
+            "h5diff " + folder.file("a.h5") + " " + folder.file("b.h5") + " " + group + " " + group;
+        CHECK(std::system(command.c_str()) == 0);
+    }
+}

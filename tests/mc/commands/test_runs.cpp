@@ -1,0 +1,303 @@
+// Runs that are split, killed, stopped, continued and grown: always the same gearboxes, bit by bit.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bits;
+using test::bytes_of;
+using test::Folder;
+using test::mpirun;
+using test::Outcome;
+using test::study;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+// Three tiles of the threshold group and four graded ones, the last of each not full; results
+// written all the time.
+std::string run_of(const std::string& out, int instances = 50) {
+    return "run " + study("planet-crack.toml") + " --instances " + std::to_string(instances) +
+           " --set ensemble.threshold_instances=35 --set ensemble.checkpoint_s=0 --out " + out;
+}
+
+// One undisturbed run of that, made once.
+const std::vector<std::uint64_t>& reference() {
+    static const std::vector<std::uint64_t> all = [] {
+        const Folder folder;
+        REQUIRE(test::program(run_of(folder.file("r.h5")) + " --quiet").code == 0);
+        return bits(folder.file("r.h5"));
+    }();
+    return all;
+}
+
+pid_t start(const std::string& arguments) {
+    const pid_t child = fork();
+    if (child == 0) {
+        setpgid(0, 0);
+        const std::string command =
+            "exec " + std::string(GEARPOD_PROGRAM) + " " + arguments + " > /dev/null 2>&1";
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        std::_Exit(127);
+    }
+    return child;
+}
+
+int status_of(pid_t child) {
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return status;
+}
+
+std::uintmax_t size_of(const std::string& path) {
+    std::error_code none;
+    const std::uintmax_t size = fs::file_size(path, none);
+    return none ? 0 : size;
+}
+
+// Waits until the checkpoint has grown by a tile or more.
+void await_tiles(const std::string& part, std::uintmax_t before) {
+    for (int i = 0; i < 4000 && size_of(part) < before + 8192; ++i) {
+        std::this_thread::sleep_for(5ms);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string threads = " --set numerics.threads=" + std::to_string(1 + ranks % 2);
+        const Outcome run =
+            test::shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out) + threads);
+        INFO(ranks << " ranks" << threads << "\n" << run.output);
+        CHECK(run.code == 0);
+        CHECK(run.mentions("(" + std::to_string(ranks) + (ranks == 1 ? " rank," : " ranks,")));
+        CHECK(bits(out) == reference());
+        fs::remove(out);
+    }
+    for (const char* change :
+         {" --set numerics.lanes=1", " --set numerics.lanes=4", " --set numerics.threads=2"}) {
+        INFO(change);
+        CHECK(test::program(run_of(out) + change).code == 0);
+        CHECK(bits(out) == reference());
+        fs::remove(out);
+    }
+    CHECK(folder.empty());
+}
+
+TEST_CASE("Killed twenty times at random moments and continued, a run loses nothing") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5"), part = out + ".part";
+    const auto before = std::chrono::steady_clock::now();
+    REQUIRE(test::program(run_of(folder.file("whole.h5")) + " --quiet").code == 0);
+    const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - before;
+    std::mt19937 engine(20);
+    std::uniform_real_distribution<double> moment(0.0, 0.6 * whole.count());
+    int killed = 0;
+    for (int i = 0; i < 20; ++i) {
+        const pid_t child = start(
+            run_of(out) + " --resume --quiet --set numerics.threads=" + std::to_string(1 + i % 2));
+        std::this_thread::sleep_for(std::chrono::duration<double>(moment(engine)));
+        kill(child, SIGKILL);
+        const int status = status_of(child);
+        killed += WIFSIGNALED(status) ? 1 : 0;
+        REQUIRE((WIFSIGNALED(status) || WEXITSTATUS(status) == 0));
+        if (fs::exists(out)) {
+            // What a reader sees while the run goes on is whole.
+            CHECK_NOTHROW(mc::read_results(out));
+        }
+        if (!WIFSIGNALED(status)) {
+            fs::remove(out);  // done before it could be killed: all over again
+        }
+    }
+    CHECK(killed > 5);
+    const Outcome last =
+        test::shell(mpirun(2) + GEARPOD_PROGRAM + " " + run_of(out) + " --resume --quiet");
+    INFO(last.output);
+    CHECK(last.code == 0);
+    CHECK(bits(out) == reference());
+    CHECK_FALSE(fs::exists(part));
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("Signals and the time limit finish, save and exit with 4") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
+        const std::uintmax_t before = size_of(out + ".part");
+        const pid_t child = start(run_of(out, 5000) + " --resume --quiet");
+        await_tiles(out + ".part", before);
+        kill(child, number);
+        const int status = status_of(child);
+        INFO("signal " << number);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 4);
+        CHECK(fs::exists(out + ".part"));
+        CHECK(mc::read_results(out).provenance_value("state").starts_with("interrupted by SIG"));
+        const Outcome report = test::program("report " + out);
+        CHECK(report.code == 0);
+        CHECK(report.mentions("of 5035 gearboxes (interrupted by SIG"));
+    }
+    const Outcome limited = test::program(run_of(out, 5000) + " --resume --time-limit 00:00:02");
+    CHECK(limited.code == 4);
+    CHECK(limited.mentions("stopped by the time limit"));
+    CHECK(limited.mentions("continue with --resume"));
+    CHECK(test::program(run_of(out, 5000)).mentions("--resume"));
+    CHECK(test::program(run_of(out, 5000) + " --resume --time-limit 2h").code == 2);
+}
+
+TEST_CASE("A grown ensemble computes only what is new, and has the bits of one computed at once") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    REQUIRE(test::program(run_of(out, 20) + " --quiet").code == 0);
+    const Outcome grown = test::program(run_of(out) + " --resume");
+    INFO(grown.output);
+    CHECK(grown.code == 0);
+    CHECK(grown.mentions("r.h5: 4 of 7 tiles"));
+    CHECK(bits(out) == reference());
+    const Outcome again = test::program(run_of(out) + " --resume");
+    CHECK(again.mentions("r.h5: 7 of 7 tiles"));
+    CHECK(bits(out) == reference());
+    CHECK(folder.files() == 1);
+
+    const Outcome fewer = test::program(run_of(out, 20) + " --resume");
+    CHECK(fewer.code == 2);
+    CHECK(fewer.mentions("r.h5: cannot be continued: it has 85 gearboxes"));
+    const Outcome seed = test::program(run_of(out) + " --resume --seed 9");
+    CHECK(seed.code == 2);
+    CHECK(seed.mentions("has seed 2, this run has 9"));
+    const Outcome torque = test::program(run_of(out) + " --resume --set operation.torque_N_m=400");
+    CHECK(torque.code == 2);
+    CHECK(torque.mentions("another study"));
+    std::string damaged = bytes_of(out);
+    damaged[damaged.size() / 2] = static_cast<char>(~damaged[damaged.size() / 2]);
+    test::write_bytes(out, damaged);
+    CHECK(test::program(run_of(out) + " --resume").mentions("r.h5: is damaged"));
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const std::string until =
+        " --set 'ensemble.until={half_width=0.25, feature=\"window_ratio\", size=4.28}'";
+    std::vector<std::uint64_t> first;
+    for (const int ranks : {1, 2, 3}) {
+        const Outcome run =
+            test::shell(mpirun(ranks) + GEARPOD_PROGRAM + " " + run_of(out, 400) + until);
+        INFO(run.output);
+        CHECK(run.code == 0);
+        CHECK(run.mentions("ensemble.until is reached with "));
+        const mc::Results results = mc::read_results(out);
+        CHECK(results.status.size() < 200);
+        CHECK(results.provenance_value("state") == "ended by ensemble.until");
+        first = first.empty() ? bits(results) : first;
+        CHECK(bits(results) == first);
+        // The rate in the file is the one that was asked for.
+        const auto& cell = results.detection[5].levels[2].cells.back();
+        CHECK(results.detection[5].feature == "window_ratio");
+        CHECK(cell.size.high == Approx(4.28e-3));
+        CHECK((cell.upper - cell.lower) / 2 <= 0.25);
+    }
+    for (const auto& [wrong, words] :
+         {std::pair{"size=4", "4 is no fault size"}, std::pair{"noise_level=3", "3 is not among"},
+          std::pair{"feature=\"te_rsm\"", "te_rms"}, std::pair{"half_width=0.7", "< 0.5"},
+          std::pair{"width=0.7", "unknown key"}}) {
+        const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
+        const Outcome run = test::program(run_of(folder.file("x.h5")) + until +
+                                          " --set 'ensemble.until." + wrong + "'");
+        INFO(run.output);
+        CHECK(run.code == 2);
+        CHECK(run.mentions("ensemble.until." + key));
+        CHECK(run.mentions(words));
+    }
+}
+
+TEST_CASE("Ranks with another study, or without it, end the run with one line") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5"), other = folder.file("other.toml");
+    fs::copy_file(study("planet-crack.toml"), other);
+    const std::string binary = GEARPOD_PROGRAM;
+    const auto with_second = [&](const std::string& arguments) {
+        return test::shell(mpirun(1) + binary + " " + run_of(out) + " : --oversubscribe -n 1 " +
+                           arguments);
+    };
+    const Outcome differs =
+        with_second(binary + " " + run_of(out) + " --set operation.torque_N_m=400");
+    CHECK(differs.code == 2);
+    CHECK(differs.mentions("rank 1 on "));
+    CHECK(differs.mentions("read another study"));
+    CHECK(differs.mentions("torque_N_m"));
+    const Outcome missing = with_second(binary + " run " + folder.file("none.toml"));
+    CHECK(missing.code == 2);
+    CHECK(missing.mentions("rank 1 on "));
+    CHECK(missing.mentions("none.toml"));
+    // The same program but for one byte behind its end.
+    test::write_bytes(folder.file("gearpod"), bytes_of(binary) + "x");
+    fs::permissions(folder.file("gearpod"), fs::perms::owner_all);
+    const Outcome mixed = with_second(folder.file("gearpod") + " " + run_of(out));
+    CHECK(mixed.code == 2);
+    CHECK(mixed.mentions("runs another program"));
+    CHECK_FALSE(fs::exists(out));
+    CHECK_FALSE(fs::exists(out + ".part"));
+}
+
+TEST_CASE("A rank that dies ends the run, and finished tiles are kept") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    // The second rank kills itself once there are tiles.
+    const std::string mortal = "sh -c '( until [ -s " + out + ".part ] && [ $(stat -c %s " + out +
+                               ".part) -gt 8192 ]; do sleep 0.05; done; kill -9 $$ ) & exec " +
+                               GEARPOD_PROGRAM + " " + run_of(out, 5000) + "'";
+    const Outcome run = test::shell("timeout 100 env " + mpirun(1) + GEARPOD_PROGRAM + " " +
+                                    run_of(out, 5000) + " : --oversubscribe -n 1 " + mortal);
+    INFO(run.output);
+    CHECK(run.code != 0);
+    CHECK(run.code != 124);
+    const Outcome resumed = test::program(run_of(out, 5000) + " --resume --time-limit 00:00:01");
+    INFO(resumed.output);
+    CHECK(resumed.code == 4);
+    CHECK(resumed.mentions("continuing"));
+    CHECK_FALSE(resumed.mentions(": 0 of"));
+}
+
+TEST_CASE("A full disk while results are written leaves a checkpoint to go on from") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    // In blocks of 512 bytes; the checkpoint fits, the results do not.
+    const std::size_t blocks = 90;
+    const Outcome full = test::shell("ulimit -f " + std::to_string(blocks) + "; " +
+                                     GEARPOD_PROGRAM + " " + run_of(out) + " --quiet");
+    INFO(full.output);
+    CHECK(full.code == 4);
+    CHECK(full.mentions("cannot be written (File too large)"));
+    CHECK(full.mentions("kept in " + out + ".part"));
+    CHECK_FALSE(fs::exists(out));
+    CHECK(test::program(run_of(out) + " --quiet --resume").code == 0);
+    CHECK(bits(out) == reference());
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("A folder that cannot be written is known before the run") {
+    const Folder folder;
+    fs::create_directory(folder.file("locked"));
+    fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec |
+                                               fs::perms::others_read | fs::perms::others_exec);
+    // Permissions do not hold root.
+    const std::string nobody =
+        geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+    const Outcome run =
+        test::shell(nobody + GEARPOD_PROGRAM + " " + run_of(folder.file("locked/r.h5")));
+    INFO(run.output);
+    CHECK(run.code == 2);
+    CHECK(run.mentions("locked/r.h5: cannot be written: Permission denied"));
+    CHECK(fs::is_empty(folder.file("locked")));
+}

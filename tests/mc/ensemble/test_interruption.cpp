@@ -1,0 +1,39 @@
+// Signals and the time limit as the run sees them.
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <thread>
+
+#include "mc/ensemble/interruption.hpp"
+
+using namespace gearpod::mc;
+using namespace std::chrono_literals;
+
+TEST_CASE("Times are hours, minutes and seconds") {
+    CHECK(parse_time_limit("00:00:01") == 1s);
+    CHECK(parse_time_limit("01:30:07") == 5407s);
+    CHECK(parse_time_limit("120:00:00") == 120h);
+    for (const char* text :
+         {"", "1", "01:30", "1:2:3", "00:60:00", "00:00:60", "-1:00:00", "00:00:01x", "a:b:c",
+          "00:00:1", "00:00:", ":00:00", "00:-1:00", "99999999:00:00", "1:00:00:00"}) {
+        INFO(text);
+        CHECK_FALSE(parse_time_limit(text).has_value());
+    }
+}
+
+TEST_CASE("A signal is a reason to stop, for as long as somebody watches") {
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
+        const Interruption interruption(std::nullopt);
+        CHECK(interruption.reason(1h).empty());
+        std::raise(number);
+        CHECK_FALSE(interruption.reason({}).empty());
+    }
+}
+
+TEST_CASE("The time limit counts what finishing will take") {
+    const Interruption interruption(2s);
+    CHECK(interruption.reason(0s).empty());
+    CHECK(interruption.reason(1.5s).empty());
+    CHECK(interruption.reason(2s) == "the time limit");
+    std::this_thread::sleep_for(600ms);
+    CHECK(interruption.reason(1.5s) == "the time limit");
+}

@@ -1,0 +1,83 @@
+// ensemble.until against the closed form of the Wilson interval where every gearbox is detected.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "mc/ensemble/pd_watch.hpp"
+#include "mc/ensemble/tile_worker.hpp"
+#include "mc/scene/sampling.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+const std::vector<std::string> kUntil{
+    "ensemble.instances=700", "ensemble.threshold_instances=40", "sensor.noise_levels=[0, 1]",
+    R"(ensemble.until={half_width=0.1, feature="window_ratio", size=4.28})"};
+
+// Healthy gearboxes have 1, graded ones 2 in every feature.
+TileRows rows_of(const Sampler& sampler, const RowShape& shape, const Tile& tile) {
+    TileRows rows;
+    for (std::size_t i = 0; i < tile.count; ++i) {
+        const auto parameters = sampler.row(tile.group, tile.first_index + i);
+        rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+        rows.values.resize(rows.values.size() + shape.features * shape.levels,
+                           tile.group == Group::threshold ? 1.0 : 2.0);
+        rows.status.push_back(0);
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in any order") {
+    const Study study = test::shipped_study("planet-crack.toml", kUntil);
+    const TilePlan plan(48, 700);
+    const Sampler sampler(study);
+    const RowShape shape = row_shape(sampler, study);
+    // All of n detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
+    const double z2 = 1.959963984540054 * 1.959963984540054;
+    const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
+    REQUIRE(needed == 16);
+    // Seven sizes in turn, the largest last: the n-th of them is graded gearbox 7 n - 1.
+    const std::size_t tiles = 3 + (7 * needed - 1) / kTileRows + 1;
+
+    std::vector<std::size_t> order(plan.tiles());
+    for (std::size_t tile = 0; tile < order.size(); ++tile) {
+        order[tile] = tile;
+    }
+    std::mt19937 engine(1);
+    for (int trial = 0; trial < 5; ++trial) {
+        MemoryRows store(plan.tiles());
+        PdWatch watch(study, plan, "");
+        for (const std::size_t tile : order) {
+            store.write(tile, rows_of(sampler, shape, plan.tile(tile)));
+            watch.advance(store);
+        }
+        REQUIRE(watch.enough());
+        CHECK(watch.tiles() == tiles);
+        CHECK(watch.text().starts_with("Pd(window_ratio, 4.28 mm, noise x 1) = 1 ["));
+        std::shuffle(order.begin(), order.end(), engine);
+    }
+}
+
+TEST_CASE("What is left until the wanted interval is predicted from the rate so far") {
+    const Study study = test::shipped_study("planet-crack.toml", kUntil);
+    const TilePlan plan(48, 700);
+    const Sampler sampler(study);
+    const RowShape shape = row_shape(sampler, study);
+    MemoryRows store(plan.tiles());
+    PdWatch watch(study, plan, "");
+    CHECK_FALSE(watch.rows_left().has_value());
+    CHECK(watch.text().empty());
+    // The threshold group and 64 graded gearboxes: nine of the largest size, 16 wanted.
+    for (std::size_t tile = 0; tile < 7; ++tile) {
+        store.write(tile, rows_of(sampler, shape, plan.tile(tile)));
+    }
+    watch.advance(store);
+    CHECK_FALSE(watch.enough());
+    REQUIRE(watch.rows_left().has_value());
+    CHECK(*watch.rows_left() == 64 * 16 / 9 - 64);
+}

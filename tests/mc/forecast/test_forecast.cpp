@@ -1,0 +1,266 @@
+// What `describe` says a run will take: arithmetic on given measurements, and that measuring is
+// bounded.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "mc/forecast/forecast.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/study/gears.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+constexpr std::size_t kLanes = 8;
+
+// A march of a second, or what a reused one costs; every gearbox another sixteenth.
+RunCalibration given_costs(int threads) {
+    RunCalibration calibration;
+    calibration.threads = threads;
+    for (GroupCost& group : calibration.cost) {
+        group.fresh.whole.march = 1.0;
+        group.fresh.row.features = group.reused.row.features = 1.0 / 16.0;
+    }
+    return calibration;
+}
+
+MarchCounts all_marched(const TilePlan& plan) {
+    MarchCounts counts;
+    counts.marched = {(plan.threshold_rows() + kLanes - 1) / kLanes,
+                      (plan.graded_rows() + kLanes - 1) / kLanes};
+    return counts;
+}
+
+double forecast_s(const RunCalibration& calibration, const TilePlan& plan) {
+    return gearboxes_s(calibration, plan, kLanes, all_marched(plan));
+}
+
+std::vector<std::uint64_t> bits_of(const TileRows& rows) {
+    std::vector<std::uint64_t> all;
+    for (const double value : rows.values) {
+        all.push_back(std::bit_cast<std::uint64_t>(value));
+    }
+    return all;
+}
+
+TileRows first_batch(const Scene& scene) {
+    const TileTask task(scene);
+    Seconds seconds;
+    return TileWorker(task).compute({Group::graded, 0, 0, kLanes}, seconds);
+}
+
+const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                                     "sensor.encoder_sampling_Hz=20000"};
+
+// Enough time for a batch a thread.
+constexpr double kNoBudget_s = 1e-9;
+
+}  // namespace
+
+TEST_CASE("A run takes as many rounds of tiles as the threads need, the last perhaps not full") {
+    // A tile of sixteen gearboxes: two marches and a second for the features.
+    const double tile_s = 3.0;
+    const RunCalibration two = given_costs(2);
+    CHECK(forecast_s(two, {16, 16}) == Approx(tile_s));
+    CHECK(forecast_s(two, {16, 32}) == Approx(2 * tile_s));
+    CHECK(forecast_s(two, {16, 48}) == Approx(2 * tile_s));
+    CHECK(forecast_s(two, {1600, 1600}) == Approx(100 * tile_s));
+    CHECK(forecast_s(given_costs(1), {16, 48}) == Approx(4 * tile_s));
+    CHECK(forecast_s(given_costs(3), {16, 48}) == Approx(2 * tile_s));
+    // A batch costs its march however few gearboxes it has.
+    CHECK(forecast_s(given_costs(1), {16, 1}) == Approx(tile_s + 1.0 + 1.0 / 16.0));
+    CHECK(forecast_s(given_costs(1), {16, 9}) == Approx(tile_s + 2.0 + 9.0 / 16.0));
+}
+
+TEST_CASE("Groups cost what each of them does, and a thread starts once") {
+    RunCalibration calibration = given_costs(1);
+    calibration.cost[static_cast<std::size_t>(Group::graded)].fresh.whole.march = 5.0;
+    calibration.start_s = 0.25;
+    CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 3.0 + 11.0));
+    calibration.threads = 2;
+    CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 11.0));
+    calibration.cost[0].fresh.rest = 0.5;
+    // Ten tiles for two threads, and a gearbox for one of them.
+    CHECK(forecast_s(calibration, {160, 1}) == Approx(0.25 + 5 * 4.0 + 5.0 + 1.0 / 16.0));
+}
+
+TEST_CASE("Motions that are there already are not marched again") {
+    RunCalibration calibration = given_costs(1);
+    for (GroupCost& group : calibration.cost) {
+        group.reused.whole.march = 0.01;
+    }
+    MarchCounts counts;
+    counts.marched = {1, 3};
+    CHECK(gearboxes_s(calibration, {160, 160}, kLanes, counts) ==
+          Approx(4 * 1.0 + 36 * 0.01 + 320 / 16.0));
+}
+
+TEST_CASE("Marches are counted as the cache keeps them") {
+    Study study = test::shipped_study("planet-crack.toml", kFast);
+    std::erase_if(study.random, [](const RandomInput& input) {
+        return !input.key.starts_with("sensor.") && !input.key.starts_with("fault.");
+    });
+    const Scene scene(study);
+    // Full batches at each of seven sizes, and one that is not full in either group.
+    const TilePlan plan(20, 180);
+    const TileTask task(scene);
+    TileWorker worker(task);
+    Seconds seconds;
+    for (std::size_t t = 0; t < plan.tiles(); ++t) {
+        worker.compute(plan.tile(t), seconds);
+    }
+    const MarchCounts counts = count_marches(scene, plan, 1.0);
+    CHECK(counts.kept == task.marches.kept());
+    CHECK(counts.marched[0] + counts.marched[1] == counts.kept);
+    // With room for half of them, the others are marched whenever they come.
+    const MarchCounts half =
+        count_marches(scene, plan, 256e6 / (0.5 * static_cast<double>(counts.kept) + 0.1));
+    CHECK(half.kept == counts.kept / 2);
+    CHECK(half.marched[1] > counts.marched[1] + 5);
+    CHECK(half.marched[1] < 23);
+
+    const Scene scattered(test::shipped_study("planet-crack.toml", kFast));
+    CHECK(count_marches(scattered, plan, 1.0).marched == std::array<std::size_t, 2>{3, 23});
+    CHECK(count_marches(scattered, plan, 1.0).kept == 0);
+}
+
+TEST_CASE("The most memory is that of the gearboxes, or of the analysis after them") {
+    MemoryUse memory{20e6, 50e6, 30e6, -8e6};
+    MarchCounts counts;
+    CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6);
+    counts.kept = 10;
+    CHECK(memory_bytes(memory, counts, 4e6, 0.0) == 80e6 + 32e6);
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) > 520e6);
+    CHECK(memory_bytes(memory, counts, 4e6, 500e6) < 530e6);
+}
+
+TEST_CASE("Every shipped study is measured on no more than a batch a thread, if it must be quick") {
+    int studies = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(test::study_path(""))) {
+        if (entry.path().extension() != ".toml") {
+            continue;
+        }
+        const Study study = test::shipped_study(entry.path().filename().string());
+        if (!has_gears(study)) {
+            continue;
+        }
+        INFO(entry.path());
+        Scene scene(study);
+        const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+        const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
+        const AnalysisTrial trial = try_analysis(study, calibration, plan, 1, kNoBudget_s);
+        const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
+        ++studies;
+        CHECK(scene.recorded_meshes() == scene.signal_meshes());
+        CHECK(calibration.to_record == scene.signal_meshes());
+        if (!calibration.march_alone) {
+            CHECK(!calibration.gearboxes.empty());
+            CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
+            CHECK(trial.levels == 1);
+            CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
+        }
+        const bool shortened =
+            study.numerics.horizon == Horizon::march && !study.effects.quasi_static();
+        CHECK(calibration.recorded ==
+              (shortened ? std::min(kFewestMeshes, calibration.to_record) : calibration.to_record));
+        CHECK(std::isfinite(forecast.total_s()));
+        CHECK(forecast.gearboxes_s > 0.0);
+        CHECK(forecast.memory_bytes > 1e6);
+    }
+    CHECK(studies > 30);
+}
+
+TEST_CASE("A march that is cut short to be measured counts in full, and leaves no trace") {
+    std::vector<std::string> overrides = kFast;
+    overrides.push_back("numerics.horizon=march");
+    Scene scene(test::shipped_study("planet-crack.toml", overrides));
+    const auto before = bits_of(first_batch(scene));
+    const TilePlan plan(16, 32);
+    const RunCalibration cut = calibrate_run(scene, plan, 1, kNoBudget_s);
+    CHECK(cut.recorded == kFewestMeshes);
+    CHECK(cut.to_record == 2511);
+    // The approach to the orbit, and eight.
+    CHECK(cut.meshes >= kFewestMeshes + 2);
+    CHECK(cut.meshes < kFewestMeshes + scene.max_meshes());
+    const Seconds& whole = cut.cost[0].fresh.whole;
+    CHECK(whole.march > 20.0 * whole.signals);
+    // In records that a run has and this had not: 2503 mesh periods of eight gearboxes.
+    const double mesh_bytes = motion_bytes(scene) / 2512;
+    CHECK(cut.memory.records == Approx(2503 * mesh_bytes));
+    CHECK(bits_of(first_batch(scene)) == before);
+}
+
+TEST_CASE("Made-up results have the run's gearboxes and values like those of computed ones") {
+    const Study study = test::shipped_study("planet-crack.toml", kFast);
+    Scene scene(study);
+    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const RunCalibration calibration = calibrate_run(scene, plan, 2, 0.5);
+    const std::size_t rows = 1100, shown = 1;
+    const Results made = made_up_results(study, calibration, plan, rows, {1, 2});
+    REQUIRE(made.group.size() == rows);
+    CHECK(std::count(made.group.begin(), made.group.end(), 0) == 400);
+    CHECK(made.noise_levels == std::vector<double>{0.5, 1.0});
+
+    const Sampler sampler(study);
+    const RowShape shape = row_shape(sampler, study);
+    const std::size_t feature = test::feature_index(made, "window_ratio");
+    std::set<double> distinct;
+    std::vector<double> means;
+    for (const double size_m : {0.0, 4.28e-3}) {
+        double sum = 0.0, n = 0.0, computed = 0.0, m = 0.0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const double value = made.features[feature].values[2 * row + shown];
+            distinct.insert(value);
+            if (made.group[row] == 1 &&
+                std::abs(made.parameters.back().values[row] - size_m) < 1e-9) {
+                sum += value;
+                ++n;
+            }
+        }
+        for (std::size_t i = 0; i < calibration.gearboxes.size(); ++i) {
+            const double* values = calibration.rows.values.data() + i * shape.values();
+            if (calibration.gearboxes[i].group == Group::graded &&
+                std::abs(values[shape.parameters - 1] - size_m) < 1e-9) {
+                computed += values[shape.value_of(feature, 2)];
+                ++m;
+            }
+        }
+        REQUIRE(m > 0.0);
+        CHECK(n == 100);
+        CHECK(sum / n == Approx(computed / m).epsilon(0.25));
+        means.push_back(sum / n);
+    }
+    CHECK(means[1] > 1.2 * means[0]);  // the largest crack shows
+    CHECK(distinct.size() == rows);
+}
+
+TEST_CASE("A study's description ends with a forecast and writes nothing") {
+    const test::Folder folder;
+    for (const char* name : {"tian-fig-4-6.toml", "park-fig-11.toml", "liang-fig-5-8.toml"}) {
+        const test::Outcome described = test::shell(
+            "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name));
+        CHECK(described.code == 0);
+        for (const char* entry : {"measured on", "set-up", "gearboxes", "detection and results",
+                                  "estimated time", "estimated memory"}) {
+            CHECK(described.mentions(std::string("\n  ") + entry));
+        }
+    }
+    CHECK(folder.empty());
+    const std::string sure = test::study("planet-crack.toml") +
+                             " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
+                             " --set sensor.encoder_sampling_Hz=20000"
+                             " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
+    CHECK(test::program("describe " + sure).mentions("less if ensemble.until ends it"));
+    const std::string stiff = test::study("tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
+    const test::Outcome described = test::program("describe " + stiff);
+    const test::Outcome run = test::program("run " + stiff + " --out " + folder.file("r.h5"));
+    CHECK(described.code == 2);
+    CHECK(run.code == 2);
+    CHECK(described.output.find(run.output) != std::string::npos);
+}

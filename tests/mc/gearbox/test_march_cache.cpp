@@ -1,0 +1,77 @@
+// Studies that vary only path, noise and a few sizes march their gearboxes once.
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "mc/ensemble/tile_worker.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// Liang's train turning fast; of its random inputs only those in `kept` stay.
+Study study_with(const std::vector<std::string>& kept, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> overrides{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
+                                       "sensor.encoder_sampling_Hz=20000", "numerics.threads=1"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    Study study = test::shipped_study("planet-crack.toml", overrides);
+    std::erase_if(study.random, [&](const RandomInput& input) {
+        return std::find(kept.begin(), kept.end(), input.key) == kept.end();
+    });
+    return study;
+}
+
+const std::vector<std::string> kSensorOnly{"sensor.path_exponent", "sensor.noise_m_s2",
+                                           "sensor.encoder_noise_arcsec", "fault.depth_mm"};
+
+std::vector<std::uint64_t> bits(const TileRows& rows) {
+    std::vector<std::uint64_t> all(rows.status.begin(), rows.status.end());
+    for (const double value : rows.values) {
+        all.push_back(std::bit_cast<std::uint64_t>(value));
+    }
+    return all;
+}
+
+std::vector<Tile> graded_tiles(std::size_t count) {
+    std::vector<Tile> tiles;
+    for (std::size_t t = 0; t < count; ++t) {
+        tiles.push_back({Group::graded, 8 * t, 0, 8});
+    }
+    return tiles;
+}
+
+}  // namespace
+
+TEST_CASE("What was marched before is not marched again, and gives the same bits") {
+    const Scene scene(study_with(kSensorOnly));
+    CHECK(distinct_marches(scene) == 7);  // the sizes; 0 is among them
+    const TileTask shared(scene);
+    TileWorker worker(shared);
+    Seconds seconds;
+    for (const Tile& tile : graded_tiles(16)) {
+        const TileRows again = worker.compute(tile, seconds);
+        REQUIRE(again.count() == 8);
+        const TileTask fresh(scene);
+        CHECK(bits(again) == bits(TileWorker(fresh).compute(tile, seconds)));
+        CHECK(fresh.marches.kept() == 1);
+    }
+    // Eight gearboxes in a row begin at any of seven sizes.
+    CHECK(shared.marches.kept() == 7);
+    worker.compute({Group::threshold, 0, 0, 8}, seconds);
+    worker.compute({Group::threshold, 8, 0, 8}, seconds);
+    CHECK(shared.marches.kept() == 8);
+}
+
+TEST_CASE("Where every gearbox moves differently nothing is kept") {
+    const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
+    CHECK_FALSE(distinct_marches(scene).has_value());
+    const TileTask task(scene);
+    Seconds seconds;
+    TileWorker(task).compute({Group::graded, 0, 0, 8}, seconds);
+    CHECK(task.marches.kept() == 0);
+    const Scene errors(
+        study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=march"}));
+    CHECK_FALSE(distinct_marches(errors).has_value());
+}

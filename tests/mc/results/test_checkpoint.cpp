@@ -1,0 +1,257 @@
+// The checkpoint: what was written is there again, what is damaged or foreign is noticed.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <limits>
+
+#include "mc/results/checkpoint.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+using test::bytes_of;
+using test::Folder;
+using test::write_bytes;
+
+namespace {
+
+const RowShape kShape{2, 2, 3};
+const RunIdentity kIdentity{"gearpod 1 (git abc)", "7", "[ensemble]\nseed = 7\n", kShape};
+const TilePlan kPlan(20, 42);  // tiles of 16, 4, 16, 16, 10
+
+TileRows rows_of(const TilePlan& plan, std::size_t tile) {
+    TileRows rows;
+    for (std::size_t row = 0; row < plan.tile(tile).count; ++row) {
+        rows.status.push_back(static_cast<int>(row % 3));
+        for (std::size_t value = 0; value < kShape.values(); ++value) {
+            rows.values.push_back(100.0 * static_cast<double>(plan.tile(tile).first_row + row) +
+                                  0.1 * static_cast<double>(value));
+        }
+    }
+    rows.values.back() = std::numeric_limits<double>::quiet_NaN();
+    return rows;
+}
+
+bool same(const TileRows& a, const TileRows& b) {
+    const auto bits = [](const TileRows& rows) {
+        std::vector<std::uint64_t> all;
+        for (const double value : rows.values) {
+            all.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+        return all;
+    };
+    return a.status == b.status && bits(a) == bits(b);
+}
+
+void fill(const std::string& path, const std::vector<std::size_t>& tiles) {
+    const auto checkpoint = Checkpoint::create(path, kIdentity, kPlan);
+    for (const std::size_t tile : tiles) {
+        checkpoint->write(tile, rows_of(kPlan, tile));
+    }
+    checkpoint->sync();
+}
+
+std::string reason_of(const std::string& path, const RunIdentity& identity = kIdentity,
+                      const TilePlan& plan = kPlan) {
+    try {
+        Checkpoint::resume(path, identity, plan);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("A plan's tiles hold every row once, the threshold group's apart from the graded") {
+    std::size_t row = 0;
+    for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
+        CHECK(kPlan.rows_before(tile) == row);
+        const Tile place = kPlan.tile(tile);
+        CHECK(place.first_row == row);
+        CHECK(place.first_index == (row < 20 ? row : row - 20));
+        for (std::size_t i = 0; i < place.count; ++i, ++row) {
+            CHECK(kPlan.tile_of_row(row) == tile);
+            CHECK((place.group == Group::threshold) == (row < 20));
+        }
+    }
+    CHECK(row == 62);
+    CHECK(kPlan.rows_before(kPlan.tiles()) == 62);
+    CHECK(kPlan.tiles() == 5);
+}
+
+TEST_CASE("Finished tiles are there again, in whatever order they were written") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {4, 0, 2});
+    const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+    CHECK(checkpoint->findings().empty());
+    CHECK(checkpoint->tiles_done() == 3);
+    for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
+        CHECK(checkpoint->has(tile) == (tile == 0 || tile == 2 || tile == 4));
+        if (checkpoint->has(tile)) {
+            CHECK(same(checkpoint->read(tile), rows_of(kPlan, tile)));
+        }
+    }
+    checkpoint->remove();
+    CHECK(folder.empty());
+}
+
+TEST_CASE("A larger ensemble keeps all tiles but the one that it fills up") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {0, 1, 2, 3, 4});
+    const TilePlan larger(20, 80);
+    const auto checkpoint = Checkpoint::resume(path, kIdentity, larger);
+    CHECK(checkpoint->findings().empty());
+    for (std::size_t tile = 0; tile < larger.tiles(); ++tile) {
+        CHECK(checkpoint->has(tile) == (tile < 4));
+    }
+    CHECK(contains(reason_of(path, kIdentity, TilePlan(20, 40)), "80 graded gearboxes"));
+}
+
+TEST_CASE("Another study, seed or version is refused with the reason") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {0, 1});
+    RunIdentity other = kIdentity;
+    other.version = "gearpod 2 (git def)";
+    CHECK(contains(reason_of(path, other), "r.h5.part: was made by gearpod 1 (git abc)"));
+    other = kIdentity;
+    other.seed = "8";
+    CHECK(contains(reason_of(path, other), "has seed 7, this run has 8"));
+    other = kIdentity;
+    other.study += "instances = 3\n";
+    CHECK(contains(reason_of(path, other), "another study (\"nothing\" there, \"instances = 3\""));
+    CHECK(reason_of(path).empty());
+    std::string reason;
+    try {
+        Checkpoint::create(path, kIdentity, kPlan);
+    } catch (const std::runtime_error& error) {
+        reason = error.what();
+    }
+    CHECK(contains(reason, "--resume"));
+    CHECK(reason_of(path).empty());
+}
+
+TEST_CASE("Two runs cannot work on one checkpoint") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    const auto mine = Checkpoint::create(path, kIdentity, kPlan);
+    const pid_t other = fork();
+    if (other == 0) {
+        std::_Exit(contains(reason_of(path), "another run is working on it") ? 0 : 1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(other, &status, 0) == other);
+    CHECK(status == 0);
+}
+
+TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged tile is used") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {0, 1, 2, 3, 4});
+    const std::string bytes = bytes_of(path);
+    long refused = 0, found = 0;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
+        write_bytes(path, damaged);
+        if (!reason_of(path).empty()) {
+            ++refused;
+            continue;
+        }
+        write_bytes(path, damaged);
+        const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+        std::size_t there = 0;
+        for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
+            if (checkpoint->has(tile)) {
+                ++there;
+                REQUIRE(same(checkpoint->read(tile), rows_of(kPlan, tile)));
+            }
+        }
+        if (there < kPlan.tiles()) {
+            REQUIRE(there == kPlan.tiles() - 1);
+            REQUIRE(checkpoint->findings().size() == 1);
+            REQUIRE(contains(checkpoint->findings()[0], "1 tile is damaged"));
+            ++found;
+        }
+    }
+    CHECK(refused > 20);
+    CHECK(found == 5 * 1176 / 3);  // every byte looked at of every tile
+}
+
+TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {0, 1, 2, 3, 4});
+    const std::string bytes = bytes_of(path);
+    const std::size_t record = (bytes.size() - 4096) / 5;
+    write_bytes(path, bytes.substr(0, 4096 + 2 * record));
+    {
+        const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+        CHECK(checkpoint->tiles_done() == 2);
+        REQUIRE(checkpoint->findings().size() == 1);
+        CHECK(contains(checkpoint->findings()[0], "3 of 5 tiles"));
+    }
+    write_bytes(path, bytes.substr(0, 4096 + 4 * record + 100));
+    {
+        const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+        CHECK(checkpoint->tiles_done() == 4);
+        CHECK(contains(checkpoint->findings()[0], "1 tile is damaged or incomplete"));
+    }
+    for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{60}}) {
+        write_bytes(path, bytes.substr(0, length));
+        CHECK(contains(reason_of(path), "r.h5.part: is "));
+    }
+    write_bytes(path, "something else entirely, long enough to be read");
+    CHECK(contains(reason_of(path), "is not a checkpoint"));
+}
+
+TEST_CASE("A tile at another tile's place is not taken for it") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    fill(path, {0, 2, 3});
+    std::string bytes = bytes_of(path);
+    const std::size_t record = (bytes.size() - 4096) / 4;
+    bytes.replace(4096 + 2 * record, record, bytes.substr(4096 + 3 * record, record));
+    write_bytes(path, bytes);
+    const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+    CHECK_FALSE(checkpoint->has(2));
+    CHECK(checkpoint->has(3));
+    CHECK(checkpoint->findings().size() == 1);
+}
+
+TEST_CASE("A full disk is an error of the write, and the tiles before it stay") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const rlimit small{4096 + 2000, limit.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    std::string reason;
+    std::size_t tile = 0;
+    try {
+        const auto checkpoint = Checkpoint::create(path, kIdentity, kPlan);
+        for (; tile < kPlan.tiles(); ++tile) {
+            checkpoint->write(tile, rows_of(kPlan, tile));
+        }
+    } catch (const std::runtime_error& error) {
+        reason = error.what();
+    }
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    CHECK(contains(reason, "r.h5.part: cannot be written (File too large)"));
+    REQUIRE(tile > 0);
+    const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+    CHECK(checkpoint->tiles_done() == tile);
+    for (std::size_t t = 0; t < tile; ++t) {
+        CHECK(same(checkpoint->read(t), rows_of(kPlan, t)));
+    }
+}

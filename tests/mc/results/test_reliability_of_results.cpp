@@ -1,0 +1,64 @@
+// What the assessment takes from an ensemble's rows.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "mc/results/reliability_of_results.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// 400 healthy gearboxes set the threshold; of 600 graded ones, every third has no fault. The
+// parameter that looks like a crack depth is an input like any other.
+Results example() {
+    Results r;
+    r.noise_levels = {1.0, 2.0};
+    r.request.noise_levels = r.noise_levels;
+    r.request.groups = {{0.0, 0.0}, {0.5, 0.5}, {1.0, 1.0}};
+    r.request.size = {"fault_broken", "1"};
+    r.parameters = {{"fault_depth_m", "m", {}}, {"fault_broken", "1", {}}};
+    r.features = {{"te_rms", "rad", analysis::Alarm::high, {}}};
+    std::mt19937_64 engine(5);
+    for (int row = 0; row < 1000; ++row) {
+        const bool sets_threshold = row < 400;
+        const double size = sets_threshold ? 0.0 : 0.5 * (row % 3);
+        r.group.push_back(static_cast<int>(sets_threshold ? Group::threshold : Group::graded));
+        r.status.push_back(0);
+        r.parameters[0].values.push_back(1e-3 * row);
+        r.parameters[1].values.push_back(size);
+        for (const double noise : r.noise_levels) {
+            r.features[0].values.push_back(3.0 * size +
+                                           std::normal_distribution<double>(0.0, noise)(engine));
+        }
+    }
+    r.detection = detect_all(r, ColumnRows(r));
+    return r;
+}
+
+}  // namespace
+
+TEST_CASE("The fault's size is the column that the request names, all others are inputs") {
+    const Results r = example();
+    const auto reliability = reliability_of(r, ColumnRows(r), "", 2);
+    REQUIRE(reliability);
+    const auto& level = reliability->features.at(0).levels.at(0);
+    CHECK(level.auc.healthy == 600);
+    CHECK(level.auc.faulty == 400);
+    CHECK(level.auc_by_size.at(2).faulty == 200);
+    REQUIRE(level.misses.inputs.size() == 1);
+    CHECK(level.misses.inputs[0].name == "fault_depth_m");
+    CHECK(reliability->conditions.empty());
+    CHECK(reliability_of(r, ColumnRows(r), "fault_depth_m", 2)->conditions.size() == 1);
+    CHECK_THROWS_WITH(reliability_of(r, ColumnRows(r), "fault_broken", 2),
+                      Catch::Contains("it has fault_depth_m"));
+}
+
+TEST_CASE("An ensemble too large to hold is not assessed, and the text says so") {
+    const Results r = example();
+    CHECK(reliability_of(r, ColumnRows(r), "", 2, 2000));
+    const auto none =
+        reliability_of(r, ColumnRows(r), "", 2, 1999);  // 1000 gearboxes, 2 values each
+    CHECK(!none);
+    CHECK_THAT(reliability_text(none, r), Catch::Contains("at most 8388608 gearboxes"));
+}

@@ -1,0 +1,365 @@
+// The results file: complete or absent, readable by other programs, refused when it is not ours.
+#include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "mc/files/hdf5_data.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/results/results_file.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+using test::bytes_of;
+using test::Folder;
+using test::write_bytes;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Results example() {
+    Results r;
+    r.provenance = {{"version", "0.1.0"}, {"study", "title = \"x\"\n"}, {"author", "é"}};
+    r.parameters = {{"fault_depth_m", "m", {0.0, 0.0, 0.001}},
+                    {"torque_N_m", "N m", {1.0, 2.0, 3.0}}};
+    r.group = {0, 1, 1};
+    r.status = {0, 0, 2};
+    r.noise_levels = {0.0, 1.0};
+    r.features = {{"te_rms", "rad", analysis::Alarm::high, {1, 2, 3, 4, kNaN, kNaN}},
+                  {"te_fc", "order", analysis::Alarm::low, {6, 5, 4, 3, 2, 1}}};
+    r.request = {
+        0.05, 0.95, r.noise_levels, {{0.0, 0.0}, {0.001, 0.001}, {0.002, 0.003}}, "fault_depth_m",
+        "m"};
+    for (const FeatureResult& feature : r.features) {
+        analysis::FeatureDetection detection;
+        detection.feature = feature.name;
+        detection.alarm = feature.alarm;
+        detection.warnings = {"first", "second"};
+        for (const double noise : r.noise_levels) {
+            analysis::LevelDetection level{noise, noise + 0.5, 10, 1, {}};
+            for (const analysis::SizeGroup& size : r.request.groups) {
+                level.cells.push_back({size, 10, 5, 1, 0.5 + noise / 4, 0.25, 0.75});
+            }
+            detection.levels.push_back(level);
+        }
+        r.detection.push_back(detection);
+    }
+    r.timing = {{"march", 1.5}, {"total", 2.5}};
+    return r;
+}
+
+std::string reason_of(const std::string& path) {
+    try {
+        read_results(path);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("Results read back as they were written") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    const Results r = example();
+    write_results(path, r);
+    CHECK(folder.files() == 1);
+    const Results back = read_results(path);
+    CHECK(back.provenance == r.provenance);
+    CHECK(back.provenance_value("author") == "é");
+    REQUIRE(back.parameters.size() == 2);
+    CHECK(back.parameters[0].name == "fault_depth_m");
+    CHECK(back.parameters[0].values == r.parameters[0].values);
+    CHECK(back.parameters[1].unit == "N m");
+    CHECK(back.group == r.group);
+    CHECK(back.status == r.status);
+    CHECK(back.noise_levels == r.noise_levels);
+    REQUIRE(back.features.size() == 2);
+    CHECK(back.features[1].values == r.features[1].values);
+    CHECK(back.features[1].alarm == analysis::Alarm::low);
+    CHECK(std::isnan(back.features[0].values[4]));
+    REQUIRE(back.request.groups.size() == 3);
+    CHECK(back.request.groups[2].high == 0.003);
+    CHECK(back.request.confidence == 0.95);
+    CHECK(back.request.size.name == "fault_depth_m");
+    CHECK(back.request.size.unit == "m");
+    REQUIRE(back.detection.size() == 2);
+    CHECK(back.detection[0].feature == "te_rms");
+    CHECK(back.detection[1].warnings == r.detection[1].warnings);
+    const analysis::LevelDetection& level = back.detection[1].levels[1];
+    CHECK(level.threshold == 1.5);
+    CHECK(level.threshold_sample == 10);
+    CHECK(level.cells[2].size.low == 0.002);
+    CHECK(level.cells[2].pd == 0.75);
+    CHECK(level.cells[2].detected == 5);
+    REQUIRE(back.timing.size() == 2);
+    CHECK(back.timing[0].name == "march");
+    CHECK(back.timing[1].seconds == 2.5);
+}
+
+TEST_CASE("Rows read some at a time are those of the whole file") {
+    const Folder folder;
+    Results large = example();
+    large.group.clear();
+    large.status.clear();
+    for (auto& parameter : large.parameters) {
+        parameter.values.clear();
+    }
+    for (auto& feature : large.features) {
+        feature.values.clear();
+    }
+    // More than both the writer and the reader take at once.
+    for (int row = 0; row < 9001; ++row) {
+        large.group.push_back(row < 100 ? 0 : 1);
+        large.status.push_back(row % 3);
+        for (auto& parameter : large.parameters) {
+            parameter.values.push_back(row + 0.25);
+        }
+        for (auto& feature : large.features) {
+            feature.values.push_back(row);
+            feature.values.push_back(-row);
+        }
+    }
+    const std::string path = folder.file("r.h5");
+    write_results(path, large);
+    CHECK(test::bits(read_results(path)) == test::bits(large));
+    Results frame = read_frame(path);
+    CHECK(frame.status.empty());
+    const FileRows rows(path, frame);
+    CHECK(rows.rows() == 9001);
+    fill_columns(frame, rows);
+    CHECK(test::bits(frame) == test::bits(large));
+}
+
+TEST_CASE("The same results give the same bytes") {
+    const Folder folder;
+    write_results(folder.file("a.h5"), example());
+    write_results(folder.file("b.h5"), example());
+    CHECK(bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")));
+}
+
+TEST_CASE("h5dump sees the documented layout") {
+    if (std::system("command -v h5dump > /dev/null") != 0) {
+        WARN("h5dump (hdf5-tools) is not installed");
+        return;
+    }
+    const Folder folder;
+    write_results(folder.file("r.h5"), example());
+    const std::string command = "h5dump -n 1 '" + folder.file("r.h5") + "' > '" +
+                                folder.file("dump") + "' 2>&1 && h5dump -d /detection/te_rms/pd '" +
+                                folder.file("r.h5") + "' >> '" + folder.file("dump") + "' 2>&1";
+    REQUIRE(std::system(command.c_str()) == 0);
+    const std::string dump = bytes_of(folder.file("dump"));
+    for (const char* name : {"attribute  /format_version",
+                             "attribute  /study",
+                             "/instances/fault_depth_m",
+                             "/instances/fault_depth_m/unit",
+                             "/instances/group",
+                             "/features/te_rms",
+                             "/status",
+                             "/status/meanings",
+                             "/noise_levels",
+                             "/detection/size_name",
+                             "/detection/size_unit",
+                             "/detection/te_fc/size_low",
+                             "/detection/te_fc/size_high",
+                             "/detection/te_fc/noise_level",
+                             "/detection/te_fc/threshold",
+                             "/detection/te_fc/threshold_sample",
+                             "/detection/te_fc/lower",
+                             "/detection/te_fc/upper",
+                             "/detection/te_fc/detected",
+                             "/detection/te_fc/tested",
+                             "/detection/te_fc/failed",
+                             "/timing/march"}) {
+        INFO(name);
+        CHECK(contains(dump, name));
+    }
+    CHECK(contains(dump, "SIMPLE { ( 2, 3 ) / ( 2, 3 ) }"));
+    CHECK(contains(dump, "(0,0): 0.5, 0.5, 0.5,"));
+    CHECK(contains(dump, "(1,0): 0.75, 0.75, 0.75"));
+}
+
+TEST_CASE("A results file that is missing, foreign, damaged or newer is refused with the reason") {
+    const Folder folder;
+    const std::string good = folder.file("good.h5"), bad = folder.file("bad.h5");
+    write_results(good, example());
+
+    CHECK(contains(reason_of(folder.file("none.h5")), "No such file"));
+    CHECK(contains(reason_of(folder.file(".")), "is a folder"));
+    write_bytes(bad, "a,b\n1,2\n");
+    CHECK(contains(reason_of(bad), "is not a results file"));
+    write_bytes(bad, "");
+    CHECK(contains(reason_of(bad), "is not a results file"));
+    const std::string bytes = bytes_of(good);
+    for (const double share : {0.05, 0.3, 0.6, 0.99}) {
+        write_bytes(
+            bad,
+            bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+        CHECK(contains(reason_of(bad), "bad.h5: is damaged or truncated"));
+    }
+    write_bytes(bad, bytes.substr(0, bytes.size() - 16));
+    CHECK(contains(reason_of(bad), "is truncated"));
+
+    write_file(bad, file_bytes(create_memory_file()));
+    CHECK(contains(reason_of(bad), "not a gearpod results file"));
+    {
+        const Hdf5Handle newer = create_memory_file();
+        write_text(newer.get(), "/", "format", "gearpod results");
+        write_text(newer.get(), "/", "format_version", "99");
+        write_file(bad, file_bytes(newer));
+    }
+    CHECK(contains(reason_of(bad), "version 99"));
+    CHECK(contains(reason_of(bad), "version 2"));
+}
+
+TEST_CASE("Every damaged byte of a results file is noticed") {
+    const Folder folder;
+    const std::string good = folder.file("good.h5"), bad = folder.file("bad.h5");
+    write_results(good, example());
+    const std::string bytes = bytes_of(good);
+    for (std::size_t i = 0; i < bytes.size(); i += 7) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(~damaged[i]);
+        write_bytes(bad, damaged);
+        CHECK(contains(reason_of(bad), "bad.h5: is "));
+    }
+}
+
+TEST_CASE("A failed write leaves the old file and nothing else") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    write_results(path, example());
+    const std::string before = bytes_of(path);
+
+    // A limit on the file size stands in for a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const rlimit small{1000, limit.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    std::string reason;
+    try {
+        write_results(path, example());
+    } catch (const std::runtime_error& error) {
+        reason = error.what();
+    }
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    CHECK(contains(reason, path + ": cannot be written (File too large)"));
+    CHECK(bytes_of(path) == before);
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("An output that cannot be written is known before the run") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5");
+    CHECK(why_not_writable(path).empty());
+    CHECK(folder.files() == 0);
+    write_bytes(path, "old");
+    CHECK(why_not_writable(path).empty());
+    CHECK(bytes_of(path) == "old");
+    CHECK(contains(why_not_writable(folder.file("no/r.h5")), "No such file"));
+    CHECK(contains(why_not_writable(folder.file(".")), "folder"));
+    CHECK(contains(why_not_writable(folder.file("r.h5/x.h5")), "folder"));
+    CHECK_FALSE(why_not_writable("").empty());
+    CHECK_THROWS_AS(write_results(folder.file("no/r.h5"), example()), std::runtime_error);
+}
+
+TEST_CASE("What is no regular file is refused and stays") {
+    const Folder folder;
+    const std::string fifo = folder.file("fifo"), socket_path = folder.file("socket");
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    REQUIRE(socket_path.size() < sizeof address.sun_path);
+    socket_path.copy(address.sun_path, socket_path.size());
+    REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    ::close(socket);
+    fs::create_symlink("fifo", folder.file("link"));
+    const long files = folder.files();
+    for (const std::string& path : {fifo, socket_path, folder.file("link")}) {
+        const fs::file_type before = fs::symlink_status(path).type();
+        CHECK(contains(why_not_writable(path), "a regular file is needed"));
+        std::string reason;
+        try {
+            write_results(path, example());
+        } catch (const std::runtime_error& error) {
+            reason = error.what();
+        }
+        CHECK(contains(reason, path + ": cannot be written ("));
+        CHECK(contains(reason, "a regular file is needed"));
+        CHECK(fs::symlink_status(path).type() == before);
+    }
+    CHECK(folder.files() == files);
+    CHECK(contains(why_not_writable("/dev/null"), "a regular file is needed"));
+}
+
+TEST_CASE("A symbolic link stays, and the file it names is written") {
+    const Folder folder;
+    fs::create_directory(folder.file("far"));
+    write_bytes(folder.file("far/old.h5"), "old");
+    fs::create_symlink("far/old.h5", folder.file("old"));
+    fs::create_symlink("old", folder.file("chain"));
+    fs::create_symlink(folder.file("far/new.h5"), folder.file("dangling"));
+    for (const char* link : {"chain", "dangling"}) {
+        CHECK(why_not_writable(folder.file(link)).empty());
+    }
+    CHECK(bytes_of(folder.file("far/old.h5")) == "old");
+    CHECK_FALSE(fs::exists(folder.file("far/new.h5")));
+    for (const char* link : {"chain", "dangling"}) {
+        write_results(folder.file(link), example());
+        CHECK(fs::is_symlink(folder.file(link)));
+        CHECK(read_results(folder.file(link)).status == example().status);
+    }
+    CHECK(fs::is_symlink(folder.file("old")));
+    CHECK(fs::is_regular_file(folder.file("far/new.h5")));
+    CHECK(bytes_of(folder.file("far/new.h5")) == bytes_of(folder.file("far/old.h5")));
+    CHECK(std::distance(fs::directory_iterator(folder.file("far")), fs::directory_iterator{}) == 2);
+
+    fs::create_symlink("far", folder.file("to-folder"));
+    CHECK(contains(why_not_writable(folder.file("to-folder")), "folder"));
+    fs::create_symlink("no/r.h5", folder.file("astray"));
+    CHECK(contains(why_not_writable(folder.file("astray")), "No such file"));
+    fs::create_symlink("ring", folder.file("ring"));
+    CHECK(contains(why_not_writable(folder.file("ring")), "symbolic links"));
+    CHECK_THROWS_AS(write_results(folder.file("ring"), example()), std::runtime_error);
+}
+
+TEST_CASE("Results whose shapes disagree are not written") {
+    const Folder folder;
+    Results r = example();
+    r.status.pop_back();
+    CHECK_THROWS_AS(write_results(folder.file("r.h5"), r), std::invalid_argument);
+    r = example();
+    r.features[0].values.pop_back();
+    CHECK_THROWS_AS(write_results(folder.file("r.h5"), r), std::invalid_argument);
+    r = example();
+    r.detection[0].levels[0].cells.pop_back();
+    CHECK_THROWS_AS(write_results(folder.file("r.h5"), r), std::invalid_argument);
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("A study without instances or detections is still a readable file") {
+    const Folder folder;
+    write_results(folder.file("r.h5"), Results{});
+    CHECK(read_results(folder.file("r.h5")).features.empty());
+}

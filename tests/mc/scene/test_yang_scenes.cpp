@@ -1,0 +1,211 @@
+// More scenes after Yang et al. (2022): tooth separation where it happens, his test rig, and pitch
+// errors; and the tones of Liang's test rig.
+#include "dynamics/gearbox.hpp"
+#include "tests/mc/liang_signals.hpp"
+
+using namespace gearpod;
+using test::run_one;
+using test::shipped_study;
+
+namespace {
+
+// Of the mesh of ring and planet 1, over one mesh period of the healthy orbit.
+struct RingMesh {
+    double vibration_m = 0.0;   // rms about the mean of its compression d - e
+    double apart = 0.0;         // share of the time out of contact
+    double deepest_m = 0.0;     // least d - e
+    double mean_force_N = 0.0;  // of k (d - e) on the front flanks
+};
+
+RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
+    const mc::Scene scene(shipped_study("yang-separation.toml", overrides));
+    const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
+    REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
+    const int pair = scene.drive().pairs_per_mesh();
+    const Eigen::VectorXd row = dynamics::mesh_row(scene.plan().layout, pair);
+    const auto& motion = tile.march.records[0].motion;
+    const int samples = scene.samples_per_mesh();
+    std::vector<double> pressed;
+    RingMesh result;
+    for (int i = 0; i < samples; ++i) {
+        const double phase = static_cast<double>(i) / samples;
+        const Eigen::Map<const Eigen::VectorXd> q(motion.data() + i * row.size(), row.size());
+        // Amplitude 0.4 um, phase 180 degrees.
+        const double error =
+            -0.4e-6 * std::sin(2.0 * std::numbers::pi * (phase - scene.drive().pitch_phase(pair)));
+        pressed.push_back(row.dot(q) - error);
+        result.mean_force_N +=
+            std::max(pressed.back(), 0.0) * scene.pairs().total(pair, phase) / samples;
+        result.apart += pressed.back() <= 0.0 ? 1.0 / samples : 0.0;
+    }
+    double mean = 0.0, square = 0.0;
+    for (const double value : pressed) {
+        mean += value / samples;
+        square += value * value / samples;
+    }
+    result.vibration_m = std::sqrt(square - mean * mean);
+    result.deepest_m = *std::min_element(pressed.begin(), pressed.end());
+    return result;
+}
+
+// Lines of the test rig's sensor signal, i f_mp / kRigMeshes apart: carrier (112 meshes), sun (32)
+// and planets (40) repeat in them.
+constexpr int kRigMeshes = 1120, kRigCarrier = 10, kRigSun = 35;
+
+// The first graded gearbox, whose teeth are the same at any depth of the crack.
+std::vector<double> rig_signal(double depth_mm, bool alike) {
+    mc::Study study = shipped_study(
+        "yang-test-rig.toml", {"random.fault.depth_mm={ distribution = \"levels\", values = [" +
+                               std::to_string(depth_mm) + "] }"});
+    if (alike) {
+        study.errors.pitch_error_m = 0.0;
+        study.numerics.horizon = mc::Horizon::reuse;
+    }
+    return test::sensor_signal(mc::Scene(study), kRigMeshes, 0);
+}
+
+struct RigLines {
+    std::vector<double> healthy, change;  // change: by a crack of 0.2 mm
+};
+RigLines rig_lines(bool alike) {
+    const auto healthy = rig_signal(0.0, alike);
+    auto change = rig_signal(0.2, alike);
+    for (std::size_t i = 0; i < change.size(); ++i) {
+        change[i] -= healthy[i];
+    }
+    return {test::lines(healthy), test::lines(change)};
+}
+
+// What the crack adds at 2 f_mp + k f_rs, k from -6 to 6: the mean of those k for which three equal
+// planets leave the line, and of the others.
+std::pair<double, double> sun_sidebands(const std::vector<double>& change) {
+    double left = 0.0, gone = 0.0;
+    for (int k = -6; k <= 6; ++k) {
+        const double line = change[static_cast<std::size_t>(2 * kRigMeshes + k * kRigSun)];
+        ((64 + k) % 3 == 0 ? left : gone) += line;
+    }
+    return {left / 4, gone / 9};
+}
+
+}  // namespace
+
+TEST_CASE("Separating teeth: the response jumps below the linear resonance, and bears the load") {
+    const RingMesh before = ring_mesh(1), after = ring_mesh(2);
+    // Softening: 25 rpm of 5250 make the vibration grow fivefold; without separation by 2 %.
+    CHECK(after.vibration_m > 4.0 * before.vibration_m);
+    CHECK(before.apart < 0.2);
+    CHECK(after.apart > 0.4);
+    const std::vector<std::string> linear{"effects.separation=\"none\""};
+    CHECK(ring_mesh(2, linear).vibration_m < 1.1 * ring_mesh(1, linear).vibration_m);
+    CHECK(ring_mesh(0, linear).vibration_m ==
+          Approx(ring_mesh(0).vibration_m).epsilon(0.05));  // hardly any contact is lost there
+
+    // Teeth that touch half of the time still bear all of it: T / (N r_s), whatever the damping.
+    const double force = 4.0 / (4 * 28e-3 * std::cos(20 * std::numbers::pi / 180));
+    for (const RingMesh& mesh : {before, after}) {
+        CHECK(mesh.mean_force_N == Approx(force).epsilon(0.02));
+    }
+    // Back flanks touch once the backlash is used up, and push back.
+    const RingMesh both =
+        ring_mesh(3, {"effects.separation=\"two-sided\"", "gearbox.backlash_mm=0.001"});
+    const RingMesh front = ring_mesh(3);
+    CHECK(front.deepest_m < -1.3e-6);
+    CHECK(both.deepest_m < -1e-6);
+    CHECK(both.deepest_m > front.deepest_m);
+    const RingMesh wide =
+        ring_mesh(3, {"effects.separation=\"two-sided\"", "gearbox.backlash_mm=0.02"});
+    CHECK(wide.deepest_m == Approx(front.deepest_m).epsilon(1e-9));
+}
+
+TEST_CASE("Separating teeth that never repeat are marched mesh by mesh, and only then") {
+    const auto status = [](const char* horizon) {
+        const mc::Scene scene(shipped_study(
+            "yang-separation.toml",
+            {"operation.sun_speed_rpm=5750", std::string("numerics.horizon=\"") + horizon + "\"",
+             "numerics.max_meshes=400"}));
+        return run_one(scene, false, 0);
+    };
+    CHECK(status("reuse").march.status[0] == lockstep::LaneStatus::unsettled);
+    const auto marched = status("march");
+    CHECK(marched.march.status[0] == lockstep::LaneStatus::ok);
+    const auto& records = marched.march.records;
+    double change = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < records[1].te.size(); ++i) {
+        change = std::max(change, std::abs(records[1].te[i] - records[2].te[i]));
+        largest = std::max(largest, std::abs(records[1].te[i]));
+    }
+    CHECK(change > 1e-5 * largest);
+    CHECK(std::isfinite(largest));
+}
+
+TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
+    const mc::Scene scene(shipped_study("yang-test-rig.toml"));
+    const auto inputs = scene.inputs(mc::Sampler(scene.study()).nominal());
+    const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
+    CHECK(mesh == Approx(248.89).margin(0.005));
+    CHECK(dynamics::frame_speed_rad_s(inputs) / (2.0 * std::numbers::pi) ==
+          Approx(2.22).margin(0.005));
+    CHECK(mesh / scene.pattern().length == Approx(7.78).margin(0.005));
+    CHECK(mesh * 3 / scene.pattern().length == Approx(23.33).margin(0.005));
+}
+
+TEST_CASE(
+    "Yang, Fig. 23: a crack of 0.2 mm hardly shows; unlike planets make it repeat with f_rs") {
+    const RigLines alike = rig_lines(true);
+    const RigLines unlike = rig_lines(false);
+    for (const RigLines* lines : {&alike, &unlike}) {
+        CHECK(*std::max_element(lines->change.begin(), lines->change.end()) <
+              1e-4 * *std::max_element(lines->healthy.begin(), lines->healthy.end()));
+    }
+    // The path makes 2 f_mp +- k f_c; three planets alike leave k = 1, -2, 4, ... and not 2 f_mp.
+    const auto main = static_cast<std::size_t>(2 * kRigMeshes);
+    for (int k = -6; k <= 6; ++k) {
+        INFO(k);
+        const double line = alike.healthy[main + static_cast<std::size_t>(k * kRigCarrier)];
+        const double largest = alike.healthy[main + kRigCarrier];
+        CHECK(((k - 1) % 3 == 0 ? line > 1e-4 * largest : line < test::kNothing * largest));
+    }
+    // Of 2 f_mp + k f_rs three planets alike leave what f_fs divides; unlike ones leave all.
+    const auto [left, gone] = sun_sidebands(alike.change);
+    CHECK(gone < 0.05 * left);
+    const auto [unlike_left, unlike_gone] = sun_sidebands(unlike.change);
+    CHECK(unlike_gone > 0.2 * unlike_left);
+}
+
+TEST_CASE("Pitch errors make healthy teeth differ, by more than a crack of 2 mm does") {
+    const auto ratios = [](const std::vector<std::string>& overrides) {
+        mc::Study study = shipped_study("yang-pitch-errors.toml", overrides);
+        study.ensemble.threshold_instances = 1;
+        study.ensemble.instances = 3;
+        const mc::Results results = test::run(study);
+        return results.features[test::feature_index(results, "window_ratio")].values;
+    };
+    // A healthy gearbox for the threshold, then cracks of 0, 1 and 2 mm.
+    const auto without = ratios({"gearbox.pitch_error_um=0"});
+    CHECK(without[1] == Approx(1.0).margin(1e-3));
+    CHECK(without[3] > without[2]);
+    const auto with = ratios({});
+    for (const double ratio : {with[0], with[1]}) {
+        CHECK(ratio - 1.0 > 5.0 * (without[3] - 1.0));
+    }
+}
+
+TEST_CASE("Tones of the drive blur the cracked tooth's windows, and little") {
+    const auto ratios = [](const char* name) {
+        const mc::Results results = test::run(shipped_study(name));
+        const auto values = [&](const char* feature) {
+            return results.features[test::feature_index(results, feature)].values;
+        };
+        return std::pair{values("window_ratio").back(), values("sensor_rms").back()};
+    };
+    const auto [quiet, quiet_rms] = ratios("liang-fig-5-8.toml");
+    const auto [heard, heard_rms] = ratios("liang-test-rig.toml");
+    CHECK(heard < quiet);
+    CHECK(heard - 1.0 > 0.8 * (quiet - 1.0));
+    // Their power adds: half the sum of the squared amplitudes below the low-pass.
+    double power = 0.0;
+    for (const mc::Tone& tone : shipped_study("liang-test-rig.toml").sensor.tones) {
+        power += 0.5 * tone.amplitude_m_s2 * tone.amplitude_m_s2;
+    }
+    CHECK(heard_rms * heard_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));
+}

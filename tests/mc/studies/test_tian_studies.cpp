@@ -1,0 +1,235 @@
+// The shipped studies of Tian's figures (2004, chapter 4): what the sensor on the pinion's bearing
+// hears of perfect gears and of a chipped, a cracked and a broken pinion tooth.
+#include <numbers>
+
+#include "tests/mc/liang_signals.hpp"
+
+using namespace gearpod;
+using test::kNothing;
+using test::run_one;
+using test::sensor_signal;
+using test::shipped_study;
+using test::spectrum;
+
+namespace {
+
+constexpr double kMesh_Hz = 570.0;
+constexpr int kPinionTeeth = 19;
+
+// Each study's graded gearbox 0 is healthy, 1 faulty.
+const std::vector<std::string> kFaults{"tian-fig-4-6.toml", "tian-fig-4-9.toml",
+                                       "tian-fig-4-12.toml"};
+
+// Frequency of the swings between two phases (mesh periods), from the signal's extremes.
+double ringing_Hz(const std::vector<double>& signal, int samples, double from, double to) {
+    std::vector<double> turns;
+    const auto first = static_cast<std::size_t>(from * samples) + 1,
+               last = static_cast<std::size_t>(to * samples);
+    for (std::size_t i = first; i < last; ++i) {
+        const double before = signal[i] - signal[i - 1], after = signal[i + 1] - signal[i];
+        if (before * after < 0.0) {
+            // Where the parabola through the three samples turns.
+            turns.push_back(static_cast<double>(i) + 0.5 * (before + after) / (before - after));
+        }
+    }
+    REQUIRE(turns.size() >= 3);
+    const double meshes = (turns.back() - turns.front()) / samples;
+    return 0.5 * static_cast<double>(turns.size() - 1) / meshes * kMesh_Hz;
+}
+
+long dominant(const std::vector<double>& amplitudes) {
+    return std::max_element(amplitudes.begin() + 1, amplitudes.end()) - amplitudes.begin();
+}
+
+// Faulty less healthy signal of a study, over two turns of the pinion.
+std::vector<double> fault_signal(const mc::Scene& scene) {
+    auto rise = sensor_signal(scene, 2 * kPinionTeeth, 1);
+    const auto healthy = sensor_signal(scene, 2 * kPinionTeeth, 0);
+    for (std::size_t i = 0; i < rise.size(); ++i) {
+        rise[i] -= healthy[i];
+    }
+    return rise;
+}
+
+double peak(const std::vector<double>& signal) {
+    double largest = 0.0;
+    for (const double value : signal) {
+        largest = std::max(largest, std::abs(value));
+    }
+    return largest;
+}
+
+// Pinion with motor against gear with load, couplings and bearings held by their dampers.
+double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
+    const auto& g = study.fixed_shaft;
+    const double module = study.gearbox.module_m.value();
+    double sum = 0.0;
+    for (const auto& [teeth, mass, rotor] :
+         {std::tuple{19, *g.pinion_mass_kg, *g.motor_inertia_kg_m2},
+          std::tuple{48, *g.gear_mass_kg, *g.load_inertia_kg_m2}}) {
+        const double pitch = 0.5 * module * teeth;
+        const double base = pitch * std::cos(study.gearbox.pressure_angle_rad);
+        sum += base * base / (0.5 * mass * pitch * pitch + rotor);
+    }
+    return std::sqrt(stiffness_N_m * sum) / (2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+TEST_CASE("Fig. 4.3: the sensor rings at 3788 Hz while two pairs touch and at 3049 Hz with one") {
+    const mc::Scene scene(shipped_study("tian-fig-4-3.toml"));
+    const int samples = scene.samples_per_mesh();
+    const auto signal = sensor_signal(scene, 3);
+    const double two = 1.0 + scene.pairs().start[0];
+    const double one = two + scene.pairs().curve(0).contact_ratio() - 1.0;
+    const double shock = 0.06e-3 * kMesh_Hz;
+    CHECK(ringing_Hz(signal, samples, two + shock, one) == Approx(3788.0).epsilon(0.08));
+    CHECK(ringing_Hz(signal, samples, one + shock, two + 1.0) == Approx(3049.0).epsilon(0.08));
+}
+
+TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's frequency") {
+    for (const double stiffness : {6e8, 9e8, 1.1e9}) {
+        mc::Study study = shipped_study("tian-fig-4-3.toml");
+        study.gearbox.tooth_profile = mc::ToothProfile::square_wave;
+        auto& gears = study.fixed_shaft;
+        gears.mesh_low_stiffness_N_m = 0.9999 * stiffness;
+        gears.mesh_high_stiffness_N_m = stiffness;
+        gears.mesh_contact_ratio = 1.9;
+        const mc::Scene scene(study);
+        const double two = 1.0 + scene.pairs().start[0];
+        CHECK(ringing_Hz(sensor_signal(scene, 3), scene.samples_per_mesh(), two + 0.05,
+                         two + 0.8) == Approx(closed_form_Hz(study, stiffness)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("Figs. 4.4, 4.5: the 7th mesh harmonic dominates, without shear energy the 10th") {
+    // The thesis reads the 6th and the 8th off its plots: see studies/README.md.
+    CHECK(dominant(spectrum(mc::Scene(shipped_study("tian-fig-4-3.toml")), 1)) == 7);
+    CHECK(dominant(spectrum(mc::Scene(shipped_study("tian-fig-4-5.toml")), 1)) == 10);
+}
+
+TEST_CASE("Coarse steps leave the dominant harmonic alone, or do not settle") {
+    // 60 samples, and steps, a mesh period; see tests/peers/tian-loose-tolerances.
+    for (const auto& [name, expected] :
+         {std::pair{"tian-fig-4-3.toml", 7}, std::pair{"tian-fig-4-5.toml", 10}}) {
+        const std::vector<std::string> coarse{
+            "sensor.sampling_Hz=34200", "sensor.encoder_sampling_Hz=34200",
+            "sensor.low_pass_Hz=15390", "numerics.steps_per_mesh=10"};
+        CHECK(dominant(spectrum(mc::Scene(shipped_study(name, coarse)), 1)) == expected);
+        // The trapezoidal rule never forgets motions that are this much faster than its steps.
+        auto trapezoidal = coarse;
+        trapezoidal.push_back("numerics.integrator=\"newmark\"");
+        CHECK(run_one(mc::Scene(shipped_study(name, trapezoidal))).march.status[0] ==
+              lockstep::LaneStatus::unsettled);
+    }
+}
+
+TEST_CASE("Section 4.2.1: nothing moves along x") {
+    for (const auto& name : kFaults) {
+        const auto tile = run_one(mc::Scene(shipped_study(name)), true, 1);
+        double along_x = 0.0, along_y = 0.0;
+        for (const auto& record : tile.march.records) {
+            const auto& q = record.motion;
+            for (std::size_t i = 0; i < q.size(); i += dynamics::fixed_shaft_motions) {
+                along_x = std::max(
+                    {along_x, std::abs(q[i + dynamics::x_1]), std::abs(q[i + dynamics::x_2])});
+                along_y = std::max(along_y, std::abs(q[i + dynamics::y_1]));
+            }
+        }
+        CHECK(along_x < 1e-12 * along_y);
+    }
+}
+
+TEST_CASE("Fig. 4.7: the chipped tooth's signal leaves the healthy one at 22.4 degrees") {
+    const mc::Scene scene(shipped_study("tian-fig-4-6.toml"));
+    // Of the pinion's turn since the tooth came into contact.
+    const auto degrees = [](double meshes) { return meshes * 360.0 / kPinionTeeth; };
+    const auto& healthy = scene.pairs().curve(0);
+    const auto chipped = scene.fault().mesh(0, 8e-3);
+    double first = 0.0;
+    while (first < healthy.contact_ratio() &&
+           stiffness::total_at(*chipped, healthy.transitions(), first) >
+               (1.0 - 1e-6) * stiffness::total_at(healthy, first)) {
+        first += 1e-4;
+    }
+    CHECK(degrees(first) == Approx(22.4).margin(0.1));
+
+    const auto rise = fault_signal(scene);
+    const double largest = peak(rise);
+    std::size_t heard = 0;
+    while (std::abs(rise[heard]) < 1e-3 * largest) {
+        ++heard;
+    }
+    const double since = static_cast<double>(heard) / scene.samples_per_mesh() -
+                         scene.pattern().passages.front().start;
+    CHECK(degrees(since) == Approx(22.4).margin(1.0));
+}
+
+TEST_CASE("Figs. 4.6-4.14: every 19 meshes a peak, chip below crack below broken tooth") {
+    std::vector<double> peaks;
+    for (const auto& name : kFaults) {
+        INFO(name);
+        const mc::Scene scene(shipped_study(name));
+        const auto rise = fault_signal(scene);
+        const std::size_t turn = rise.size() / 2,
+                          samples = static_cast<std::size_t>(scene.samples_per_mesh());
+        peaks.push_back(peak(rise));
+        // All of it within the meshes of the tooth and the ringing after them.
+        double change = 0.0, later = 0.0;
+        for (std::size_t i = 0; i < turn; ++i) {
+            change = std::max(change, std::abs(rise[i + turn] - rise[i]));
+            later = std::max(later, i < 6 * samples ? 0.0 : std::abs(rise[i]));
+        }
+        CHECK(change < kNothing * peaks.back());
+        CHECK(later < 0.02 * peaks.back());
+    }
+    const double healthy = peak(sensor_signal(mc::Scene(shipped_study(kFaults[0])), 1));
+    CHECK(peaks[0] < 0.2 * healthy);
+    CHECK(peaks[1] > 2.0 * peaks[0]);
+    CHECK(peaks[1] < healthy);
+    CHECK(peaks[2] > 50.0 * healthy);
+}
+
+TEST_CASE(
+    "Figs. 4.8, 4.11, 4.14: a faulty tooth leaves harmonics of the shaft, perfect ones none") {
+    double before = kNothing;
+    for (const auto& name : kFaults) {
+        INFO(name);
+        const mc::Scene scene(shipped_study(name));
+        const auto between = [&](std::uint64_t number) {
+            const auto lines = spectrum(scene, kPinionTeeth, number);
+            double largest = 0.0;
+            for (std::size_t i = 0; i < lines.size(); ++i) {
+                largest = i % kPinionTeeth == 0 ? largest : std::max(largest, lines[i]);
+            }
+            return largest / *std::max_element(lines.begin(), lines.end());
+        };
+        CHECK(between(0) < kNothing);
+        CHECK(between(1) > 2.0 * before);
+        before = between(1);
+    }
+    CHECK(before == 1.0);  // shaft harmonics are the largest lines of the broken tooth
+}
+
+TEST_CASE("Figs. 4.13, 4.14: the broken tooth's shock rings at 2530 Hz") {
+    const mc::Scene scene(shipped_study("tian-fig-4-12.toml"));
+    const auto signal = sensor_signal(scene, kPinionTeeth, 1);
+    const auto shock = std::max_element(signal.begin(), signal.end()) - signal.begin();
+    const double at = static_cast<double>(shock) / scene.samples_per_mesh();
+    CHECK(ringing_Hz(signal, scene.samples_per_mesh(), at + 0.1e-3 * kMesh_Hz,
+                     at + 1.2e-3 * kMesh_Hz) == Approx(2530.0).epsilon(0.08));
+    const double largest_Hz =
+        static_cast<double>(dominant(spectrum(scene, kPinionTeeth, 1))) * kMesh_Hz / kPinionTeeth;
+    CHECK(largest_Hz == Approx(2530.0).epsilon(0.08));
+}
+
+TEST_CASE("The Runge-Kutta method is refused: the motor coupling's damper is too stiff for it") {
+    try {
+        const mc::Scene scene(shipped_study("tian-fig-4-3.toml", {"numerics.integrator=\"rk4\""}));
+        FAIL("not refused");
+    } catch (const mc::SceneError& error) {
+        INFO(error.what() << "; " << error.remedy());
+        CHECK(std::string(error.what()).find("damper of the motor coupling") != std::string::npos);
+        CHECK(error.remedy().find("sdirk3") != std::string::npos);
+    }
+}

@@ -1,0 +1,311 @@
+// A study file read, converted to SI, overridden and written back.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "mc/input/spelling.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "mc/study/schema/sizes.hpp"
+#include "mc/study/study.hpp"
+#include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
+
+using namespace gearpod::mc;
+using namespace gearpod::tests;
+
+namespace {
+
+Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    StudyReading reading = read_study_text(text, "study.toml", overrides);
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+// Natural frequencies are defined without teeth.
+const char* const kConstantStudy = R"(
+[gearbox]
+kind = "planetary"
+planets = 3
+pressure_angle_deg = 24.6
+tooth_profile = "constant"
+sun_planet_stiffness_N_m = 5e8
+ring_planet_stiffness_N_m = 5e8
+sun_mass_kg = 0.4
+planet_mass_kg = 0.66
+ring_mass_kg = 2.35
+carrier_mass_kg = 5.43
+sun_inertia_over_r2_kg = 0.39
+planet_inertia_over_r2_kg = 0.61
+ring_inertia_over_r2_kg = 3.0
+carrier_inertia_over_r2_kg = 6.29
+sun_bearing_stiffness_N_m = 1e8
+planet_bearing_stiffness_N_m = 1e8
+ring_bearing_stiffness_N_m = 1e8
+carrier_bearing_stiffness_N_m = 1e8
+support_stiffness_N_m = 1e9
+mesh_damping_time_s = 3.99e-6
+[effects]
+mesh_damping = "proportional"
+inertial_terms = false
+[operation]
+torque_N_m = 0.1
+sun_speed_rpm = 1234.567891234567
+[fault]
+kind = "none"
+[sensor]
+sampling_Hz = 20000
+low_pass_Hz = 0.3
+encoder_sampling_Hz = 333.3333333333333
+encoder_noise_arcsec = 0.7
+[ensemble]
+instances = 1
+threshold_instances = 1
+seed = 9223372036854775807
+)";
+
+}  // namespace
+
+TEST_CASE("Values of a study file are in SI units and radians") {
+    const Study study = study_of(kExampleStudy);
+    CHECK(study.title == "example");
+    CHECK(study.gearbox.module_m == Approx(0.003175).epsilon(1e-15));
+    CHECK(study.gearbox.pressure_angle_rad == Approx(M_PI / 9).epsilon(1e-15));
+    CHECK(*study.operation.carrier_speed_rad_s == Approx(8.87 * 2 * M_PI / 60).epsilon(1e-15));
+    CHECK(study.sensor.encoder_noise_rad == Approx(1.5 / 3600 * M_PI / 180).epsilon(1e-15));
+    CHECK(study.fault.angle_rad == M_PI / 4);
+    CHECK(study.sensor.noise_levels == std::vector<double>{0.0, 0.5, 1.0});
+    CHECK(study.features.use.size() == 7);
+}
+
+TEST_CASE("The nominal value of a random input is the one given, else the median") {
+    const Study study = study_of(kExampleStudy);
+    CHECK(*study.gearbox.planet_bearing_stiffness_N_m == 1e8);
+    CHECK(*study.fault.depth_m == Approx(0.002));
+    const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
+    CHECK(*without.gearbox.planet_bearing_stiffness_N_m == 1.1e8);
+    CHECK(study.find_random("fault.depth_mm")->to_si == 1e-3);
+    CHECK(study.find_random("sensor.noise_m_s2") == nullptr);
+}
+
+TEST_CASE("Overrides replace what the file says and may leave strings unquoted") {
+    const Study study = study_of(
+        kExampleStudy,
+        {"ensemble.seed=12", "fault.side=sun", "effects.motion='torsional'",
+         "random.fault.depth_mm={distribution=\"grid\", low=0, high=4, count=3}",
+         "random.gearbox.planet_bearing_stiffness_N_m.cv = 0.5", "detection.confidence = 0.9"});
+    CHECK(study.ensemble.seed == 12);
+    CHECK(study.fault.side == FaultSide::sun);
+    CHECK(study.effects.motion == Motion::torsional);
+    CHECK(study.find_random("fault.depth_mm")->distribution.levels() ==
+          std::vector<double>{0.0, 2.0, 4.0});
+    CHECK(study.find_random("gearbox.planet_bearing_stiffness_N_m")->distribution.toml() ==
+          "{ distribution = \"lognormal\", median = 110000000, cv = 0.5 }");
+    CHECK(study.detection.confidence == 0.9);
+}
+
+TEST_CASE("An override of a key takes it out of [random], in whatever order both are overridden") {
+    const std::string stiffness = "gearbox.planet_bearing_stiffness_N_m";
+    const Study fixed = study_of(kExampleStudy, {stiffness + "=3e8"});
+    CHECK(fixed.find_random(stiffness) == nullptr);
+    CHECK(fixed.random.size() == 2);
+    CHECK(*fixed.gearbox.planet_bearing_stiffness_N_m == 3e8);
+    CHECK(study_of(resolved_text(fixed)) == fixed);
+    CHECK(study_of(kExampleStudy, {"sensor={sampling_Hz=5000, low_pass_Hz=800, "
+                                   "encoder_sampling_Hz=5000, path_exponent=0.2}"})
+              .find_random("sensor.path_exponent") == nullptr);
+
+    // An override of [random] leaves the section's value, which is nominal, and the other way
+    // round.
+    CHECK(study_of(kExampleStudy, {"random." + stiffness + ".cv=0.5"})
+              .gearbox.planet_bearing_stiffness_N_m == 1e8);
+    const std::string plain = stiffness + "=3e8",
+                      whole = "random." + stiffness + "={distribution='uniform', low=1, high=2}",
+                      part = "random." + stiffness + ".cv=0.5";
+    for (const std::string& random : {whole, part}) {
+        const Study both = study_of(kExampleStudy, {plain, random});
+        CHECK(both == study_of(kExampleStudy, {random, plain}));
+        CHECK(*both.gearbox.planet_bearing_stiffness_N_m == 3e8);
+        REQUIRE(both.find_random(stiffness) != nullptr);
+        CHECK(both.find_random(stiffness)->distribution ==
+              study_of(kExampleStudy, {random}).find_random(stiffness)->distribution);
+    }
+}
+
+TEST_CASE("By default the sun is driven, and the ring where the sun is fixed") {
+    const auto input_of = [](const std::string& fixed, const std::string& speed) {
+        return study_of(example_with("carrier_speed_rpm", speed), {"operation.fixed=" + fixed});
+    };
+    const Study ring = input_of("ring", "sun_speed_rpm"), sun = input_of("sun", "ring_speed_rpm"),
+                carrier = input_of("carrier", "sun_speed_rpm");
+    CHECK(ring.operation.input == Member::sun);
+    CHECK(sun.operation.input == Member::ring);
+    CHECK(carrier.operation.input == Member::sun);
+    CHECK(resolved_text(sun).find("\ninput = \"ring\"\n") != std::string::npos);
+    CHECK(study_of(resolved_text(sun)) == sun);
+    CHECK(study_of(example_with("carrier_speed_rpm", "ring_speed_rpm"),
+                   {"operation.fixed=carrier", "operation.input=ring"})
+              .operation.input == Member::ring);
+}
+
+TEST_CASE("Zero settling periods stand for a choice by the program and are the default") {
+    CHECK(study_of(kExampleStudy).numerics.max_meshes == 0);
+    CHECK(study_of(kExampleStudy, {"numerics.max_meshes=1000000"}).numerics.max_meshes == 1000000);
+    CHECK(study_of(kExampleStudy, {"operation.torque_N_m=0"}).operation.torque_N_m == 0.0);
+}
+
+TEST_CASE("An override switches off tones and pitch errors that the file asks for") {
+    const std::string toned =
+        replaced(kFixedShaftStudy, "[sensor]",
+                 "[sensor]\ntones = [{ frequency_Hz = 50, amplitude_m_s2 = 3 }]");
+    CHECK(study_of(toned).sensor.tones.size() == 1);
+    CHECK(study_of(toned, {"sensor.tones=[]"}) == study_of(kFixedShaftStudy));
+    const std::vector<std::string> rough{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
+    auto smooth = rough;
+    smooth.push_back("gearbox.pitch_error_um=0");
+    CHECK(study_of(kQuasiStaticStudy, rough).errors.pitch_error_m == Approx(3e-6));
+    CHECK(study_of(kQuasiStaticStudy, smooth).errors.pitch_error_m == 0.0);
+}
+
+TEST_CASE("The resolved text reads back to the same study, bit for bit") {
+    std::vector<Study> studies{study_of(kExampleStudy), study_of(kConstantStudy)};
+    for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
+        studies.push_back(study_of(text));
+    }
+    studies.push_back(
+        study_of(kFixedShaftStudy,
+                 {"sensor.tones=[{frequency_Hz=0.1, amplitude_m_s2=0.7}, {frequency_Hz=50, "
+                  "amplitude_m_s2=3}]",
+                  "sensor.position=gear",
+                  "random.gearbox.gear_bearing_damping_N_s_m={distribution="
+                  "'lognormal', median=1.8e5, cv=0.3}",
+                  "numerics.integrator=sdirk3", "effects.shear=false"}));
+    studies.push_back(study_of(kQuasiStaticStudy,
+                               {"random.fault.reduction={distribution='uniform', low=0, high=0.3}",
+                                "detection.size_edges=[0, 0.1, 0.3]"}));
+    studies.push_back(study_of(example_with("\"levels\", values = [0, 1, 2, 3, 4.3]",
+                                            "\"triangular\", low = 0.1, mode = 0.7, high = 3.3"),
+                               {"detection.size_edges_mm=[0.1, 0.7, 1.1, 3.3]",
+                                "title=\"a \\\"quoted\\\" \\\\ title \\u0001 é\""}));
+    studies.push_back(study_of(
+        kExampleStudy, {"random.sensor.noise_m_s2 = {distribution='uniform', "
+                        "low = 0.1, high = 0.2}",
+                        "fault.angle_deg = 51.3", "gearbox.module_mm=0.7",
+                        "random.fault.depth_mm.values=[0.1, 0.3]", "features.use=['te_fc']"}));
+    for (const Study& study : studies) {
+        const std::string text = resolved_text(study);
+        INFO(text);
+        CHECK(study_of(text) == study);
+        CHECK(resolved_text(study_of(text)) == text);
+    }
+    CHECK(resolved_text(studies[0]).find("module_mm = 3.175\n") != std::string::npos);
+}
+
+TEST_CASE("The resolved text spells out every key that may be given") {
+    const std::string text = resolved_text(study_of(kExampleStudy));
+    // Those that mean something by not being given.
+    const std::vector<std::string_view> without_default{
+        "inertia", "speed", "size_edges_mm", "planet_positions",   "ring_to_sun_phase", "bore",
+        "outer",   "error", "tones",         "torque_fluctuation", "torque_noise",      "until"};
+    for (const Key& key : schema()) {
+        const bool optional_here =
+            key.presence(study_of(kExampleStudy)).need == Need::optional &&
+            std::any_of(without_default.begin(), without_default.end(),
+                        [&](auto part) { return key.name.find(part) != std::string_view::npos; });
+        const bool forbidden = key.presence(study_of(kExampleStudy)).need == Need::forbidden;
+        INFO(key.path());
+        CHECK((optional_here || forbidden ||
+               text.find("\n" + std::string(key.name) + " = ") != std::string::npos));
+    }
+}
+
+TEST_CASE("A gearbox of constant stiffness may have teeth or none") {
+    CHECK_FALSE(study_of(kConstantStudy).gearbox.has_teeth());
+    const Study study = study_of(
+        kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet_stiffness_N_m=1e8",
+                        "gearbox.ring_planet_stiffness_N_m=1e8", "fault.kind='none'"});
+    CHECK(study.gearbox.has_teeth());
+    CHECK(*study.gearbox.sun_planet_stiffness_N_m == 1e8);
+}
+
+TEST_CASE("Size groups are the levels in ascending order, or lie between the edges") {
+    const Study levels = study_of(kExampleStudy, {"random.fault.depth_mm.values=[3, 0, 3, 1]"});
+    const auto groups = size_groups(levels);
+    REQUIRE(groups.size() == 3);
+    CHECK(groups[0].low == 0.0);
+    CHECK(groups[2].low == 3 * 1e-3);
+    CHECK(groups[2].high == groups[2].low);
+    CHECK(fault_sizes(levels) == std::vector<double>{1e-3, 3 * 1e-3});
+
+    const Study edges = study_of(
+        example_with("\"levels\", values = [0, 1, 2, 3, 4.3]", "\"uniform\", low = 0, high = 4"),
+        {"detection.size_edges_mm=[0, 1, 4]"});
+    REQUIRE(size_groups(edges).size() == 2);
+    CHECK(size_groups(edges)[1].low == 1e-3);
+    CHECK(size_groups(edges)[1].high == 4 * 1e-3);
+    CHECK(detection_request(edges).noise_levels == edges.sensor.noise_levels);
+    CHECK(size_groups(study_of(kExampleStudy, {"fault.kind='none'"})).size() == 1);
+}
+
+TEST_CASE("Each kind of fault has one size, with its unit") {
+    const std::pair<FaultKind, const char*> columns[] = {
+        {FaultKind::none, "fault_depth_m"},        {FaultKind::crack, "fault_depth_m"},
+        {FaultKind::spatial_crack, "fault_stage"}, {FaultKind::chip, "fault_chip_m"},
+        {FaultKind::pitting, "fault_pit_width_m"}, {FaultKind::broken, "fault_broken"},
+        {FaultKind::reduction, "fault_reduction"}};
+    for (const auto& [kind, column] : columns) {
+        Study study;
+        study.fault.kind = kind;
+        CHECK(fault_size_column(study) == column);
+        CHECK(fault_size_key(study).may_be_random());
+        CHECK(detection_request(study).size.name == column);
+        const bool length = std::string_view(column).ends_with("_m");
+        CHECK(detection_request(study).size.unit == (length ? "m" : "1"));
+    }
+    const Study edges = study_of(
+        kQuasiStaticStudy, {"random.fault.reduction={distribution='uniform', low=0, high=0.3}",
+                            "detection.size_edges=[0, 0.1, 0.3]"});
+    REQUIRE(size_groups(edges).size() == 2);
+    CHECK(size_groups(edges)[1].low == 0.1);
+    CHECK(size_groups(study_of(kSpatialCrackStudy)).front().high == 5.0);
+    CHECK(size_groups(study_of(kFixedShaftStudy)).front().high == 8 * 1e-3);
+}
+
+TEST_CASE("What a motion and a gearbox leave no room for is off by default") {
+    const Study quasi = study_of(kQuasiStaticStudy), shaft = study_of(kFixedShaftStudy);
+    CHECK(quasi.effects.path == PathWindow::none);
+    CHECK(shaft.effects.path == PathWindow::none);
+    CHECK(study_of(kExampleStudy).effects.path == PathWindow::hamming);
+    CHECK(quasi.features.use ==
+          std::vector<std::string>{"te_rms", "te_kurtosis", "te_fc", "te_fm0"});
+    CHECK(shaft.features.use.size() == 7);
+    CHECK(quasi.operation.torque_on == Member::carrier);
+    CHECK(study_of(kExampleStudy, {"operation.input=carrier"}).operation.torque_on == Member::sun);
+}
+
+TEST_CASE("Lists of errors keep their order and come in SI units") {
+    const Study study = study_of(kSpatialCrackStudy);
+    CHECK(study.errors.sun_planet_m == std::vector<double>{10 * 1e-6, 2 * 1e-6});
+    CHECK(study.errors.sun_planet_phase_rad[1] == Approx(M_PI / 2));
+    CHECK(study.errors.ring_planet_phase_rad.empty());
+    CHECK(study.gearbox.backlash_m == 0.1 * 1e-3);
+}
+
+TEST_CASE("Edit distances are those of the literature") {
+    CHECK(edit_distance("kitten", "sitting") == 3);
+    CHECK(edit_distance("saturday", "sunday") == 3);
+    CHECK(edit_distance("ca", "ac") == 1);
+    CHECK(edit_distance("", "abc") == 3);
+    CHECK(without_unit("planet_bearing_stiffness_N_m") == "planet_bearing_stiffness");
+    CHECK(without_unit("sun_inertia_kg_m2") == "sun_inertia");
+    CHECK(without_unit("teeth") == "teeth");
+}
+
+TEST_CASE("The help lists every key of the schema with its section") {
+    const std::string help = schema_help();
+    for (const Key& key : schema()) {
+        CHECK(help.find("  " + std::string(key.name) + " ") != std::string::npos);
+        CHECK(help.find("[" + std::string(key.section) + "]") != std::string::npos);
+        CHECK((key.unit.suffix.empty() || key.name.ends_with("_" + std::string(key.unit.suffix))));
+    }
+}

@@ -1,0 +1,95 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "machine/dispatch.hpp"
+#include "signals/spectra/fourier_transform.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+using Complex = std::complex<double>;
+
+std::vector<Complex> random_signal(int points) {
+    std::mt19937_64 engine(static_cast<unsigned>(points));
+    std::normal_distribution<double> normal;
+    std::vector<Complex> signal(points);
+    for (Complex& x : signal) {
+        x = {normal(engine), normal(engine)};
+    }
+    return signal;
+}
+
+std::vector<Complex> transformed(const std::vector<Complex>& signal, FourierTransform::Way way) {
+    std::vector<Complex> out(signal.size());
+    FourierTransform(static_cast<int>(signal.size()), way).transform(signal, out);
+    return out;
+}
+
+// By definition, in 80 bits.
+std::complex<long double> direct(const std::vector<Complex>& signal, std::size_t k, int sign) {
+    const std::size_t n = signal.size();
+    std::complex<long double> sum = 0.0L;
+    for (std::size_t i = 0; i < n; ++i) {
+        const long double angle = sign * 2.0L * std::numbers::pi_v<long double> *
+                                  static_cast<long double>(i * k % n) / static_cast<long double>(n);
+        sum += std::complex<long double>(signal[i]) *
+               std::complex<long double>(std::cos(angle), std::sin(angle));
+    }
+    return sum;
+}
+
+TEST_CASE("Fourier transforms of any length are the sums that define them, both ways") {
+    for (const int points :
+         {1, 2, 5, 7, 31, 36, 62, 7 * 7, 7 * 31, 13 * 8, 31 * 108, 97 * 20, 2 * 1009}) {
+        const auto signal = random_signal(points);
+        const double limit = 1e-14 * std::sqrt(points);  // results are some sqrt(2 n) large
+        for (const auto way : {FourierTransform::Way::forward, FourierTransform::Way::back}) {
+            const int sign = way == FourierTransform::Way::back ? 1 : -1;
+            const auto spectrum = transformed(signal, way);
+            double worst = 0.0;
+            for (std::size_t k = 0; k < spectrum.size(); k += 1 + spectrum.size() / 300) {
+                const auto difference =
+                    std::complex<long double>(spectrum[k]) - direct(signal, k, sign);
+                worst = std::max(worst, static_cast<double>(std::abs(difference)));
+            }
+            INFO(points << " points, worst " << worst);
+            CHECK(worst < limit);
+        }
+    }
+}
+
+TEST_CASE("There and back is the signal times its length") {
+    const auto signal = random_signal(31 * 432);
+    const auto again = transformed(transformed(signal, FourierTransform::Way::forward),
+                                   FourierTransform::Way::back);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        worst = std::max(worst, std::abs(again[i] / (31.0 * 432.0) - signal[i]));
+    }
+    CHECK(worst < 1e-13);
+}
+
+TEST_CASE("Fourier transforms have the same bits on every instruction set") {
+    const auto signal = random_signal(31 * 108);
+    const auto reference = transformed(signal, FourierTransform::Way::forward);
+    const auto best = machine::best_instruction_set();
+    for (int set = 0; set <= static_cast<int>(best); ++set) {
+        machine::use_instruction_set(static_cast<machine::InstructionSet>(set));
+        CHECK(transformed(signal, FourierTransform::Way::forward) == reference);
+    }
+    machine::use_instruction_set(best);
+}
+
+TEST_CASE("A Fourier transform refuses other lengths than its own") {
+    FourierTransform transform(62);
+    std::vector<Complex> right(62);
+    std::vector<Complex> wrong(61);
+    CHECK_THROWS_AS(transform.transform(wrong, right), std::invalid_argument);
+    CHECK_THROWS_AS(transform.transform(right, wrong), std::invalid_argument);
+    CHECK_THROWS_AS(FourierTransform(0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gearpod::signals

@@ -1,0 +1,102 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "signals/spectra/order_spectrum.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// One-sided amplitudes by the definition of the Fourier coefficients.
+std::vector<double> direct_amplitudes(const std::vector<double>& x) {
+    const std::size_t n = x.size();
+    std::vector<double> amplitudes(n / 2 + 1);
+    for (std::size_t k = 0; k < amplitudes.size(); ++k) {
+        double re = 0.0;
+        double im = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle =
+                2.0 * kPi * static_cast<double>(k * i % n) / static_cast<double>(n);
+            re += x[i] * std::cos(angle);
+            im += x[i] * std::sin(angle);
+        }
+        const bool single = k == 0 || 2 * k == n;
+        amplitudes[k] = (single ? 1.0 : 2.0) * std::hypot(re, im) / static_cast<double>(n);
+    }
+    return amplitudes;
+}
+
+TEST_CASE(
+    "Order amplitudes of signal plus noise agree with the Fourier sums, even and odd lengths") {
+    std::mt19937_64 engine(2);
+    std::normal_distribution<double> normal;
+    for (const int points : {31 * 8, 31 * 9, 28 * 5}) {
+        std::vector<double> signal(points);
+        std::vector<double> noise(points);
+        for (int i = 0; i < points; ++i) {
+            signal[i] = normal(engine);
+            noise[i] = normal(engine);
+        }
+        OrderSpectrum spectrum(points);
+        spectrum.load(signal, noise);
+        for (const double factor : {0.0, 0.5, 3.0}) {
+            std::vector<double> mixed(points);
+            for (int i = 0; i < points; ++i) {
+                mixed[i] = signal[i] + factor * noise[i];
+            }
+            const std::vector<double> expected = direct_amplitudes(mixed);
+            std::vector<double> amplitudes(spectrum.orders());
+            spectrum.amplitudes(factor, amplitudes);
+            REQUIRE(amplitudes.size() == expected.size());
+            double worst = 0.0;
+            for (std::size_t k = 0; k < expected.size(); ++k) {
+                worst = std::max(worst, std::abs(amplitudes[k] - expected[k]));
+            }
+            CHECK(worst < 1e-13);
+        }
+    }
+}
+
+TEST_CASE("A sine of one order shows its amplitude at that order alone") {
+    const int points = 31 * 16;
+    std::vector<double> signal(points);
+    for (int i = 0; i < points; ++i) {
+        signal[i] = 2.5 * std::sin(2.0 * kPi * 31.0 * i / points + 0.4) + 0.7;
+    }
+    OrderSpectrum spectrum(points);
+    spectrum.load(signal);
+    std::vector<double> amplitudes(spectrum.orders());
+    spectrum.amplitudes(1.0, amplitudes);
+    CHECK(amplitudes[0] == Approx(0.7));
+    CHECK(amplitudes[31] == Approx(2.5));
+    amplitudes[0] = amplitudes[31] = 0.0;
+    CHECK(*std::max_element(amplitudes.begin(), amplitudes.end()) < 1e-13);
+}
+
+TEST_CASE("Noise that is zero throughout leaves the signal's spectrum as it is") {
+    std::vector<double> signal(62);
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        signal[i] = std::cos(0.3 * static_cast<double>(i * i));
+    }
+    OrderSpectrum spectrum(62);
+    std::vector<double> alone(spectrum.orders()), beside(spectrum.orders());
+    spectrum.load(signal);
+    spectrum.amplitudes(1.0, alone);
+    spectrum.load(signal, std::vector<double>(62, 0.0));
+    spectrum.amplitudes(1.0, beside);
+    CHECK(alone == beside);
+}
+
+TEST_CASE("A spectrum refuses signals that are not one turn") {
+    OrderSpectrum spectrum(10);
+    CHECK_THROWS_AS(spectrum.load(std::vector<double>(9)), std::invalid_argument);
+    CHECK_THROWS_AS(spectrum.load(std::vector<double>(10), std::vector<double>(3)),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(OrderSpectrum(1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gearpod::signals
