@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "lockstep/integrators/facts.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/accuracy/rung_scenes.hpp"

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "lockstep/integrators/facts.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/forecast/describe_effects.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_pilot.hpp"
 #include "lockstep/tile/driven_march.hpp"
 #include "lockstep/tile/mesh_march.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lockstep/integrators/facts.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -57,14 +58,6 @@ std::vector<int> step_ladder(const Scene& own_rule, double beyond) {
 const std::vector<double> kGridTolerances{3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
 constexpr std::string_view kSingle = "numerics.precision=single", kGraded = "numerics.grid=graded";
 
-struct StepCost {
-    std::string_view integrator;
-    double planetary, rotations, fixed_shaft;
-};
-constexpr StepCost kStepCosts[] = {
-    {"rk4", 1.0, 1.0, 1.0},    {"newmark", 4.3, 2.0, 2.6},
-    {"sdirk3", 6.8, 4.0, 4.2}, {"generalized-alpha", 2.4, 2.0, 1.4},
-    {"bs3", 0.9, 0.9, 0.9},    {"central-difference", 0.32, 0.34, 0.34}};
 // Of singles, eight abreast, over doubles.
 constexpr double kSingleCost = 0.65;
 
@@ -129,20 +122,23 @@ const std::vector<double>& settle_tolerances() {
 
 std::optional<double> step_cost(const Study& study, const std::string& integrator,
                                 const std::vector<std::string>& other) {
-    const auto* row = std::find_if(std::begin(kStepCosts), std::end(kStepCosts),
-                                   [&](const StepCost& c) { return c.integrator == integrator; });
+    const std::span<const lockstep::Integrator> all = lockstep::all_integrators();
+    const auto row = std::find_if(all.begin(), all.end(), [&](lockstep::Integrator known_one) {
+        return lockstep::name(known_one) == integrator;
+    });
     const auto known = [](const std::string& key) {
         return key == kSingle || key.starts_with("numerics.grid") ||
                key.starts_with("numerics.stiffness_tolerance");
     };
-    if (row == std::end(kStepCosts) || !std::all_of(other.begin(), other.end(), known)) {
+    if (row == all.end() || !std::all_of(other.begin(), other.end(), known)) {
         return std::nullopt;
     }
     const bool single = std::find(other.begin(), other.end(), kSingle) != other.end();
+    const lockstep::StepCost& cost = lockstep::facts(*row).cost;
     return (single ? kSingleCost : 1.0) * (study.gearbox.kind == GearboxKind::fixed_shaft
-                                               ? row->fixed_shaft
-                                           : study.effects.torsional() ? row->rotations
-                                                                       : row->planetary);
+                                               ? cost.fixed_shaft
+                                           : study.effects.torsional() ? cost.rotations
+                                                                       : cost.planetary);
 }
 
 }  // namespace gearpod::mc

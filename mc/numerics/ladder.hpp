@@ -34,10 +34,8 @@ inline constexpr double kFewestGraded = 1.0 / 8.0;
 // Tightest first.
 const std::vector<double>& settle_tolerances();
 
-// Cost of one step of one gearbox in a full tile, in the time that one step of rk4 takes: the
-// ratios that `accuracy` measures, as they were on an AVX-512 core. A table and no clock, so that a
-// study makes the same choice on every machine.
-// Nothing for what the table does not have: that is measured, but not chosen.
+// Cost of one step of one gearbox by what the integrator says of itself (lockstep::StepCost).
+// Nothing for ways that have no known cost: those are measured, but not chosen.
 std::optional<double> step_cost(const Study& study, const std::string& integrator,
                                 const std::vector<std::string>& other);
 

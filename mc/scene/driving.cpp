@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/driven_march.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "mc/scene/stepping.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lockstep/integrators/facts.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "mc/scene/body.hpp"
 #include "mc/scene/scene_error.hpp"
@@ -118,25 +119,14 @@ class StepNeeds {
                      "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
 }
 
-// Steps that the sensor's low-pass takes of an explicit method: so many in a period of its band
-// edge, and at least so many.
-struct BandSteps {
-    double chosen, fewest;
-};
-BandSteps band_steps(lockstep::Integrator integrator) {
-    // Central differences: their low-pass is off by (2 pi / steps)^2 / 12 there, 7e-4 and 3e-3.
-    return integrator == lockstep::Integrator::central_difference ? BandSteps{70.0, 35.0}
-                                                                  : BandSteps{20.0, 10.0};
-}
-
 // One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. The
 // margin covers what the pilot misses, and a gearbox beyond it is reported as diverged.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
     constexpr double kMargin = 1.2;
     const double stable = needs.stable(integrator);
-    const BandSteps band = band_steps(integrator);
-    const double least = std::ceil(std::max(stable, band.fewest * needs.band_periods()));
-    const double chosen = std::ceil(std::max(kMargin * stable, band.chosen * needs.band_periods()));
+    const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
+    const double least = std::ceil(std::max(stable, 0.5 * band));
+    const double chosen = std::ceil(std::max(kMargin * stable, band));
     const bool asked_for = given >= least && given <= kMostSteps;
     if (!asked_for && stable > lockstep::kMostExplicitSteps) {
         refuse_explicit(needs, chosen);
@@ -160,7 +150,7 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
             given > 0 ? given : static_cast<int>(chosen),
             static_cast<int>(least),
             needs.decay_meshes(),
-            1.0 / std::max({1.0, kMargin * stable, band.fewest * needs.band_periods()}),
+            1.0 / std::max({1.0, kMargin * stable, 0.5 * band}),
             0.0};
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace gearpod::stiffness {
+namespace gearpod::machine {
 
 struct SineCosine {
     double sine, cosine;
@@ -24,4 +24,4 @@ inline SineCosine sine_cosine(double angle) {
     return {angle * sine, cosine};
 }
 
-}  // namespace gearpod::stiffness
+}  // namespace gearpod::machine

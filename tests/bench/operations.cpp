@@ -84,7 +84,8 @@ Operations central_difference_operations(const lockstep::MarchPlan& plan) {
 // In the order of lockstep/integrators/generalized_alpha.hpp and implicit_stage.hpp.
 Operations generalized_alpha_operations(const lockstep::MarchPlan& plan,
                                         const dynamics::GearboxInputs& inputs) {
-    const auto lanes = lockstep::make_implicit_lanes<1>(plan, {&inputs, 1});
+    const auto lanes =
+        lockstep::make_implicit_lanes<1>(plan, lockstep::facts(plan.integrator).span, {&inputs, 1});
     const long pairs = lanes.pairs, degrees = lanes.degrees, sources = lanes.sources;
     const long entries = lanes.lu.lower.size() + lanes.lu.upper.size();
     Operations sum;

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "../lockstep/pair_of_masses.hpp"
+#include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/sdirk3.hpp"
 #include "lockstep/steps/instability.hpp"
 
 using namespace gearpod;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gears/mesh_geometry.hpp"
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/tile.hpp"
 #include "stiffness/additive_mesh.hpp"
 

@@ -14,7 +14,11 @@ namespace gearpod::dynamics {
 
 // with_error: k (d - e) + c (d' - e'). separating: the same while d - e > 0; nothing in the gap; on
 // the back flanks k (d - e + 2b) + c (d' - e') once d - e < -2b.
-enum class MeshLaw { linear, with_error, separating };
+enum class MeshLaw {
+#define GEARPOD_MESH_LAW(NAME, ...) NAME,
+#include "dynamics/effects/mesh_laws.def"
+#undef GEARPOD_MESH_LAW
+};
 
 // Backlash 2b of a mesh that never touches on its back flanks.
 inline constexpr double kNoBackContact = std::numeric_limits<double>::infinity();

@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "dynamics/varying_forces.hpp"
-#include "lockstep/driven/excitation_rows.hpp"
 
 namespace gearpod::lockstep {
 namespace {

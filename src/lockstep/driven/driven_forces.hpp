@@ -5,15 +5,12 @@
 #include <cmath>
 #include <span>
 
+#include "lockstep/driven/row_layout.hpp"
 #include "lockstep/plan/excitation.hpp"
 #include "lockstep/plan/march.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {
-
-// What a row holds after its columns, if the speed fluctuates: seconds a mesh period, the speed
-// over its mean, and how fast that changes, 1/s.
-enum PaceValue { pace_period, pace_speed, pace_change, pace_values };
 
 template <int W>
 struct DrivenForces {

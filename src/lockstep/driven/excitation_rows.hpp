@@ -4,17 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "lockstep/driven/row_layout.hpp"
 #include "lockstep/plan/excitation.hpp"
 #include "lockstep/plan/march.hpp"
 
 namespace gearpod::lockstep {
-
-// Forces that an excitation applies (DrivenForces), and values in a row: these, and a pace.
-int columns_in(const Excitation& excitation);
-int values_in_row(const Excitation& excitation);
-
-// Stage nodes a step, the last of which is the next step's first if both exist.
-int distinct_nodes_per_step(const PhaseGrid& grid);
 
 class ExcitationRows {
   public:

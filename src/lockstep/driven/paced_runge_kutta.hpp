@@ -6,6 +6,7 @@
 
 #include "lockstep/driven/paced_motion.hpp"
 #include "lockstep/integrators/explicit_stage.hpp"
+#include "lockstep/integrators/runge_kutta.hpp"
 
 namespace gearpod::lockstep {
 
@@ -154,6 +155,14 @@ struct PacedRungeKutta4 {
             filter[3 * W + l] = end.dy;
         }
     }
+};
+
+// What a method is at a speed that fluctuates.
+template <class Method>
+struct Paced;
+template <>
+struct Paced<RungeKutta4> {
+    using Type = PacedRungeKutta4;
 };
 
 }  // namespace gearpod::lockstep

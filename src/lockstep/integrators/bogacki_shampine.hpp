@@ -9,7 +9,26 @@
 namespace gearpod::lockstep {
 
 struct BogackiShampine {
+    static constexpr const char* kName = "bs3";
+    static constexpr int kOrder = 3;
+    static constexpr double kStageNodes[] = {0.0, 0.5, 0.75};
+    static constexpr double kStepsInBand = 20.0;
+    static constexpr StepCost kCost{0.9, 0.9, 0.9};
     static constexpr std::size_t kEstimateNode = 3;  // place of node 1 among the stage nodes
+
+    template <class Complex>
+    static Complex growth(Complex z) {
+        return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0));
+    }
+
+    template <class System>
+    static auto filter(const System& s) {
+        const auto z = s.start();
+        const auto k1 = s.slope(z, 0);
+        const auto k2 = s.slope(z + k1 / 2.0, 1);
+        const auto k3 = s.slope(z + 0.75 * k2, 2);
+        return s.map(z + (2.0 * k1 + 3.0 * k2 + 4.0 * k3) / 9.0);
+    }
 
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages : ExplicitStages<Model, 3> {

@@ -13,6 +13,22 @@
 namespace gearpod::lockstep {
 
 struct CentralDifference {
+    static constexpr const char* kName = "central-difference";
+    static constexpr int kOrder = 2;
+    static constexpr double kStageNodes[] = {0.5};
+    // Its low-pass is off by (2 pi / steps)^2 / 12 there: 7e-4, and 3e-3 with half as many.
+    static constexpr double kStepsInBand = 70.0;
+    static constexpr StepCost kCost{0.32, 0.34, 0.34};
+
+    // The trapezoidal rule with the input at the step's middle alone.
+    template <class System>
+    static auto filter(const System& s) {
+        auto map = s.trapezoidal();
+        map.inputs.col(0) *= 2.0;
+        map.inputs.col(2).setZero();
+        return map;
+    }
+
     // s.v is u. Between two steps that no sample parts, state.q is at the second one's middle.
     template <class Model>
     using Stages = ExplicitStages<Model, 1>;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/method.hpp"
 
 namespace gearpod::lockstep {
 

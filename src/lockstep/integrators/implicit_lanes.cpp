@@ -134,7 +134,7 @@ void set_constants(ImplicitLanes<W>& lanes, const dynamics::GearboxMatrices& m, 
 }  // namespace
 
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
+ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs) {
     assert(inputs.size() == W);
     ImplicitLanes<W> lanes;
@@ -149,7 +149,6 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
     lanes.lu = eliminate(pattern.all);
     set_sizes(lanes, plan.grid.lengths.size());
 
-    const ImplicitSpan span = implicit_span(plan.integrator);
     for (int l = 0; l < W; ++l) {
         const auto& in = inputs[static_cast<std::size_t>(l)];
         lanes.mesh_period[l] = dynamics::mesh_period_s(in);
@@ -172,11 +171,10 @@ ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
     return lanes;
 }
 
-template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&,
-                                                 std::span<const dynamics::GearboxInputs>);
-template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&,
-                                                 std::span<const dynamics::GearboxInputs>);
-template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&,
-                                                 std::span<const dynamics::GearboxInputs>);
+#define GEARPOD_IMPLICIT_LANES(W, REAL)                                                     \
+    template ImplicitLanes<W> make_implicit_lanes<W>(const MarchPlan&, const ImplicitSpan&, \
+                                                     std::span<const dynamics::GearboxInputs>);
+GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
+#undef GEARPOD_IMPLICIT_LANES
 
 }  // namespace gearpod::lockstep

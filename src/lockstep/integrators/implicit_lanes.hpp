@@ -16,6 +16,7 @@
 
 #include <span>
 
+#include "lockstep/integrators/method.hpp"
 #include "lockstep/integrators/sparse_lu.hpp"
 #include "lockstep/plan/march.hpp"
 
@@ -60,16 +61,16 @@ struct ImplicitLanes {
     }
 };
 
-// For the plan's integrator and grid. `inputs` holds W gearboxes of the plan's kind.
+// For the plan's grid and its integrator, whose span is given. `inputs` holds W gearboxes of the
+// plan's kind.
 template <int W>
-ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan,
+ImplicitLanes<W> make_implicit_lanes(const MarchPlan& plan, const ImplicitSpan& span,
                                      std::span<const dynamics::GearboxInputs> inputs);
 
-extern template ImplicitLanes<1> make_implicit_lanes<1>(const MarchPlan&,
-                                                        std::span<const dynamics::GearboxInputs>);
-extern template ImplicitLanes<4> make_implicit_lanes<4>(const MarchPlan&,
-                                                        std::span<const dynamics::GearboxInputs>);
-extern template ImplicitLanes<8> make_implicit_lanes<8>(const MarchPlan&,
-                                                        std::span<const dynamics::GearboxInputs>);
+#define GEARPOD_IMPLICIT_LANES(W, REAL)                      \
+    extern template ImplicitLanes<W> make_implicit_lanes<W>( \
+        const MarchPlan&, const ImplicitSpan&, std::span<const dynamics::GearboxInputs>);
+GEARPOD_FOR_DOUBLE_WIDTHS(GEARPOD_IMPLICIT_LANES)
+#undef GEARPOD_IMPLICIT_LANES
 
 }  // namespace gearpod::lockstep

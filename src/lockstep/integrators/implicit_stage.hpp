@@ -8,6 +8,7 @@
 #include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/integrators/implicit_lanes.hpp"
 #include "lockstep/integrators/march_steps.hpp"
+#include "lockstep/integrators/method.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::lockstep {

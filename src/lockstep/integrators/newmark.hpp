@@ -9,6 +9,18 @@
 namespace gearpod::lockstep {
 
 struct Newmark {
+    static constexpr const char* kName = "newmark";
+    static constexpr int kOrder = 2;
+    static constexpr double kStageNodes[] = {0.0, 1.0};
+    static constexpr double kStepsInBand = 100.0;
+    static constexpr StepCost kCost{4.3, 2.0, 2.6};
+    static constexpr ImplicitSpan kSpan{0.5, 0.25};
+
+    template <class System>
+    static auto filter(const System& s) {
+        return s.trapezoidal();
+    }
+
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
         static constexpr int kSize = Model::kMaxDegrees * W;

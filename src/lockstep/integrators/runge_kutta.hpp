@@ -7,6 +7,30 @@
 namespace gearpod::lockstep {
 
 struct RungeKutta4 {
+    static constexpr const char* kName = "rk4";
+    static constexpr int kOrder = 4;
+    static constexpr double kStageNodes[] = {0.0, 0.5, 1.0};
+    static constexpr double kStepsInBand = 20.0;
+    static constexpr StepCost kCost{1.0, 1.0, 1.0};
+
+    template <class Complex>
+    static Complex growth(Complex z) {
+        return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
+    }
+
+    template <class System>
+    static auto filter(const System& s) {
+        const auto one = s.one();
+        const auto a2 = (s.a * s.a).eval();
+        const auto a3 = (a2 * s.a).eval();
+        typename System::Map map;
+        map.transition = one + s.a + a2 / 2.0 + a3 / 6.0 + a3 * s.a / 24.0;
+        map.inputs.col(0) = s.h / 6.0 * (one + s.a + a2 / 2.0 + a3 / 4.0) * s.b;
+        map.inputs.col(1) = s.h / 6.0 * (4.0 * one + 2.0 * s.a + a2 / 2.0) * s.b;
+        map.inputs.col(2) = s.h / 6.0 * s.b;
+        return map;
+    }
+
     template <class Model>
     using Stages = ExplicitStages<Model, 3>;
 

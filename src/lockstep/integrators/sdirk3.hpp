@@ -8,7 +8,38 @@
 
 namespace gearpod::lockstep {
 
+// Every stage has the same diagonal coefficient, a root of x^3 - 3 x^2 + 3/2 x - 1/6; the last
+// stage is the end of the step.
+struct Alexander {
+    static constexpr double kDiagonal = 0.43586652150845899942;
+    static constexpr double kSecond = (1.0 + kDiagonal) / 2.0;  // node of the second stage
+    static constexpr double k21 = (1.0 - kDiagonal) / 2.0;
+    static constexpr double k31 = -(6.0 * kDiagonal * kDiagonal - 16.0 * kDiagonal + 1.0) / 4.0;
+    static constexpr double k32 = (6.0 * kDiagonal * kDiagonal - 20.0 * kDiagonal + 5.0) / 4.0;
+};
+
 struct Sdirk3 {
+    static constexpr const char* kName = "sdirk3";
+    static constexpr int kOrder = 3;
+    static constexpr double kStageNodes[] = {Alexander::kDiagonal, Alexander::kSecond, 1.0};
+    static constexpr double kStepsInBand = 25.0;
+    static constexpr StepCost kCost{6.8, 4.0, 4.2};
+    static constexpr ImplicitSpan kSpan{Alexander::kDiagonal,
+                                        Alexander::kDiagonal* Alexander::kDiagonal};
+
+    template <class System>
+    static auto filter(const System& s) {
+        const auto solve = (s.one() - Alexander::kDiagonal * s.a).inverse().eval();
+        const auto slope = [&](const auto& from, int node) {
+            return (solve * s.slope(from, node)).eval();
+        };
+        const auto z = s.start();
+        const auto k1 = slope(z, 0);
+        const auto k2 = slope(z + Alexander::k21 * k1, 1);
+        const auto third = (z + Alexander::k31 * k1 + Alexander::k32 * k2).eval();
+        return s.map(third + Alexander::kDiagonal * slope(third, 2));
+    }
+
     template <class Model, int W = Model::kWidth>
     struct alignas(64) Stages {
         static constexpr int kSize = Model::kMaxDegrees * W;

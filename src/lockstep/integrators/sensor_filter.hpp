@@ -6,11 +6,6 @@
 // and gearbox.
 #pragma once
 
-#include <span>
-
-#include "lockstep/plan/integrator.hpp"
-#include "machine/lanes.hpp"
-
 namespace gearpod::lockstep {
 
 inline constexpr int kFilterStates = 4;  // x, x', y, y'; y is the output
@@ -25,15 +20,5 @@ inline constexpr int kFilterYX = 4;      // 2 x 2: y, y' from x, x'
 inline constexpr int kFilterYY = 8;      // 2 x 2: y, y' from y, y'
 inline constexpr int kFilterInput = 12;  // 3 x 4
 inline constexpr int kFilterCoefficients = 24;
-
-// Coefficients [kFilterCoefficients] of a step of `h` seconds for the cutoff `w` rad/s.
-void filter_step(Integrator integrator, double w, double h,
-                 double (&coefficients)[kFilterCoefficients]);
-
-// Coefficients of a tile whose lanes have the given mesh periods (s), for steps of the given
-// lengths (mesh periods): [step kind][kFilterCoefficients][lane].
-machine::AlignedVector filter_coefficients(Integrator integrator, double w,
-                                           std::span<const double> lengths,
-                                           std::span<const double> mesh_periods);
 
 }  // namespace gearpod::lockstep

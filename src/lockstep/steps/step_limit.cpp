@@ -7,18 +7,19 @@
 #include <limits>
 #include <numbers>
 
+#include "lockstep/integrators/facts.hpp"
+
 namespace gearpod::lockstep {
 namespace {
 
 // |R(z)|^2; without its root, as every mode asks for it thousands of times.
-double growth_squared(std::complex<double> z, Integrator integrator) {
-    const std::complex<double> fourth = integrator == Integrator::bs3 ? 0.0 : z / 4.0;
-    const std::complex<double> r = 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + fourth)));
+double growth_squared(std::complex<double> z, const IntegratorFacts& integrator) {
+    const std::complex<double> r = integrator.growth(z);
     return r.real() * r.real() + r.imag() * r.imag();
 }
 
 // The longest h along which |R(h lambda)| stays at most 1.
-double longest_step(std::complex<double> lambda, Integrator integrator) {
+double longest_step(std::complex<double> lambda, const IntegratorFacts& integrator) {
     const double unit = 1.0 / std::abs(lambda);
     constexpr double kResolution = 1e-3;  // of h |lambda|; the limits lie near 2.8 and 1.7 to 2.5
     double z = kResolution;
@@ -61,7 +62,7 @@ StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& m, Integrator integ
         if (size < rigid || lambda.real() > 1e-9 * size) {
             continue;
         }
-        limit.step_s = std::min(limit.step_s, longest_step(lambda, integrator));
+        limit.step_s = std::min(limit.step_s, longest_step(lambda, facts(integrator)));
         limit.slowest_decay_1_s = std::min(limit.slowest_decay_1_s, std::max(0.0, -lambda.real()));
     }
     return limit;
@@ -93,8 +94,8 @@ double central_difference_limit(const dynamics::GearboxMatrices& m) {
 }
 
 double longest_stable_step(const dynamics::GearboxMatrices& m, Integrator integrator) {
-    return integrator == Integrator::central_difference ? central_difference_limit(m)
-                                                        : runge_kutta_limit(m, integrator).step_s;
+    return facts(integrator).growth == nullptr ? central_difference_limit(m)
+                                               : runge_kutta_limit(m, integrator).step_s;
 }
 
 StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
@@ -135,7 +136,6 @@ Integrator choose_integrator(double stable_steps_per_mesh) {
 
 double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,
                       double mesh_period_s, double low_pass_rad_s) {
-    const double steps_per_period = integrator == Integrator::sdirk3 ? 25.0 : 100.0;
     double fastest = low_pass_rad_s;
     for (const std::complex<double> lambda : modes(m)) {
         const double size = std::abs(lambda);
@@ -143,7 +143,7 @@ double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& m,
             fastest = std::max(fastest, std::min(size, 5.0 * low_pass_rad_s));
         }
     }
-    return steps_per_period * fastest * mesh_period_s / (2.0 * std::numbers::pi);
+    return facts(integrator).steps_in_band * fastest * mesh_period_s / (2.0 * std::numbers::pi);
 }
 
 }  // namespace gearpod::lockstep

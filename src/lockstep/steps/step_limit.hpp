@@ -17,9 +17,9 @@ struct StepLimit {
 };
 
 // From the eigenvalues of M q'' + (C + G) q' + (K + K_c) q = 0: |R(h lambda)| <= 1 with
-// R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24, for bs3 without the last term, for every eigenvalue that
-// does not grow by itself. `integrator`: rk4 or bs3. The
-// rigid rotation is left out, and with it what creeps at less than 1e-4 of the undamped rates.
+// R(z) the integrator's growth (integrators/method.hpp), which it must have, for every eigenvalue
+// that does not grow by itself. The rigid rotation is left out, and with it what creeps at less
+// than 1e-4 of the undamped rates.
 StepLimit runge_kutta_limit(const dynamics::GearboxMatrices& matrices,
                             Integrator integrator = Integrator::rk4);
 

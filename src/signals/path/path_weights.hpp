@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "machine/dispatch.hpp"
-#include "machine/lane_exp.hpp"
+#include "machine/lane_math.hpp"
 #include "signals/path/transmission_path.hpp"
 
 namespace gearpod::signals {
@@ -18,7 +18,7 @@ GEARPOD_INLINE void whole_step_table(int positions, const double* __restrict exp
         const double square = h * m * (h * m);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            table[m * W + l] = lane_exp(exponent[l] * square);
+            table[m * W + l] = machine::lane_exp(exponent[l] * square);
         }
     }
 }
@@ -38,9 +38,9 @@ GEARPOD_INLINE void path_weights(const PathGrid& grid, long p, const double* __r
         const double square = h * f * (h * f);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            ratio[n * W + l] = lane_exp(exponent[l] * linear);
-            inverse[n * W + l] = lane_exp(-exponent[l] * linear);
-            up[n * W + l] = lane_exp(exponent[l] * square);
+            ratio[n * W + l] = machine::lane_exp(exponent[l] * linear);
+            inverse[n * W + l] = machine::lane_exp(-exponent[l] * linear);
+            up[n * W + l] = machine::lane_exp(exponent[l] * square);
             down[n * W + l] = up[n * W + l] * inverse[n * W + l];
         }
     }

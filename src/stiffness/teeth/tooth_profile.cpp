@@ -79,7 +79,7 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
 }
 
 ToothSection ToothProfile::involute_section(double u) const {
-    const auto [sine, cosine] = sine_cosine(u);
+    const auto [sine, cosine] = machine::sine_cosine(u);
     const double roll = half_base_angle_ - u;
     return {base_radius_ * (cosine - roll * sine), base_radius_ * (roll * cosine + sine),
             base_radius_ * std::abs(roll) * cosine};

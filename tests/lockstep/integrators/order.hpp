@@ -5,11 +5,24 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "tests/lockstep/tian_gearbox.hpp"
 
 namespace gearpod::test {
+
+// All explicit integrators, or all implicit ones.
+inline std::vector<lockstep::Integrator> integrators(bool explicit_ones) {
+    std::vector<lockstep::Integrator> chosen;
+    for (const lockstep::Integrator integrator : lockstep::all_integrators()) {
+        if (lockstep::is_explicit(integrator) == explicit_ones) {
+            chosen.push_back(integrator);
+        }
+    }
+    return chosen;
+}
 
 struct Marched {
     lockstep::TileState state;

@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/integrators/order.hpp"
@@ -19,12 +20,7 @@ using test::Marched;
 
 namespace {
 
-constexpr Integrator kExplicit[] = {Integrator::rk4, Integrator::bs3,
-                                    Integrator::central_difference};
-
-double order_of(Integrator integrator) {
-    return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::bs3 ? 3.0 : 2.0;
-}
+const std::vector<Integrator> kExplicit = test::integrators(true);
 
 double largest(const machine::AlignedVector& a) {
     return largest_difference(a, machine::AlignedVector(a.size(), 0.0));
@@ -75,8 +71,8 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
             motions.push_back(largest_difference(m.state.q, exact.state.q));
             sensors.push_back(largest_difference(m.record.acceleration, exact.record.acceleration));
         }
-        CHECK(slope({400, 800, 1600}, motions) == Approx(order_of(integrator)).margin(0.25));
-        CHECK(slope({400, 800, 1600}, sensors) == Approx(order_of(integrator)).margin(0.25));
+        CHECK(slope({400, 800, 1600}, motions) == Approx(facts(integrator).order).margin(0.25));
+        CHECK(slope({400, 800, 1600}, sensors) == Approx(facts(integrator).order).margin(0.25));
     }
 }
 
@@ -101,7 +97,7 @@ TEST_CASE(
             INFO("integrator " << static_cast<int>(integrator) << ", nodes " << nodes);
             for (const auto& errors : {motions, sensors}) {
                 if (nodes) {
-                    CHECK(slope(counts, errors) == Approx(order_of(integrator)).margin(0.3));
+                    CHECK(slope(counts, errors) == Approx(facts(integrator).order).margin(0.3));
                 } else {
                     CHECK(slope(counts, errors) < 1.3);
                     CHECK(slope(counts, errors) > 0.3);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "machine/dispatch.hpp"
@@ -19,12 +20,7 @@ using test::TianGearbox;
 
 namespace {
 
-constexpr Integrator kImplicit[] = {Integrator::newmark, Integrator::sdirk3,
-                                    Integrator::generalized_alpha};
-
-double order_of(Integrator integrator) {
-    return integrator == Integrator::rk4 ? 4.0 : integrator == Integrator::sdirk3 ? 3.0 : 2.0;
-}
+const std::vector<Integrator> kImplicit = test::integrators(false);
 
 MarchPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
     const auto& train = LiangTrain::instance();
@@ -90,7 +86,7 @@ TEST_CASE("The implicit integrators keep their order across contact transitions"
                 sensors.push_back(
                     largest_difference(m.record.acceleration, exact.record.acceleration));
             }
-            const double order = order_of(integrator);
+            const double order = facts(integrator).order;
             CHECK(std::log2(motions[0] / motions[1]) == Approx(order).margin(0.25));
             CHECK(std::log2(sensors[0] / sensors[1]) == Approx(order).margin(0.25));
         }
@@ -143,7 +139,7 @@ TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
             errors.push_back(largest_difference(march(plan, in, state_at(plan, away), 3).state.q,
                                                 exact.state.q));
         }
-        const double order = order_of(integrator);
+        const double order = facts(integrator).order;
         CHECK(std::log2(errors[0] / errors[1]) == Approx(order).margin(0.25));
         CHECK(std::log2(errors[1] / errors[2]) == Approx(order).margin(0.15));
     }

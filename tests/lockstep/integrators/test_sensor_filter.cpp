@@ -5,7 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/filter_coefficients.hpp"
+#include "lockstep/integrators/generalized_alpha.hpp"
 
 using namespace gearpod::lockstep;
 

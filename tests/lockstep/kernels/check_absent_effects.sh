@@ -10,7 +10,6 @@ cp -r "$2/src" "$work/src"
 
 cat > "$work/plain.cpp" <<'END'
 #include "dynamics/torsional_motion.hpp"
-#include "lockstep/kernels/implicit_march.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 #include "lockstep/integrators/sdirk3.hpp"
 namespace gearpod::lockstep {

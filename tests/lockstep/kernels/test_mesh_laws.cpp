@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/transmission_error.hpp"
 #include "tests/lockstep/liang_train.hpp"
 #include "tests/lockstep/pair_of_masses.hpp"

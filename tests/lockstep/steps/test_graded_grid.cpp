@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/graded_grid.hpp"
 #include "lockstep/steps/step_pilot.hpp"
 #include "lockstep/tile/mesh_march.hpp"

@@ -1,6 +1,7 @@
 // Weight against statics: bearings carry all of it, whatever turns.
 #include <catch2/catch.hpp>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/tile/quasi_static.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

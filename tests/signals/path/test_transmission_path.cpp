@@ -1,9 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
 
-#include "machine/lane_exp.hpp"
 #include "signals/path/transmission_path.hpp"
 
 namespace gearpod::signals {
@@ -19,23 +17,6 @@ TEST_CASE("The farthest planet keeps the share that Liang states for each path e
     CHECK(farthest(0.1) == Approx(0.21).margin(0.01));
     CHECK(farthest(0.0) == Approx(0.08).margin(0.001));
     CHECK(farthest(-0.1) == Approx(0.03).margin(0.001));
-}
-
-TEST_CASE("The lanes' exponential agrees with an extended-precision one") {
-    std::mt19937_64 engine(3);
-    double worst = 0.0;
-    for (const double range : {0.5, 10.0, 700.0}) {
-        std::uniform_real_distribution<double> uniform(-range, range);
-        for (int i = 0; i < 100000; ++i) {
-            const double v = uniform(engine);
-            const long double exact = std::exp(static_cast<long double>(v));
-            const long double error = (lane_exp(v) - exact) / exact;
-            worst = std::max(worst, std::abs(static_cast<double>(error)));
-        }
-    }
-    INFO("largest relative error " << worst);
-    CHECK(worst < 4e-16);
-    CHECK(lane_exp(0.0) == 1.0);
 }
 
 TEST_CASE("The path grid holds the angles of every sample of a carrier turn") {

@@ -1,0 +1,47 @@
+// What integrators say of themselves (method.hpp), for code that knows only their names.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "lockstep/integrators/method.hpp"
+#include "lockstep/plan/integrator.hpp"
+
+namespace gearpod::lockstep {
+
+struct FilterMap;
+struct FilterSystem;
+
+struct IntegratorFacts {
+    const char* name;
+    int order;
+    std::vector<double> stage_nodes;
+    double steps_in_band;
+    StepCost cost;
+    bool is_explicit, marches_singles;
+    bool marches_forced, marches_paced;  // under forces that vary, at a speed that does
+    ImplicitSpan span;                   // 0 for an explicit method
+    std::complex<double> (*growth)(std::complex<double>);  // or null
+    FilterMap (*filter)(const FilterSystem&);
+};
+
+const IntegratorFacts& facts(Integrator integrator);
+
+// In the order in which they are shown.
+std::span<const Integrator> all_integrators();
+
+inline const char* name(Integrator integrator) {
+    return facts(integrator).name;
+}
+inline const std::vector<double>& stage_nodes(Integrator integrator) {
+    return facts(integrator).stage_nodes;
+}
+inline bool is_explicit(Integrator integrator) {
+    return facts(integrator).is_explicit;
+}
+inline bool marches_singles(Integrator integrator) {
+    return facts(integrator).marches_singles;
+}
+
+}  // namespace gearpod::lockstep

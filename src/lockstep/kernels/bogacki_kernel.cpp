@@ -1,8 +1,0 @@
-#include "lockstep/integrators/bogacki_shampine.hpp"
-#include "lockstep/kernels/explicit_kernels.hpp"
-
-namespace gearpod::lockstep {
-
-GEARPOD_DOUBLE_MARCHES(linear_bs3_double, BogackiShampine, dynamics::LinearMesh)
-
-}  // namespace gearpod::lockstep

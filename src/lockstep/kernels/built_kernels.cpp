@@ -1,0 +1,36 @@
+#include "lockstep/kernels/built_kernels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gearpod::lockstep {
+
+void choose_instruction_set(std::optional<machine::InstructionSet> asked_for) {
+    const std::vector<machine::InstructionSet> built = built_instruction_sets();
+    const machine::InstructionSet best = machine::best_instruction_set();
+    if (asked_for && *asked_for <= best &&
+        std::find(built.begin(), built.end(), *asked_for) == built.end()) {
+        throw NoSuchKernel(fmt::format("this program was built without {} (it marches {})",
+                                       machine::name(*asked_for), built_kernels()));
+    }
+    if (asked_for) {
+        return machine::use_instruction_set(*asked_for);
+    }
+    const auto above = std::upper_bound(built.begin(), built.end(), best);
+    if (above == built.begin()) {
+        throw NoSuchKernel(fmt::format("this program was built for {}, and this processor has {}",
+                                       machine::name(built.front()), machine::name(best)));
+    }
+    machine::use_instruction_set(*(above - 1));
+}
+
+void check_lanes(Precision precision, int lanes) {
+    const std::vector<int> built = built_lanes(precision);
+    if (std::find(built.begin(), built.end(), lanes) == built.end()) {
+        throw NoSuchKernel(fmt::format("this program was built without {} lanes (it marches {})",
+                                       lanes, built_kernels()));
+    }
+}
+
+}  // namespace gearpod::lockstep

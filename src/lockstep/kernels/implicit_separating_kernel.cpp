@@ -1,7 +1,0 @@
-#include "lockstep/kernels/implicit_kernels.hpp"
-
-namespace gearpod::lockstep {
-
-GEARPOD_MARCHES(separating, dynamics::SeparatingMesh)
-
-}  // namespace gearpod::lockstep

@@ -1,0 +1,103 @@
+#include "lockstep/kernels/kernel_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "lockstep/integrators/facts.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+// The widest that each number type has: they fill the registers of AVX-512.
+constexpr int kMostDoubles = 8, kMostSingles = 16;
+
+bool fills_registers(const KernelKey& key) {
+    return key.lanes ==
+           (key.precision == Precision::double_precision ? kMostDoubles : kMostSingles);
+}
+
+std::string text_of(const std::vector<int>& lanes) {
+    std::string text;
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        const bool last = i + 1 == lanes.size();
+        text += fmt::format("{}{}", i == 0 ? "" : last ? " or " : ", ", lanes[i]);
+    }
+    return text;
+}
+
+}  // namespace
+
+void KernelTable::add(const KernelKey& key, const Entry& entry) {
+    kernels_.insert_or_assign(key, entry);
+}
+
+std::vector<KernelKey> KernelTable::keys() const {
+    std::vector<KernelKey> all;
+    for (const auto& [key, entry] : kernels_) {
+        all.push_back(key);
+    }
+    return all;
+}
+
+KernelTable::Function KernelTable::find(KernelKey key, std::type_index lanes) const {
+    for (int set = static_cast<int>(key.set); set >= 0; --set) {
+        key.set = static_cast<machine::InstructionSet>(set);
+        const auto found = kernels_.find(key);
+        if (found == kernels_.end()) {
+            continue;
+        }
+        if (found->second.lanes != lanes) {
+            throw std::logic_error("a kernel was asked for with lanes that it does not take");
+        }
+        return found->second.kernel;
+    }
+    throw NoSuchKernel(
+        fmt::format("this program marches {}, not {} {} by {}", built_kernels(), key.lanes,
+                    key.precision == Precision::double_precision ? "doubles" : "singles",
+                    name(key.integrator)));
+}
+
+const KernelTable& kernel_table() {
+    static const KernelTable table = [] {
+        KernelTable all;
+        for (const KernelAdder add : kernel_adders()) {
+            add(all);
+        }
+        return all;
+    }();
+    return table;
+}
+
+std::vector<machine::InstructionSet> built_instruction_sets() {
+    std::set<machine::InstructionSet> sets;
+    for (const KernelKey& key : kernel_table().keys()) {
+        if (fills_registers(key)) {
+            sets.insert(key.set);
+        }
+    }
+    return {sets.begin(), sets.end()};
+}
+
+std::vector<int> built_lanes(Precision precision) {
+    std::set<int> lanes;
+    for (const KernelKey& key : kernel_table().keys()) {
+        if (key.precision == precision) {
+            lanes.insert(key.lanes);
+        }
+    }
+    return {lanes.begin(), lanes.end()};
+}
+
+std::string built_kernels() {
+    std::string sets;
+    for (const machine::InstructionSet set : built_instruction_sets()) {
+        sets += fmt::format("{}{}", sets.empty() ? "" : ", ", machine::name(set));
+    }
+    return fmt::format("{} doubles or {} singles abreast for {}",
+                       text_of(built_lanes(Precision::double_precision)),
+                       text_of(built_lanes(Precision::single_precision)), sets);
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,51 @@
+// Which kernel marches a tile of the plan's gearboxes, and the lanes that it takes.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dynamics/fixed_shaft_lanes.hpp"
+#include "dynamics/planetary_lanes.hpp"
+#include "lockstep/integrators/facts.hpp"
+#include "lockstep/integrators/implicit_lanes.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
+
+namespace gearpod::lockstep {
+
+// Of so many lanes, for the instruction set in use. Throws NoSuchKernel.
+template <class Lanes>
+MarchKernel<Lanes>* choose_kernel(const MarchPlan& plan, Drive drive, Moving moving, int lanes) {
+    return kernel_table().find<Lanes>({plan.integrator, plan.mesh_law, drive, plan.precision,
+                                       machine::active_instruction_set(), moving, lanes});
+}
+
+// Calls use(lanes, moving) with what the plan's integrator marches. `inputs` holds W gearboxes of
+// the plan's kind.
+template <int W, class Real, class Use>
+auto with_lanes(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs, Use&& use) {
+    const IntegratorFacts& integrator = facts(plan.integrator);
+    if constexpr (std::is_same_v<Real, double>) {
+        if (!integrator.is_explicit) {
+            return use(make_implicit_lanes<W>(plan, integrator.span, inputs), Moving::matrices);
+        }
+    }
+    const auto lanes_of = [&]<class Inputs>(const auto& layout, std::vector<Inputs> own) {
+        for (const auto& in : inputs) {
+            own.push_back(std::get<Inputs>(in));
+        }
+        return dynamics::make_lanes<W, Real>(layout, std::span<const Inputs>(own));
+    };
+    if (const auto* layout = std::get_if<dynamics::PlanetaryLayout>(&plan.layout)) {
+        const Moving moving = layout->motion == dynamics::Motion::torsional ? Moving::torsional
+                              : layout->inertial_terms ? Moving::translational_inertial
+                                                       : Moving::translational;
+        return use(lanes_of(*layout, std::vector<dynamics::PlanetaryInputs>{}), moving);
+    }
+    return use(lanes_of(std::get<dynamics::FixedShaftLayout>(plan.layout),
+                        std::vector<dynamics::FixedShaftInputs>{}),
+               Moving::fixed_shaft);
+}
+
+}  // namespace gearpod::lockstep

@@ -1,0 +1,72 @@
+// The lanes' elementary functions against extended precision.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "machine/lane_math.hpp"
+#include "machine/sine_cosine.hpp"
+
+using namespace gearpod::machine;
+
+namespace {
+
+// The largest error of `function` on numbers drawn evenly from a range, relative to `scale` of the
+// exact value.
+template <class Function, class Exact, class Scale>
+double worst_error(double low, double high, Function function, Exact exact, Scale scale) {
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> uniform(low, high);
+    double worst = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        const double v = uniform(engine);
+        const long double right = exact(static_cast<long double>(v));
+        const long double error = (static_cast<long double>(function(v)) - right) / scale(right);
+        worst = std::max(worst, std::abs(static_cast<double>(error)));
+    }
+    return worst;
+}
+
+constexpr auto kRelative = [](long double right) { return right; };
+constexpr auto kAbsolute = [](long double) { return 1.0L; };
+constexpr double kQuarterPi = 0.785398163397448309616;
+
+}  // namespace
+
+TEST_CASE("The lanes' exponential agrees with an extended-precision one") {
+    for (const double range : {0.5, 10.0, 700.0}) {
+        CHECK(worst_error(
+                  -range, range, lane_exp, [](long double v) { return std::exp(v); }, kRelative) <
+              4e-16);
+    }
+    CHECK(lane_exp(0.0) == 1.0);
+}
+
+TEST_CASE("The lanes' logarithm agrees with an extended-precision one, also where it vanishes") {
+    const auto exact = [](long double x) { return -std::log(x * 0x1p-64L); };
+    CHECK(worst_error(1.0, 1e6, lane_minus_log, exact, kRelative) < 4e-16);
+    CHECK(worst_error(0x1p60, 0x1p64, lane_minus_log, exact, kRelative) < 4e-16);
+    CHECK(lane_minus_log(0x1p64) == 0.0);
+}
+
+TEST_CASE("The lanes' sine and cosine agree with extended-precision ones") {
+    CHECK(worst_error(
+              -kQuarterPi, kQuarterPi, lane_sine, [](long double x) { return std::sin(x); },
+              kRelative) < 3e-16);
+    CHECK(worst_error(
+              -kQuarterPi, kQuarterPi, lane_cosine, [](long double x) { return std::cos(x); },
+              kRelative) < 3e-16);
+    const auto of_turns = [](long double z) {
+        return std::sin(2 * 3.14159265358979323846264338327950288L * (z - std::round(z)));
+    };
+    CHECK(worst_error(-3.0, 3.0, lane_sine_of_turns, of_turns, kAbsolute) < 1e-15);
+    CHECK(worst_error(-1e6, 1e6, lane_sine_of_turns, of_turns, kAbsolute) < 1e-15);
+}
+
+TEST_CASE("Sine and cosine along a flank agree with extended-precision ones") {
+    const auto sine = [](double x) { return sine_cosine(x).sine; };
+    const auto cosine = [](double x) { return sine_cosine(x).cosine; };
+    CHECK(worst_error(
+              -2.0, 2.0, sine, [](long double x) { return std::sin(x); }, kAbsolute) < 3e-16);
+    CHECK(worst_error(
+              -2.0, 2.0, cosine, [](long double x) { return std::cos(x); }, kAbsolute) < 3e-16);
+}
