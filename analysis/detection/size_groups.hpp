@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/detection/detection.hpp"
+#include "analysis/detection/detection_table.hpp"
 
 namespace gearpod::analysis {
 

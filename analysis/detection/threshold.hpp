@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analysis/detection/detection.hpp"
+#include "analysis/detection/detection_table.hpp"
 
 namespace gearpod::analysis {
 

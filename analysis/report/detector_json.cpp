@@ -2,7 +2,7 @@
 
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/reliability_json.hpp"
+#include "analysis/report/pod_json.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -4,102 +4,11 @@
 
 #include "analysis/report/detector_json.hpp"
 #include "analysis/report/json_values.hpp"
+#include "analysis/report/pod_json.hpp"
 #include "analysis/report/robustness_json.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-Json to_json(const std::vector<PodPoint>& band) {
-    Json json{{"size", Json::array()},
-              {"pod", Json::array()},
-              {"lower", Json::array()},
-              {"upper", Json::array()}};
-    for (const PodPoint& point : band) {
-        json["size"].push_back(number(point.size));
-        json["pod"].push_back(number(point.pod));
-        json["lower"].push_back(number(point.lower));
-        json["upper"].push_back(number(point.upper));
-    }
-    return json;
-}
-
-Json to_json(const HitMissFit& fit) {
-    const PodForm& form = fit.curve.form;
-    const bool fitted = fit.refusal.empty();
-    const auto value = [&](double v) { return fitted ? number(v) : Json(nullptr); };
-    return {{"model", form_text(form)},
-            {"link", link_name(form.link)},
-            {"log_size", form.log_size},
-            {"floor", form.floor},
-            {"ceiling", value(fit.curve.ceiling)},
-            {"intercept", value(fit.curve.intercept)},
-            {"slope", value(fit.curve.slope)},
-            {"aic", value(fit.aic)},
-            {"fit",
-             {{"test", fitted ? fit_text(fit.fit) : ""},
-              {"statistic", value(fit.fit.statistic)},
-              {"degrees", fit.fit.degrees},
-              {"p_value", value(fit.fit.p_value)}}},
-            {"refusal", text_or_null(fit.refusal)}};
-}
-
-Json to_json(const HitMissPod& pod) {
-    Json json = pod.refusal.empty() ? to_json(pod.chosen) : Json::object();
-    json["tests"] = pod.tests;
-    json["hits"] = pod.hits;
-    json["smallest"] = pod.smallest;
-    json["largest"] = pod.largest;
-    json["refusal"] = text_or_null(pod.refusal);
-    json["doubtful"] = pod.doubtful;
-    json["supported"] = pod.supported;
-    json["a50"] = pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr);
-    json["a90"] = pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr);
-    json["band"] = to_json(pod.band);
-    json["candidates"] = Json::array();
-    for (const HitMissFit& fit : pod.candidates) {
-        json["candidates"].push_back(to_json(fit));
-    }
-    return json;
-}
-
-Json to_json(const SignalResponseFit& fit) {
-    Json checks = Json::array();
-    for (const CheckResult& check : fit.checks) {
-        checks.push_back({{"test", check.test},
-                          {"statistic", number(check.statistic)},
-                          {"p_value", number(check.p_value)}});
-    }
-    return {{"log_size", fit.log_size},
-            {"log_response", fit.log_response},
-            {"intercept", number(fit.line.intercept)},
-            {"slope", number(fit.line.slope)},
-            {"sigma", number(fit.line.sigma)},
-            {"aic", number(fit.aic)},
-            {"checks", checks},
-            {"refusals", fit.refusals}};
-}
-
-Json to_json(const SignalResponsePod& pod) {
-    Json json{{"count", pod.count},
-              {"refusal", text_or_null(pod.refusal)},
-              {"chosen", pod.refusal.empty() ? Json(pod.chosen) : Json(nullptr)},
-              {"a50", pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr)},
-              {"a90", pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr)},
-              {"band", to_json(pod.band)},
-              {"candidates", Json::array()}};
-    for (const SignalResponseFit& fit : pod.candidates) {
-        json["candidates"].push_back(to_json(fit));
-    }
-    return json;
-}
-
-Json to_json(const Auc& auc) {
-    return {{"auc", number(auc.auc)},
-            {"lower", number(auc.bounds.lower)},
-            {"upper", number(auc.bounds.upper)},
-            {"healthy", auc.healthy},
-            {"faulty", auc.faulty}};
-}
 
 Json to_json(const std::vector<RocPoint>& roc) {
     Json json{{"false_alarm_rate", Json::array()}, {"detection_rate", Json::array()}};
@@ -132,12 +41,12 @@ Json to_json(const MissSensitivity& misses) {
 Json to_json(const LevelReliability& level) {
     Json by_size = Json::array();
     for (const Auc& auc : level.auc_by_size) {
-        by_size.push_back(to_json(auc));
+        by_size.push_back(auc_json(auc));
     }
     return {{"noise_level", level.noise_level},
-            {"hit_miss", to_json(level.hit_miss)},
-            {"signal_response", to_json(level.signal_response)},
-            {"auc", to_json(level.auc)},
+            {"hit_miss", hit_miss_json(level.hit_miss)},
+            {"signal_response", signal_response_json(level.signal_response)},
+            {"auc", auc_json(level.auc)},
             {"auc_by_size", by_size},
             {"roc", to_json(level.roc)},
             {"misses", to_json(level.misses)}};
@@ -205,14 +114,6 @@ Json to_json(const ConditionDetection& detection) {
 }
 
 }  // namespace
-
-nlohmann::json hit_miss_json(const HitMissPod& pod) {
-    return to_json(pod);
-}
-
-nlohmann::json auc_json(const Auc& auc) {
-    return to_json(auc);
-}
 
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request) {
     Json levels = Json::array(), features = Json::array(), conditions = Json::array();

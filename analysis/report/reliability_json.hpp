@@ -27,8 +27,4 @@ namespace gearpod::analysis {
 // Robustness, a90_maps: robustness_json.hpp; combined, sensitivity: detector_json.hpp.
 nlohmann::json reliability_json(const Reliability& reliability, const DetectionRequest& request);
 
-// Entries "hit_miss" and "auc" above.
-nlohmann::json hit_miss_json(const HitMissPod& pod);
-nlohmann::json auc_json(const Auc& auc);
-
 }  // namespace gearpod::analysis

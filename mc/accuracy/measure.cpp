@@ -209,7 +209,7 @@ class Measurement {
         Study study = without_steps(study_);
         study.numerics.tolerance = tolerance;
         try {
-            const Rung rung = choose_numerics(study)->rung;
+            const Rung rung = resolve_numerics(study).choice->rung;
             const auto same =
                 std::find_if(report_.rungs.begin(), report_.rungs.end(),
                              [&](const RungResult& r) { return r.rung.text() == rung.text(); });

@@ -3,22 +3,26 @@
 namespace gearpod::mc {
 
 RungScenes::RungScenes(const Study& study)
-    : study_(study), scene_(std::make_unique<Scene>(study)) {}
+    : own_(study), last_(std::make_unique<const Scene>(own_)) {}
 
 const Scene& RungScenes::of(const Rung& rung) {
-    const Numerics numerics = with_rung(study_, rung).numerics;
-    Scene* scene = scene_.get();
+    const Numerics numerics = with_rung(own_.study(), rung).numerics;
     if (numerics.grid == StepGrid::graded) {
-        // How closely orbits settle changes no grid.
-        Rung grid = rung;
-        grid.settle_tolerance = study_.numerics.settle_tolerance;
-        auto& own = graded_[grid.text()];
-        if (own == nullptr) {
-            own = rung_scene(study_, grid);
-        }
-        scene = own.get();
+        settled_ = std::make_unique<const Scene>(graded(rung).with(numerics));
+        return *settled_;
     }
-    scene->use(numerics);
+    last_ = std::make_unique<const Scene>(last_->with(numerics));
+    return *last_;
+}
+
+// How closely orbits settle changes no grid.
+const Scene& RungScenes::graded(const Rung& rung) {
+    Rung grid = rung;
+    grid.settle_tolerance = own_.study().numerics.settle_tolerance;
+    auto& scene = graded_[grid.text()];
+    if (scene == nullptr) {
+        scene = std::make_unique<const Scene>(own_.with(with_rung(own_.study(), grid).numerics));
+    }
     return *scene;
 }
 

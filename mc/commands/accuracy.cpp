@@ -8,11 +8,12 @@
 namespace gearpod::mc {
 
 int accuracy_command(const AccuracyOptions& options) {
-    const auto scene = load_scene(options.study);
-    if (!scene) {
+    const auto made = load_scene(options.study);
+    if (!made) {
         return kBadInput;
     }
-    if (scene->study().effects.quasi_static()) {
+    const Study& study = made.scene->study();
+    if (study.effects.quasi_static()) {
         print_problems({{options.study.path, 0, "effects.motion",
                          "a quasi-static gearbox is not integrated in time, so its accuracy is not "
                          "a matter of steps",
@@ -30,14 +31,13 @@ int accuracy_command(const AccuracyOptions& options) {
         if (!options.peers.empty()) {
             peers = read_peers(options.peers);
         }
-        AccuracyReport report = measure_accuracy(scene->study(), request);
+        AccuracyReport report = measure_accuracy(study, request);
         report.peers = std::move(peers);
         const bool terminal = options.json == "-";
         if (!terminal) {
             fmt::print("{}", accuracy_text(report));
         }
-        return options.json.empty() ||
-                       write_text_to(options.json, accuracy_json(report, scene->study()))
+        return options.json.empty() || write_text_to(options.json, accuracy_json(report, study))
                    ? kDone
                    : kBadInput;
     } catch (const SceneError& error) {

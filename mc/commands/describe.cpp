@@ -14,7 +14,6 @@
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_draws.hpp"
-#include "mc/numerics/choice.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -113,7 +112,7 @@ void print_effect_costs(const Study& study) {
     }
 }
 
-void print_cost(const Scene& scene) {
+void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice) {
     const Study& study = scene.study();
     const auto& plan = scene.plan();
     print_heading("cost");
@@ -132,7 +131,7 @@ void print_cost(const Scene& scene) {
                                                        lockstep::name(plan.integrator)));
     }
     print_effect_costs(study);
-    if (const NumericsChoice* choice = scene.numerics_choice()) {
+    if (choice) {
         print_entry("chosen for the tolerance", choice->text());
     }
     if (scene.study().numerics.grid == StepGrid::graded || scene.calibration()) {
@@ -177,16 +176,17 @@ int describe_command(const DescribeOptions& options) {
         return kDone;
     }
     const auto start = WallClock::now();
-    const auto scene = load_scene(options.study);
-    if (!scene) {
+    const auto made = load_scene(options.study);
+    if (!made) {
         return kBadInput;
     }
     const double setup_s = seconds_since(start);
-    print_gearbox(*scene);
-    print_effects(*scene);
-    print_cost(*scene);
+    const Scene& scene = *made.scene;
+    print_gearbox(scene);
+    print_effects(scene);
+    print_cost(scene, made.choice);
     std::fflush(stdout);
-    print_forecast(*scene, begun_s + setup_s);
+    print_forecast(scene, begun_s + setup_s);
     return kDone;
 }
 

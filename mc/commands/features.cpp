@@ -11,6 +11,7 @@
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/gearbox/measured_signal.hpp"
 #include "mc/gearbox/span_analysis.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 #include "signals/windowing/folded_signal.hpp"
@@ -23,7 +24,8 @@ using features::Feature;
 
 // Mesh periods of its signal that a feature looks at.
 int meshes_of(const Feature& feature, const Scene& scene) {
-    return feature.from_sensor ? meshes_needed(scene, feature.needs) : scene.span().planet_teeth;
+    return feature.from_sensor ? meshes_needed(scene.study(), scene.span(), feature.needs)
+                               : scene.span().planet_teeth;
 }
 
 // Why a feature cannot be had of this signal; "" if it can.
@@ -246,7 +248,7 @@ bool any_feature(const std::vector<Measured>& all, const std::string& path, cons
 }  // namespace
 
 int features_command(const FeaturesOptions& options) {
-    const auto scene = load_scene(options.study);
+    const auto scene = load_scene(options.study).scene;
     if (!scene) {
         return kBadInput;
     }

@@ -14,8 +14,9 @@ namespace {
 constexpr double kSameMode = 1e-6;
 
 std::vector<double> mean_pairs(const Study& study) {
-    return study.gearbox.tooth_profile == ToothProfile::constant ? constant_pairs(study)
-                                                                 : Scene(study).mean_pairs();
+    return study.gearbox.tooth_profile == ToothProfile::constant
+               ? constant_pairs(study)
+               : Scene(resolve_numerics(study).study).mean_pairs();
 }
 
 // Natural frequencies are those of the standing gearbox.

@@ -12,7 +12,6 @@
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/gearbox/simulation.hpp"
-#include "mc/numerics/choice.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
@@ -78,12 +77,13 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
 // Rank 0's run: everything that is not computing tiles.
 class Run {
   public:
-    Run(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+    Run(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
         std::unique_ptr<Checkpoint> checkpoint, double setup_s)
         : options_(options),
-          scene_(scene),
+          scene_(*made.scene),
+          choice_(made.choice),
           ranks_(ranks),
-          study_(scene.study()),
+          study_(scene_.study()),
           plan_(study_.ensemble.threshold_instances, study_.ensemble.instances),
           checkpoint_(std::move(checkpoint)),
           watch_(study_, plan_, options.watch),
@@ -92,9 +92,9 @@ class Run {
     int run(const Interruption& interruption) {
         if (!options_.quiet) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
-            if (const NumericsChoice* choice = scene_.numerics_choice()) {
+            if (choice_) {
                 fmt::print(stderr, "tolerance {:g}: {}\n", study_.numerics.tolerance,
-                           choice->text());
+                           choice_->text());
             }
         }
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
@@ -126,8 +126,8 @@ class Run {
         results.provenance = provenance(study_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
         results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
-        if (const NumericsChoice* choice = scene_.numerics_choice()) {
-            results.provenance.emplace_back("numerics_choice", choice->text());
+        if (choice_) {
+            results.provenance.emplace_back("numerics_choice", choice_->text());
         }
         return results;
     }
@@ -235,6 +235,7 @@ class Run {
 
     const RunOptions& options_;
     const Scene& scene_;
+    const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
     const Study& study_;
     const TilePlan plan_;
@@ -266,7 +267,8 @@ int run_command(const RunOptions& options) {
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);
     const Ranks ranks;
-    const auto scene = load_scene_together(ranks, options.study);
+    const StudyScene made = load_scene_together(ranks, options.study);
+    const auto& scene = made.scene;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = can_write(results_path(options));
@@ -290,7 +292,7 @@ int run_command(const RunOptions& options) {
         return std::stoi(ranks.from_leader(""));
     }
     const int code =
-        Run(options, *scene, ranks, std::move(checkpoint), seconds_since(start)).run(interruption);
+        Run(options, made, ranks, std::move(checkpoint), seconds_since(start)).run(interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }

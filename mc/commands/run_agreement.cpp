@@ -38,14 +38,13 @@ std::string misfit(const std::string& name, const std::string& program,
 
 }  // namespace
 
-std::unique_ptr<Scene> load_scene_together(const Ranks& ranks, const StudyOptions& options) {
-    Problems problems;
-    auto scene = make_scene(options, problems);
-    const auto all_problems = ranks.gather(scene ? "" : format(problems));
+StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options) {
+    StudyScene made = make_scene(options);
+    const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =
         ranks.gather(ranks.size() > 1 ? fmt::format("{}, {}", version_text(), program_sum()) : "");
-    const auto studies = ranks.gather(scene ? resolved_text(scene->study()) : "");
+    const auto studies = ranks.gather(made ? resolved_text(made.scene->study()) : "");
     std::string why = all_problems[0];
     for (std::size_t rank = 1; rank < names.size() && why.empty(); ++rank) {
         const std::string& problem = all_problems[rank];
@@ -55,12 +54,12 @@ std::unique_ptr<Scene> load_scene_together(const Ranks& ranks, const StudyOption
         why += why.empty() ? "" : "\n";
     }
     if (!why.empty()) {
-        scene.reset();
+        made.scene.reset();
         if (ranks.leads()) {
             fmt::print(stderr, "{}", why);
         }
     }
-    return scene;
+    return made;
 }
 
 }  // namespace gearpod::mc

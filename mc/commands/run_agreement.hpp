@@ -1,16 +1,14 @@
 // All ranks of a run must compute the same: the same program, study and seed.
 #pragma once
 
-#include <memory>
-
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/scene/scene.hpp"
+#include "mc/numerics/study_scene.hpp"
 
 namespace gearpod::mc {
 
 // The scene in every rank, or nothing in any of them after rank 0 said why: a problem of the study,
 // or the rank that cannot read it, has another one or runs another program. All call it together.
-std::unique_ptr<Scene> load_scene_together(const Ranks& ranks, const StudyOptions& options);
+StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options);
 
 }  // namespace gearpod::mc

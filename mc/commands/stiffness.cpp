@@ -96,7 +96,7 @@ void print_summary(const Scene& scene) {
 }  // namespace
 
 int stiffness_command(const StiffnessOptions& options) {
-    const auto scene = load_scene(options.study);
+    const auto scene = load_scene(options.study).scene;
     if (!scene) {
         return kBadInput;
     }

@@ -5,28 +5,9 @@
 #include <exception>
 #include <span>
 
-#include "machine/dispatch.hpp"
 #include "mc/files/atomic_file.hpp"
-#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-void choose_instruction_set(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::baseline:
-            return machine::use_instruction_set(machine::InstructionSet::baseline);
-        case InstructionSet::x86_64_v3:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v3);
-        case InstructionSet::x86_64_v4:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v4);
-        case InstructionSet::automatic:
-            break;
-    }
-    machine::use_instruction_set(machine::best_instruction_set());
-}
-
-}  // namespace
 
 void print_problems(const Problems& problems) {
     fmt::print(stderr, "{}", format(problems));
@@ -40,44 +21,16 @@ std::optional<Study> load_study(const StudyOptions& options) {
     return std::move(reading.study);
 }
 
-std::unique_ptr<Scene> make_scene(const std::string& name, StudyReading reading,
-                                  Problems& problems) {
-    if (!reading.study) {
-        problems = std::move(reading.problems);
-        return nullptr;
-    }
-    const Study& study = *reading.study;
-    if (!has_gears(study)) {
-        problems = {{name, 0, "gearbox.sun_teeth",
-                     "no tooth numbers or no module (only modes and describe do without)",
-                     "give sun_teeth, planet_teeth, ring_teeth and module_mm"}};
-        return nullptr;
-    }
-    try {
-        choose_instruction_set(study.numerics.instruction_set);
-    } catch (const std::exception& error) {
-        problems = {{name, 0, "numerics.instruction_set", error.what(), "use auto"}};
-        return nullptr;
-    }
-    try {
-        return std::make_unique<Scene>(study);
-    } catch (const SceneError& error) {
-        problems = {{name, 0, error.key(), error.what(), error.remedy()}};
-        return nullptr;
-    }
+StudyScene make_scene(const StudyOptions& options) {
+    return make_scene(options.path, read_study(options.path, options.overrides));
 }
 
-std::unique_ptr<Scene> make_scene(const StudyOptions& options, Problems& problems) {
-    return make_scene(options.path, read_study(options.path, options.overrides), problems);
-}
-
-std::unique_ptr<Scene> load_scene(const StudyOptions& options) {
-    Problems problems;
-    auto scene = make_scene(options, problems);
-    if (!scene) {
-        print_problems(problems);
+StudyScene load_scene(const StudyOptions& options) {
+    StudyScene made = make_scene(options);
+    if (!made) {
+        print_problems(made.problems);
     }
-    return scene;
+    return made;
 }
 
 bool can_write(const std::string& path) {

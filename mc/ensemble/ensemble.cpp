@@ -5,8 +5,8 @@
 
 #include "analysis/detection/feature_alarm.hpp"
 #include "mc/ensemble/tile_exchange.hpp"
-#include "mc/gearbox/instance_features.hpp"
 #include "mc/results/row_source.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

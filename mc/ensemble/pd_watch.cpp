@@ -10,7 +10,7 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/wilson.hpp"
 #include "mc/ensemble/tile_worker.hpp"
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/study/schema/sizes.hpp"
 

@@ -205,7 +205,7 @@ int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
                              : std::min(all, std::max(kFewestMeshes, static_cast<int>(affordable)));
 }
 
-void measure(Scene& scene, const TilePlan& plan, double budget_s, RunCalibration& result) {
+void measure(const Scene& scene, const TilePlan& plan, double budget_s, RunCalibration& result) {
     auto start = WallClock::now();
     const TileTask task(scene);
     result.task_s = seconds_since(start);
@@ -245,7 +245,8 @@ void measure(Scene& scene, const TilePlan& plan, double budget_s, RunCalibration
 
 }  // namespace
 
-RunCalibration calibrate_run(Scene& scene, const TilePlan& plan, int threads, double budget_s) {
+RunCalibration calibrate_run(const Scene& scene, const TilePlan& plan, int threads,
+                             double budget_s) {
     RunCalibration result;
     result.threads =
         static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.tiles()));
@@ -255,9 +256,9 @@ RunCalibration calibrate_run(Scene& scene, const TilePlan& plan, int threads, do
     // So that a thread has two.
     result.recorded = choose_recorded(scene, mesh_s, 0.5 * budget_s);
     const double all_records = motion_bytes(scene), whole_march_s = mesh_s * marched_meshes(scene);
-    scene.record_at_most(result.recorded);
+    const Scene measured = scene.recording_at_most(result.recorded);
     result.memory.before = peak_memory_bytes();
-    if (mesh_s * marched_meshes(scene) > std::max(kLongestBatch_s, budget_s)) {
+    if (mesh_s * marched_meshes(measured) > std::max(kLongestBatch_s, budget_s)) {
         result.march_alone = true;
         for (GroupCost& group : result.cost) {
             group.fresh.whole.march = group.reused.whole.march = whole_march_s;
@@ -265,14 +266,13 @@ RunCalibration calibrate_run(Scene& scene, const TilePlan& plan, int threads, do
         result.memory.peak = peak_memory_bytes();
         result.memory.records = result.threads * all_records;
     } else {
-        measure(scene, plan, budget_s, result);
-        result.memory.records = result.threads * (all_records - motion_bytes(scene));
+        measure(measured, plan, budget_s, result);
+        result.memory.records = result.threads * (all_records - motion_bytes(measured));
         for (GroupCost& group : result.cost) {
             complete(group.fresh, result.recorded, result.to_record);
             complete(group.reused, result.recorded, result.to_record);
         }
     }
-    scene.record_at_most(result.to_record);
     return result;
 }
 

@@ -61,7 +61,8 @@ inline constexpr double kLongestBatch_s = 5.0;
 // Computes batches from all over the ensemble on all threads at once: two a thread (unless there
 // are fewer, or they are slow), and more until `budget_s` seconds are over. A batch that would take
 // longer than that because every mesh is marched records fewer meshes, kFewestMeshes at least; its
-// march then counts for what all of them take. `scene` is as before afterwards.
-RunCalibration calibrate_run(Scene& scene, const TilePlan& plan, int threads, double budget_s);
+// march then counts for what all of them take.
+RunCalibration calibrate_run(const Scene& scene, const TilePlan& plan, int threads,
+                             double budget_s);
 
 }  // namespace gearpod::mc

@@ -10,6 +10,7 @@
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "stiffness/foundation/foundation_models.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -48,7 +48,7 @@ std::string shares_text(const Seconds& work, double thread_s) {
 
 }  // namespace
 
-void print_forecast(Scene& scene, double setup_s) {
+void print_forecast(const Scene& scene, double setup_s) {
     const Study& study = scene.study();
     const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const int threads = thread_count(study);

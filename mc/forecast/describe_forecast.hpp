@@ -8,6 +8,6 @@ namespace gearpod::mc {
 // Computes some gearboxes and tries the analysis, for a few seconds at most, and prints what a run
 // of this study is going to take in this process. `setup_s`: what starting the program and making
 // the scene took.
-void print_forecast(Scene& scene, double setup_s);
+void print_forecast(const Scene& scene, double setup_s);
 
 }  // namespace gearpod::mc

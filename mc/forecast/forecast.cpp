@@ -81,7 +81,7 @@ double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std:
 double verification_s(const Scene& scene, const RunCalibration& calibration) {
     const auto start = WallClock::now();
     const FinerScene finer = finer_scene(scene);
-    if (finer.scene == nullptr) {
+    if (!finer.scene) {
         return 0.0;
     }
     const double setup_s = seconds_since(start);

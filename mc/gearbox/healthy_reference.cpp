@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/instance_signals.hpp"
+#include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 namespace {

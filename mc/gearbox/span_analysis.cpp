@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-constexpr unsigned kOfSamples = features::kSensorTurn | features::kSun | features::kRing |
-                                features::kPlanetMoments | features::kFiltered;
-
-// A central gear's turns in the planets' span, or the fewest that do.
-signals::GearTurns central_turns(const Scene& scene, int teeth) {
-    const auto turns = signals::turns_of_span(teeth, scene.path_meshes(), scene.span().meshes());
-    return turns.turns > 0 ? turns : signals::fewest_turns(teeth, scene.path_meshes());
-}
 
 signals::GearTurns planet_turns(const Scene& scene) {
     return {scene.span().planet_teeth, scene.span().ring_teeth};
@@ -48,22 +40,6 @@ void remove_path_trend(int planets, signals::ToothStatistics& teeth) {
 }
 
 }  // namespace
-
-bool needs_samples(unsigned needs) {
-    return (needs & kOfSamples) != 0;
-}
-
-int meshes_needed(const Scene& scene, unsigned needs) {
-    const Gearbox& gearbox = scene.study().gearbox;
-    int meshes = scene.span().meshes();
-    if ((needs & features::kSun) != 0) {
-        meshes = std::max(meshes, central_turns(scene, *gearbox.sun_teeth).meshes());
-    }
-    if ((needs & features::kRing) != 0) {
-        meshes = std::max(meshes, central_turns(scene, *gearbox.ring_teeth).meshes());
-    }
-    return meshes;
-}
 
 SpanAnalysis::SpanAnalysis(const Scene& scene, unsigned needs) : scene_(scene), needs_(needs) {
     const int teeth = scene.span().planet_teeth;
@@ -120,7 +96,7 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_offset,
 features::ToothSignals SpanAnalysis::central_teeth(std::span<const double> samples, int teeth,
                                                    bool moments,
                                                    signals::ToothStatistics& statistics) {
-    const signals::GearTurns gear = central_turns(scene_, teeth);
+    const signals::GearTurns gear = central_turns(scene_.span(), teeth);
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
     const auto span = samples.first(static_cast<std::size_t>(gear.meshes()) * phases);
     signals::Windowing windowing(gear.layout(), scene_.samples_per_mesh(),

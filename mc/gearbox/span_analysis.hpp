@@ -14,12 +14,7 @@
 
 namespace gearpod::mc {
 
-// Whether features with these needs (features::Need) look at the sensor's samples.
-bool needs_samples(unsigned needs);
-// Mesh periods of sensor signal that features with these needs look at.
-int meshes_needed(const Scene& scene, unsigned needs);
-
-// Holds scratch memory: one object per thread.
+// For features with some needs (features::Need). Holds scratch memory: one object per thread.
 class SpanAnalysis {
   public:
     SpanAnalysis(const Scene& scene, unsigned needs);

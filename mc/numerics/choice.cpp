@@ -35,8 +35,9 @@ class Search {
     explicit Search(const Study& study)
         : study_(study),
           tolerance_(study.numerics.tolerance),
-          scene_(rung_scene(study, own_rung(study))),
-          pilot_(*scene_) {
+          own_(rung_scene(study, own_rung(study))),
+          last_(std::make_unique<const Scene>(own_)),
+          pilot_(own_) {
         ReferenceRequest request;
         request.agreement = kReferenceShare * tolerance_;
         request.settle_tolerance = std::min(1e-10, 1e-3 * tolerance_);
@@ -87,11 +88,11 @@ class Search {
         const Numerics numerics = with_rung(study_, rung).numerics;
         Trial result;
         try {
-            scene_->use(numerics);
-            if (flight.graded() && !may_cost(flight, scene_->plan().grid.steps.size())) {
+            last_ = std::make_unique<const Scene>(last_->with(numerics));
+            if (flight.graded() && !may_cost(flight, last_->plan().grid.steps.size())) {
                 return trials_.emplace(rung.text(), result).first->second;
             }
-            const PilotRecord record = pilot_.run(*scene_);
+            const PilotRecord record = pilot_.run(*last_);
             const PilotError error = pilot_error(record, reference_.record);
             result.error = error.largest_feature();
             result.worst = worst_feature(error);
@@ -187,10 +188,8 @@ class Search {
         if (least_meshes_ == 0.0) {
             Rung rung = own_rung(study_);
             rung.settle_tolerance = settle_tolerances().back();
-            const Numerics now = scene_->study().numerics;
-            scene_->use(with_rung(study_, rung).numerics);
-            least_meshes_ = pilot_.run(*scene_).meshes_per_tile();
-            scene_->use(now);
+            const Scene loose = own_.with(with_rung(study_, rung).numerics);
+            least_meshes_ = pilot_.run(loose).meshes_per_tile();
             ++marches_;
         }
         return cost_of(flight) * static_cast<double>(steps) * least_meshes_ < best_.cost;
@@ -213,7 +212,9 @@ class Search {
 
     const Study& study_;
     const double tolerance_;
-    const std::unique_ptr<Scene> scene_;
+    const Scene own_;  // by its own rule
+    // Tried last: the next often differs in its settling alone, and shares the plan.
+    std::unique_ptr<const Scene> last_;
     const Pilot pilot_;
     Reference reference_;
     std::map<std::string, Trial> trials_;
@@ -231,11 +232,13 @@ std::string NumericsChoice::text() const {
                        rung.text(), error, gearboxes, worst_feature);
 }
 
-std::optional<NumericsChoice> choose_numerics(const Study& study) {
-    if (study.numerics.tolerance == 0.0) {
-        return std::nullopt;
+ResolvedStudy resolve_numerics(Study study) {
+    std::optional<NumericsChoice> choice;
+    if (study.numerics.tolerance > 0.0) {
+        choice = Search(study).run();
+        study.numerics = choice->numerics;
     }
-    return Search(study).run();
+    return {std::move(study), std::move(choice)};
 }
 
 }  // namespace gearpod::mc

@@ -24,8 +24,14 @@ struct NumericsChoice {
     std::string text() const;
 };
 
-// Nothing without a tolerance. Depends on the study alone: neither on clocks nor on lanes, threads
-// or instruction set. Throws SceneError where no rung keeps the tolerance.
-std::optional<NumericsChoice> choose_numerics(const Study& study);
+// A study with the numerics that it runs by, and how they were chosen: not at all without a
+// tolerance.
+struct ResolvedStudy {
+    Study study;
+    std::optional<NumericsChoice> choice;
+};
+// Depends on the study alone: neither on clocks nor on lanes, threads or instruction set. Throws
+// SceneError where no rung keeps the tolerance.
+ResolvedStudy resolve_numerics(Study study);
 
 }  // namespace gearpod::mc

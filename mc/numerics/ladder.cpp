@@ -67,19 +67,19 @@ void add_flights(const Study& study, const std::string& integrator,
     Flight flight{integrator, way, {}, {}, 0, ""};
     bool may_be_graded = false;
     try {
-        const auto scene =
+        const Scene scene =
             rung_scene(study, {integrator, n.steps_per_mesh, n.settle_tolerance, way});
-        flight.own_steps = static_cast<int>(scene->plan().grid.steps.size());
+        flight.own_steps = static_cast<int>(scene.plan().grid.steps.size());
         if (n.grid == StepGrid::graded) {
             flight.grid_tolerances = {n.grid_tolerance};
         } else if (n.steps_per_mesh > 0) {
             flight.steps = {n.steps_per_mesh};
         } else {
-            flight.steps = step_ladder(*scene, beyond);
+            flight.steps = step_ladder(scene, beyond);
         }
         // The steps of an explicit method are bounded by stability, which is the same everywhere.
         may_be_graded = n.steps_per_mesh == 0 && n.grid == StepGrid::uniform &&
-                        !is_explicit(scene->plan().integrator);
+                        !is_explicit(scene.plan().integrator);
     } catch (const SceneError& error) {
         flight.refusal = error.what();
     }

@@ -150,10 +150,10 @@ FinerScene finer_scene(const Scene& scene) {
         return finer;
     }
     const Rung rung = rung_of(scene);
-    for (int factor = kFiner; finer.scene == nullptr && factor > 1; factor /= 2) {
+    for (int factor = kFiner; !finer.scene && factor > 1; factor /= 2) {
         finer.rung = finer_than(scene, rung, factor);
         try {
-            finer.scene = rung_scene(study, finer.rung);
+            finer.scene.emplace(scene.with(with_rung(study, finer.rung).numerics));
         } catch (const SceneError&) {  // more steps than the program takes
             continue;
         }
@@ -163,7 +163,7 @@ FinerScene finer_scene(const Scene& scene) {
 
 std::optional<NumericalError> find_numerical_error(const Scene& scene) {
     const FinerScene finer = finer_scene(scene);
-    if (finer.scene == nullptr) {
+    if (!finer.scene) {
         return std::nullopt;
     }
     const Pilot pilot(scene, spread_gearboxes(scene.study()));

@@ -2,7 +2,6 @@
 // against what the number of gearboxes leaves uncertain.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +18,7 @@ namespace gearpod::mc {
 // unless the study has numerics.tolerance or numerics.verify, and something is marched.
 struct FinerScene {
     Rung rung;
-    std::unique_ptr<Scene> scene;
+    std::optional<Scene> scene;
 };
 FinerScene finer_scene(const Scene& scene);
 

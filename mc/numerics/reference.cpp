@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "mc/study/schema/schema.hpp"
@@ -33,14 +32,14 @@ class Refinement {
           rung_{std::move(integrator), 0, request.settle_tolerance, {}},
           request_(request) {
         try {
-            scene_ = rung_scene(study, rung_);
+            scene_.emplace(rung_scene(study, rung_));
             rung_.steps = static_cast<int>(scene_->plan().grid.steps.size());
         } catch (const SceneError&) {  // an explicit method that the study is too stiff for
-            scene_ = nullptr;
+            scene_.reset();
         }
     }
 
-    bool stopped() const { return scene_ == nullptr; }
+    bool stopped() const { return !scene_.has_value(); }
     bool has_result() const { return best_.has_value(); }
     const PilotRecord& finest() const { return *last_; }  // marched
     const PilotRecord& best() const { return *best_; }    // extrapolated
@@ -73,20 +72,20 @@ class Refinement {
     void refine(double tile_steps) {
         rung_.steps *= 2;
         if (tile_steps > request_.most_tile_steps) {
-            scene_ = nullptr;
+            scene_.reset();
             return;
         }
         try {
-            scene_->use(with_rung(study_, rung_).numerics);
+            scene_.emplace(scene_->with(with_rung(study_, rung_).numerics));
         } catch (const SceneError&) {
-            scene_ = nullptr;
+            scene_.reset();
         }
     }
 
     const Study& study_;
     Rung rung_, done_;
     const ReferenceRequest request_;
-    std::unique_ptr<Scene> scene_;
+    std::optional<Scene> scene_;  // none: stopped
     std::optional<PilotRecord> last_, best_;
     double change_ = 0.0, order_ = 0.0;
 };

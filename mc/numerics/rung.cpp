@@ -42,8 +42,8 @@ Study with_rung(const Study& study, const Rung& rung) {
     return *std::move(reading.study);
 }
 
-std::unique_ptr<Scene> rung_scene(const Study& study, const Rung& rung) {
-    return std::make_unique<Scene>(with_rung(study, rung));
+Scene rung_scene(const Study& study, const Rung& rung) {
+    return Scene(with_rung(study, rung));
 }
 
 std::vector<std::string> integrator_names() {

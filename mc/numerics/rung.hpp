@@ -1,7 +1,6 @@
 // A rung: one way to compute a study, as the keys of [numerics] that say it.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ Rung own_rung(const Study& study);
 // The study with a rung's keys, and no tolerance of its own. Throws SceneError where the rung has
 // no place in the study.
 Study with_rung(const Study& study, const Rung& rung);
-std::unique_ptr<Scene> rung_scene(const Study& study, const Rung& rung);
+Scene rung_scene(const Study& study, const Rung& rung);
 
 // The integrators that a study may name, but for "auto".
 std::vector<std::string> integrator_names();

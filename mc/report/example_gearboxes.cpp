@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "mc/commands/support.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/gearbox/simulation.hpp"
+#include "mc/numerics/study_scene.hpp"
 #include "mc/report/thinning.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -204,7 +204,7 @@ class Examples {
   private:
     void add_sensor(const GearboxTile& tile, const GearboxId& id, double period_s,
                     const std::vector<double>& noisy_rms, Json& json) {
-        const signals::SpanLayout layout = span_layout(scene_);
+        const signals::SpanLayout layout = scene_.span();
         const int samples = scene_.samples_per_mesh();
         const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
         auto noisy = clean;
@@ -334,14 +334,13 @@ nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     if (text.empty()) {
         return refused("the file holds no study");
     }
-    Problems problems;
     const std::string name = "study of the results";
-    const auto scene = make_scene(name, read_study_text(text, name), problems);
-    if (!scene) {
-        return refused("this program cannot build the file's study: " + format(problems));
+    const StudyScene made = make_scene(name, read_study_text(text, name));
+    if (!made) {
+        return refused("this program cannot build the file's study: " + format(made.problems));
     }
-    return {{"examples", or_refusal([&] { return gearboxes_json(*scene, frame, rows); })},
-            {"stiffness", or_refusal([&] { return stiffness_json(*scene); })}};
+    return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
+            {"stiffness", or_refusal([&] { return stiffness_json(*made.scene); })}};
 }
 
 }  // namespace gearpod::mc

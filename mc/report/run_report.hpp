@@ -19,9 +19,6 @@ struct RowCounts {
 
 RowCounts count_rows(const RowSource& rows);
 
-// One sentence on a gearbox of that status, without its subject: "is unstable ...".
-const char* failure_text(Status status);
-
 // Detection rates, reliability and, if it was verified, the numerical error.
 std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability);

@@ -8,49 +8,47 @@
 #include <optional>
 #include <vector>
 
-#include "lockstep/plan/march.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
-#include "lockstep/plan/transmission_error.hpp"
 #include "mc/scene/drive.hpp"
-#include "mc/scene/faults.hpp"
-#include "mc/scene/grid.hpp"
-#include "mc/scene/meshes.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene_error.hpp"
-#include "mc/scene/stepping.hpp"
+#include "mc/scene/scene_plan.hpp"
+#include "mc/scene/scene_stiffness.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-struct NumericsChoice;  // mc/numerics/choice.hpp
-
+// Never changes. A copy, and another scene made from it, shares with it what both have alike.
 class Scene {
   public:
-    // The study must have gears (has_gears). With numerics.tolerance, its other numerics are chosen
-    // here. Throws SceneError.
+    // The study must have gears (has_gears). Its numerics are taken as they stand: what
+    // numerics.tolerance asks for is chosen before (resolve_numerics). Throws SceneError.
     explicit Scene(const Study& study);
-    ~Scene();
-    Scene(const Scene&) = delete;
+    Scene(const Scene&) = default;
     Scene& operator=(const Scene&) = delete;
 
-    // With the numerics that were chosen.
+    // The same gearboxes marched another way. Makes the stiffness anew for another
+    // stiffness_tolerance only, and no plan where the settle_tolerance alone is another. Throws
+    // SceneError.
+    Scene with(const Numerics& numerics) const;
+    // The same, of whose signal no more than so many meshes are recorded one by one; the signal
+    // repeats them. For measuring what a march costs.
+    Scene recording_at_most(int meshes) const;
+
     const Study& study() const { return study_; }
-    // How they were chosen; null without numerics.tolerance.
-    const NumericsChoice* numerics_choice() const { return choice_.get(); }
     const Drive& drive() const { return *drive_; }
-    const std::vector<SceneMesh>& meshes() const { return meshes_; }
-    const lockstep::PairSet& pairs() const { return pairs_; }
-    const SceneFault& fault() const { return *fault_; }
-    const lockstep::MarchPlan& plan() const { return plan_; }
-    const lockstep::FaultPattern& pattern() const { return fault_->pattern(); }
+    const std::vector<SceneMesh>& meshes() const { return stiffness_->meshes(); }
+    const lockstep::PairSet& pairs() const { return stiffness_->pairs(); }
+    const SceneFault& fault() const { return stiffness_->fault(); }
+    const lockstep::MarchPlan& plan() const { return plan_->march; }
+    const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // The pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
     // That pair with the faulty tooth of that size; null if it is 0.
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
-        return fault_->mesh(0, size);
+        return fault().mesh(0, size);
     }
     // Of the pitch errors of single teeth; null without them.
-    const lockstep::LoadShares* load_shares() const { return load_shares_.get(); }
+    const lockstep::LoadShares* load_shares() const { return plan_->load_shares.get(); }
 
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.
@@ -59,66 +57,47 @@ class Scene {
     // the sun or the ring need it.
     int signal_meshes() const { return signal_meshes_; }
     // Meshes that are recorded one by one where every mesh is marched: those of the signal, but for
-    // record_at_most().
+    // recording_at_most().
     int recorded_meshes() const { return std::min(signal_meshes_, most_recorded_); }
-    // Records no more than so many of them from now on; the signal repeats them. For measuring what
-    // a march costs.
-    void record_at_most(int meshes) { most_recorded_ = meshes; }
     // Meshes after which the path to the sensor repeats; 1 if none turns.
     int path_meshes() const { return span_.carrier_meshes; }
     // Samples of the sensor, and of the encoders, in one mesh period.
-    int samples_per_mesh() const { return plan_.grid.samples; }
-    int te_samples_per_mesh() const { return te_samples_; }
+    int samples_per_mesh() const { return plan().grid.samples; }
+    int te_samples_per_mesh() const { return plan_->te_samples; }
     double nominal_mesh_frequency_Hz() const { return nominal_mesh_frequency_Hz_; }
     // See Stepping.
-    int least_steps() const { return stepping_.least; }
-    double explicit_steps() const { return stepping_.explicit_steps; }
+    int least_steps() const { return plan_->stepping.least; }
+    double explicit_steps() const { return plan_->stepping.explicit_steps; }
     // How a pilot calibrated the steps, if one did.
-    const std::optional<Calibration>& calibration() const { return calibration_; }
-    double decay_meshes() const { return stepping_.decay_meshes; }
+    const std::optional<Calibration>& calibration() const { return plan_->calibration; }
+    double decay_meshes() const { return plan_->stepping.decay_meshes; }
     // Mesh periods in which a gearbox must settle.
     int max_meshes() const { return max_meshes_; }
-    // Marches the same gearboxes another way from now on. Throws SceneError.
-    void use(const Numerics& numerics);
-    // Phases in [0, 1) on which steps must end.
-    std::vector<double> transitions() const;
-    // All pairs at their stiffest: the bound for the integrator's step.
-    std::vector<double> stiffest_pairs() const;
-    // Every pair's mean over the mesh period, N/m.
-    const std::vector<double>& mean_pairs() const { return mean_pairs_; }
+    // See SceneStiffness.
+    std::vector<double> transitions() const { return stiffness_->transitions(); }
+    std::vector<double> stiffest_pairs() const { return stiffness_->stiffest_pairs(); }
+    const std::vector<double>& mean_pairs() const { return stiffness_->mean_pairs(); }
 
     dynamics::GearboxInputs inputs(const InstanceInputs& instance) const {
         return gearbox_inputs(study_, *drive_, instance);
     }
 
   private:
-    void build_stiffness();
-    void build_plan();
-    // The plan with its steps: stiffness and transmission errors at their nodes.
-    lockstep::MarchPlan plan_of(lockstep::PhaseGrid grid) const;
-    lockstep::Pilot pilot() const;
-    // Static transmission errors of the kinds of mesh.
-    lockstep::MeshError first_errors() const;
-    lockstep::MeshError second_errors() const;
-    void settle();
+    using SharedStiffness = std::shared_ptr<const SceneStiffness>;
+    using SharedPlan = std::shared_ptr<const ScenePlan>;
+    // Stiffness and plan are made where they are null.
+    Scene(Study study, std::shared_ptr<const Drive> drive, SharedStiffness stiffness,
+          SharedPlan plan, int most_recorded);
 
     Study study_;
-    std::unique_ptr<const NumericsChoice> choice_;
-    std::unique_ptr<const Drive> drive_;
+    std::shared_ptr<const Drive> drive_;
+    SharedStiffness stiffness_;
+    SharedPlan plan_;
     signals::SpanLayout span_;
-    std::vector<SceneMesh> meshes_;
-    std::vector<double> mean_pairs_;
-    lockstep::PairSet pairs_;
-    std::optional<const SceneFault> fault_;
-    lockstep::MarchPlan plan_;
-    std::unique_ptr<const lockstep::LoadShares> load_shares_;
-    Stepping stepping_;
-    std::optional<Calibration> calibration_;
-    int te_samples_ = 0;
-    int signal_meshes_ = 0;
-    int most_recorded_ = std::numeric_limits<int>::max();
-    int max_meshes_ = 1;
-    double nominal_mesh_frequency_Hz_ = 0.0;
+    double nominal_mesh_frequency_Hz_;
+    int signal_meshes_;
+    int most_recorded_;
+    int max_meshes_;
 };
 
 }  // namespace gearpod::mc

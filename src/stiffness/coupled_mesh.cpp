@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/teeth/stretch.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "stiffness/tooth_pair_curve.hpp"

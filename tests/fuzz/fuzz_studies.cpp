@@ -20,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "mc/numerics/choice.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -108,7 +109,7 @@ std::string reason_for_failure(const std::string& text, Shared& shared) {
     // What `describe` does.
     try {
         if (reading.study->gearbox.has_teeth() && reading.study->gearbox.module_m) {
-            const mc::Scene scene(*reading.study);
+            const mc::Scene scene(mc::resolve_numerics(*reading.study).study);
             ++shared.scenes;
         }
     } catch (const mc::SceneError&) {

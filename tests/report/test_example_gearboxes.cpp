@@ -26,9 +26,8 @@ struct Example {
         REQUIRE(run.code == 0);
         results = mc::read_results(file);
         json = mc::examples_json(results, mc::ColumnRows(results));
-        mc::Problems problems;
-        scene = mc::make_scene(name, mc::read_study_text(results.provenance_value("study"), name),
-                               problems);
+        scene = mc::make_scene(name, mc::read_study_text(results.provenance_value("study"), name))
+                    .scene;
         REQUIRE(scene);
     }
     const Json& gearbox(std::size_t i) const { return json["examples"]["gearboxes"].at(i); }
@@ -36,7 +35,7 @@ struct Example {
     test::Folder folder;
     mc::Results results;
     Json json;
-    std::unique_ptr<mc::Scene> scene;
+    std::unique_ptr<const mc::Scene> scene;
 };
 
 const std::vector<double>& column(const mc::Simulation& simulation, const std::string& name) {

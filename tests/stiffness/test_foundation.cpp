@@ -4,6 +4,7 @@
 
 #include "stiffness/foundation/annulus.hpp"
 #include "stiffness/foundation/elastic_ring.hpp"
+#include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/foundation/sainsot.hpp"
 #include "yang_gears.hpp"
 

@@ -1,8 +1,8 @@
+#include "signals/windowing/fold_plan.hpp"
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
-
-#include "signals/windowing/folded_signal.hpp"
 
 namespace gearpod::signals {
 namespace {

@@ -1,7 +1,9 @@
 // The kernels behind fold_squares, without and with tones; see folded_signal.hpp.
 #pragma once
 
-#include "signals/windowing/folded_signal.hpp"
+#include "signals/noise/tones.hpp"
+#include "signals/path/transmission_path.hpp"
+#include "signals/windowing/fold_plan.hpp"
 
 namespace gearpod::signals {
 

@@ -1,5 +1,5 @@
 // A tooth cracked straight through its whole width, of every depth, for a gear pair. Section law:
-// faults/crack.hpp. Sources: Tian (2004), section 3.3; Liang (2016), section 3.5.
+// teeth/crack.hpp. Sources: Tian (2004), section 3.3; Liang (2016), section 3.5.
 //
 // The cracked tooth's compliance is a polynomial in the cosine of the contact angle whose
 // coefficients are cumulative integrals from the root to the contact. They are summed panel by

@@ -83,11 +83,12 @@ TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") 
     const PilotRecord before = pilot.run(own);
     double cost = std::numeric_limits<double>::infinity();
     for (const double tolerance : {1e-4, 1e-3, 1e-2}) {
-        const Scene scene(tian({"numerics.tolerance=" + std::to_string(tolerance)}));
-        REQUIRE(scene.numerics_choice() != nullptr);
-        const PilotRecord found = pilot.run(scene);
+        const ResolvedStudy resolved =
+            resolve_numerics(tian({"numerics.tolerance=" + std::to_string(tolerance)}));
+        REQUIRE(resolved.choice.has_value());
+        const PilotRecord found = pilot.run(Scene(resolved.study));
         CHECK(pilot_error(found, reference.record).largest_feature() <= 1.1 * tolerance);
-        const NumericsChoice& choice = *scene.numerics_choice();
+        const NumericsChoice& choice = *resolved.choice;
         CHECK(choice.error <= tolerance);
         CHECK(choice.cost <= cost);  // a looser tolerance never costs more
         cost = choice.cost;
@@ -97,29 +98,30 @@ TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") 
 }
 
 TEST_CASE("a tolerance chooses the same on any lanes and instruction set", "[accuracy]") {
-    const NumericsChoice choice = *choose_numerics(tian({"numerics.tolerance=1e-3"}));
+    const NumericsChoice choice = *resolve_numerics(tian({"numerics.tolerance=1e-3"})).choice;
     for (const char* other : {"numerics.lanes=1", "numerics.instruction_set=baseline"}) {
-        const Study study = tian({"numerics.tolerance=1e-3", other});
-        const NumericsChoice again = *choose_numerics(study);
+        const NumericsChoice again =
+            *resolve_numerics(tian({"numerics.tolerance=1e-3", other})).choice;
         CHECK(again.rung.text() == choice.rung.text());
         CHECK(again.error == choice.error);
     }
 }
 
 TEST_CASE("a study with its choice spelled out reads back to the same choice", "[accuracy]") {
-    const Scene scene(tian({"numerics.tolerance=1e-3"}));
-    const StudyReading back = read_study_text(resolved_text(scene.study()), "resolved");
+    const Study study = resolve_numerics(tian({"numerics.tolerance=1e-3"})).study;
+    const StudyReading back = read_study_text(resolved_text(study), "resolved");
     INFO(format(back.problems));
     REQUIRE(back.study.has_value());
-    CHECK(*back.study == scene.study());
-    CHECK(Scene(*back.study).study() == scene.study());
+    CHECK(*back.study == study);
+    CHECK(resolve_numerics(*back.study).study == study);
 }
 
 TEST_CASE("a tolerance that the steps given cannot keep is refused", "[accuracy]") {
     const Study study = tian(
         {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
-    CHECK_THROWS_AS(Scene(study), SceneError);
-    CHECK_THROWS_WITH(Scene(study), Catch::Contains("no rung keeps the features within 0.001"));
+    CHECK_THROWS_AS(resolve_numerics(study), SceneError);
+    CHECK_THROWS_WITH(resolve_numerics(study),
+                      Catch::Contains("no rung keeps the features within 0.001"));
 }
 
 TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]") {

@@ -126,6 +126,41 @@ TEST_CASE("A pilot grades the steps of a study, the same at every start") {
     }
 }
 
+TEST_CASE("Scenes of other numerics share what these leave alike, and march as if made anew") {
+    const Scene scene(study_of(kFixedShaftStudy, {"numerics.grid=graded"}));
+    const auto with = [&](const std::vector<std::string>& overrides) {
+        return study_of(kFixedShaftStudy, overrides).numerics;
+    };
+    const Scene settled =
+        scene.with(with({"numerics.grid=graded", "numerics.settle_tolerance=1e-4"}));
+    CHECK(&settled.plan() == &scene.plan());
+    CHECK(settled.max_meshes() < scene.max_meshes());
+    const Scene uniform = scene.with(with({}));
+    CHECK(&uniform.meshes() == &scene.meshes());
+    CHECK(uniform.plan().grid.steps.size() > scene.plan().grid.steps.size());
+    const Scene thin = scene.with(with({"numerics.stiffness_tolerance=1e-3"}));
+    CHECK(&thin.meshes() != &scene.meshes());
+    CHECK(thin.mean_pairs() != scene.mean_pairs());
+    for (const Scene* other : {&settled, &uniform, &thin}) {
+        const auto here = run_one(*other).march, anew = run_one(Scene(other->study())).march;
+        REQUIRE(here.records.size() == anew.records.size());
+        for (std::size_t i = 0; i < here.records.size(); ++i) {
+            CHECK(here.records[i].acceleration == anew.records[i].acceleration);
+        }
+    }
+    CHECK_THROWS_AS(scene.with(with({"numerics.integrator=rk4"})), mc::SceneError);
+}
+
+TEST_CASE("A scene that records less is the same otherwise") {
+    const Scene scene(study_of(kFixedShaftStudy));
+    const Scene less = scene.recording_at_most(3);
+    CHECK(less.recorded_meshes() == 3);
+    CHECK(less.signal_meshes() == scene.signal_meshes());
+    CHECK(&less.plan() == &scene.plan());
+    CHECK(scene.recorded_meshes() == scene.signal_meshes());
+    CHECK(less.with(scene.study().numerics).recorded_meshes() == 3);
+}
+
 TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in series") {
     std::string text = kFixedShaftStudy;
     for (const char* key : {"sampling_Hz", "low_pass_Hz", "load_torque_N_m"}) {

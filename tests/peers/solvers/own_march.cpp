@@ -18,20 +18,21 @@ int kind(int i) {
 }  // namespace
 
 OwnMarch::OwnMarch(const Options& options)
-    : scene_(scene_of(options, {"numerics.integrator=rk4"})),
-      fine_(scene_of(
-          options, {"numerics.integrator=rk4", fmt::format("numerics.steps_per_mesh={}",
-                                                           2 * scene_->plan().grid.steps.size())})),
-      boxes_(boxes_of(*scene_)),
-      tables_(*scene_, scene_->plan(), boxes_),
-      fine_tables_(*fine_, fine_->plan(), boxes_),
-      task_{*scene_, boxes_, tables_, fine_tables_, {}, 0.0, {}} {
+    : scene_(study_of(options, {"numerics.integrator=rk4"}).study),
+      fine_(study_of(options,
+                     {"numerics.integrator=rk4", fmt::format("numerics.steps_per_mesh={}",
+                                                             2 * scene_.plan().grid.steps.size())})
+                .study),
+      boxes_(boxes_of(scene_)),
+      tables_(scene_, scene_.plan(), boxes_),
+      fine_tables_(fine_, fine_.plan(), boxes_),
+      task_{scene_, boxes_, tables_, fine_tables_, {}, 0.0, {}} {
     task_.mesh_period_s = dynamics::mesh_period_s(boxes_.inputs[0]);
     start();
 }
 
 double OwnMarch::tile_mesh_s() {
-    lockstep::MeshRecord record = lockstep::make_record(scene_->plan(), kGearboxes, false);
+    lockstep::MeshRecord record = lockstep::make_record(scene_.plan(), kGearboxes, false);
     const double began = mc::thread_processor_s();
     (*march_)({}, state_, record);
     const double seconds = mc::thread_processor_s() - began;
@@ -41,9 +42,9 @@ double OwnMarch::tile_mesh_s() {
 
 // From rest to the orbit; the states' sizes on the way.
 void OwnMarch::start() {
-    march_ = lockstep::make_mesh_march<kGearboxes>(scene_->plan(), boxes_.inputs);
-    rotation_ = std::make_unique<lockstep::RigidRotation>(scene_->plan().layout, boxes_.inputs);
-    state_ = lockstep::rest_state(scene_->plan(), boxes_.inputs);
+    march_ = lockstep::make_mesh_march<kGearboxes>(scene_.plan(), boxes_.inputs);
+    rotation_ = std::make_unique<lockstep::RigidRotation>(scene_.plan().layout, boxes_.inputs);
+    state_ = lockstep::rest_state(scene_.plan(), boxes_.inputs);
     for (int k = 0; k < 5; ++k) {
         tile_mesh_s();
     }

@@ -15,7 +15,7 @@ class OwnMarch {
     explicit OwnMarch(const Options& options);
 
     const Task& task() const { return task_; }
-    const mc::Scene& scene() const { return *scene_; }
+    const mc::Scene& scene() const { return scene_; }
 
     // Processor seconds that a mesh period of the tile takes, in doubles by the scene's rk4.
     double tile_mesh_s();
@@ -24,7 +24,7 @@ class OwnMarch {
     void start();
     double start_value(int i) const;
 
-    std::unique_ptr<mc::Scene> scene_, fine_;
+    const mc::Scene scene_, fine_;
     Boxes boxes_;
     StiffnessTables tables_, fine_tables_;
     Task task_;

@@ -17,13 +17,13 @@ constexpr const char* kFeatures =
 
 }  // namespace
 
-std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides) {
+mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides) {
     overrides.emplace_back(kFeatures);
     const mc::StudyReading reading = mc::read_study(options.study, overrides);
     if (!reading.study) {
         throw std::runtime_error(mc::format(reading.problems));
     }
-    return std::make_unique<mc::Scene>(*reading.study);
+    return mc::resolve_numerics(*reading.study);
 }
 
 std::string ratio_text(const Row& row, const Row& to, double scale) {

@@ -1,13 +1,12 @@
 // What the tables share: a way to march, its times by round, and their ratios.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mc/numerics/choice.hpp"
 #include "mc/numerics/pilot.hpp"
-#include "mc/scene/scene.hpp"
 #include "tests/bench/median.hpp"
 
 namespace gearpod::peers {
@@ -23,8 +22,9 @@ struct Options {
     bool steps_only = false;
 };
 
-// The study with the features that are compared. Throws std::runtime_error with its problems.
-std::unique_ptr<mc::Scene> scene_of(const Options& options, std::vector<std::string> overrides);
+// The study with the features that are compared, its numerics resolved. Throws std::runtime_error
+// with its problems.
+mc::ResolvedStudy study_of(const Options& options, std::vector<std::string> overrides);
 
 // A way to march. `times`: seconds a gearbox, over the span or a step, by round.
 struct Row {

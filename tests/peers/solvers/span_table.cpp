@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "comparison.hpp"
-#include "mc/numerics/choice.hpp"
 
 namespace gearpod::peers {
 namespace {
@@ -20,11 +19,15 @@ constexpr double kSlow_s = 1.0;
 
 SpanTable::SpanTable(const Options& options, OwnMarch& own, const mc::Pilot& pilot,
                      const mc::Reference& reference)
-    : options_(options), own_(own), pilot_(pilot), reference_(reference) {
-    chosen_ = scene_of(options, {fmt::format("numerics.tolerance={}", options.error)});
+    : options_(options),
+      own_(own),
+      pilot_(pilot),
+      reference_(reference),
+      resolved_(study_of(options, {fmt::format("numerics.tolerance={}", options.error)})),
+      chosen_(resolved_.study) {
     span_ = kRunIn + own.scene().span_meshes();
-    const mc::PilotRecord record = pilot.run(*chosen_);
-    rows_.push_back({"gearpod, " + chosen_->numerics_choice()->rung.text(),
+    const mc::PilotRecord record = pilot.run(chosen_);
+    rows_.push_back({"gearpod, " + resolved_.choice->rung.text(),
                      {},
                      record.meshes_per_tile(),
                      mc::pilot_error(record, reference.record),
@@ -100,7 +103,7 @@ void SpanTable::add_adaptive(const std::string& name, Way way) {
 }
 
 void SpanTable::round() {
-    rows_[0].times.push_back(pilot_.run(*chosen_).march_s);
+    rows_[0].times.push_back(pilot_.run(chosen_).march_s);
     rows_[1].times.push_back(own_.tile_mesh_s() / kGearboxes * span_);
     for (std::size_t i = 0; i < ways_.size(); ++i) {
         Row& row = rows_[i + 2];

@@ -32,8 +32,9 @@ class SpanTable {
     OwnMarch& own_;
     const mc::Pilot& pilot_;
     const mc::Reference& reference_;
-    std::unique_ptr<mc::Scene> chosen_;
-    double span_ = 0.0;  // mesh periods
+    const mc::ResolvedStudy resolved_;
+    const mc::Scene chosen_;  // for the error allowed
+    double span_ = 0.0;       // mesh periods
     std::vector<Row> rows_;
     std::vector<Way> ways_;  // of the rows but the first two
 };

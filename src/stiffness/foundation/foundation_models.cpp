@@ -1,4 +1,4 @@
-#include "stiffness/foundation/fillet_foundation.hpp"
+#include "stiffness/foundation/foundation_models.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,142 @@
+#include "mc/gearbox/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <span>
+#include <stdexcept>
+
+#include "lockstep/driven/excitation_rows.hpp"
+#include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+#include "mc/results/failure_text.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using Column = SignalColumn;
+
+// Values that repeat with the recorded mesh periods: value(record, sample) over `meshes` meshes.
+template <typename Value>
+std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
+    std::vector<double> all;
+    for (long k = 0; k < meshes; ++k) {
+        const auto& content = tile.march.content;
+        const int id = content[static_cast<std::size_t>(k) % content.size()];
+        for (int p = 0; p < samples; ++p) {
+            all.push_back(value(tile.march.records[static_cast<std::size_t>(id)],
+                                static_cast<std::size_t>(p)));
+        }
+    }
+    return all;
+}
+
+void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simulation& out) {
+    const auto names = dynamics::motion_names(scene.plan().layout);
+    const int samples = scene.samples_per_mesh();
+    out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [](const auto& r, auto p) {
+                               return r.te[p];
+                           })});
+    for (std::size_t d = 0; d < names.size(); ++d) {
+        out.columns.push_back(
+            {names[d], "m", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                 return r.motion[p * names.size() + d];
+             })});
+    }
+}
+
+void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::PathGrid& path,
+                const InstanceFeatures& features, const GearboxId& id, std::size_t rows,
+                Simulation& out) {
+    const InstanceInputs& inputs = tile.inputs[0];
+    const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
+    const auto noise = sample_noise(scene, clean, features.noise().sensor, id);
+    const auto first = [&](const std::vector<double>& all) {
+        return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+    };
+    out.columns.push_back({"sensor", "m/s^2", first(clean)});
+    for (std::size_t level = 0; level < out.noise_levels.size(); ++level) {
+        std::vector<double> noisy = clean;
+        add_noise(noise, out.noise_levels[level] * inputs.noise_m_s2, noisy);
+        out.columns.push_back(
+            {fmt::format("sensor_noise_{:g}", out.noise_levels[level]), "m/s^2", first(noisy)});
+    }
+}
+
+// Seconds of every sample, which a fluctuating speed spaces unevenly.
+std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
+                                 const InstanceInputs& instance, long meshes) {
+    const auto& grid = scene.plan().grid;
+    const std::vector<dynamics::GearboxInputs> inputs{scene.inputs(instance)};
+    std::vector<double> times;
+    if (!speed_fluctuates(scene.study())) {
+        const double period_s = dynamics::mesh_period_s(inputs[0]);
+        const int samples = scene.samples_per_mesh();
+        for (long i = 0; i < meshes * samples; ++i) {
+            times.push_back(static_cast<double>(i) / samples * period_s);
+        }
+        return times;
+    }
+    const auto excitation = draw_excitation(scene, std::span(&id, 1), std::span(&instance, 1));
+    lockstep::ExcitationRows rows(scene.plan(), *excitation, inputs, /*with_time=*/true);
+    for (long mesh = 0; mesh < meshes; ++mesh) {
+        rows.fill(static_cast<int>(mesh));
+        for (std::size_t step = 0; step < grid.steps.size(); ++step) {
+            if (grid.steps[step].sample >= 0) {
+                times.push_back(*rows.time(static_cast<int>(step)));
+            }
+        }
+    }
+    return times;
+}
+
+}  // namespace
+
+GearboxId id_of_row(const Study& study, long row) {
+    const long thresholds = study.ensemble.threshold_instances;
+    return row < thresholds
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
+               : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
+}
+
+Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
+    const signals::PathGrid path = path_grid(scene);
+    const Sampler sampler(scene.study());
+    const GearboxTile tile =
+        run_gearboxes(scene, sampler, path, std::span(&id, 1), 1, /*with_motion=*/true);
+    if (tile.status[0] != Status::ok) {
+        throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
+    }
+    const HealthyReference healthy = healthy_reference(scene, sampler, path);
+    InstanceFeatures features(scene, &healthy);
+    Simulation out;
+    out.noise_levels = scene.study().sensor.noise_levels;
+    out.feature_names = scene.study().features.use;
+    out.features =
+        features.compute(lane_signals(scene, path, tile, 0, features.meshes()), tile.inputs[0], id);
+
+    const int samples = scene.samples_per_mesh();
+    const auto inputs = scene.inputs(tile.inputs[0]);
+    const auto rows = static_cast<std::size_t>(meshes) * static_cast<std::size_t>(samples);
+    Column time{"time", "s", {}}, phase{"mesh_phase", "mesh periods", {}},
+        angle{"carrier_angle", "rad", {}};
+    const double period_s = dynamics::mesh_period_s(inputs);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double mesh = static_cast<double>(i) / samples;
+        phase.values.push_back(mesh);
+        angle.values.push_back(mesh * period_s * dynamics::frame_speed_rad_s(inputs));
+    }
+    time.values = sample_times(scene, id, tile.inputs[0], meshes);
+    out.columns = {time, phase};
+    if (scene.study().gearbox.kind == GearboxKind::planetary) {
+        out.columns.push_back(angle);
+    }
+    if (!scene.study().effects.quasi_static()) {
+        add_sensor(scene, tile, path, features, id, rows, out);
+    }
+    add_motion(scene, tile, meshes, out);
+    return out;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,25 @@
+// From a study as it was read to its scene.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mc/numerics/choice.hpp"
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+struct StudyScene {
+    std::unique_ptr<const Scene> scene;    // null: see `problems`
+    std::optional<NumericsChoice> choice;  // of its numerics; none without numerics.tolerance
+    Problems problems;
+
+    explicit operator bool() const { return scene != nullptr; }
+};
+
+// Sets the kernels' instruction set, chooses the numerics and makes the scene. Problems name the
+// study `name`.
+StudyScene make_scene(const std::string& name, StudyReading reading);
+
+}  // namespace gearpod::mc

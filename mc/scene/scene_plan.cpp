@@ -1,0 +1,132 @@
+#include "mc/scene/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lockstep/plan/transmission_error.hpp"
+#include "mc/scene/body.hpp"
+#include "mc/scene/driving.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using std::numbers::pi;
+
+class Planner {
+  public:
+    Planner(const Study& study, const Drive& drive, const SceneStiffness& stiffness)
+        : study_(study), drive_(drive), stiffness_(stiffness) {}
+
+    ScenePlan make() && {
+        const double mesh_frequency_rad_s =
+            drive_.mesh_frequency_rad_s(Sampler(study_).nominal().speed_rad_s);
+        const Sampling sampling = choose_sampling(study_, mesh_frequency_rad_s / (2.0 * pi));
+        plan_.te_samples = sampling.te_samples;
+        begin_march(sampling.samples);
+        SceneGrid chosen = choose_grid(study_, plan_.stepping, sampling.samples,
+                                       stiffness_.transitions(), [this] { return pilot(); });
+        plan_.calibration = chosen.calibration;
+        plan_.march = march_on(std::move(chosen.grid));
+        check_driving(study_, drive_, plan_.march);
+        if (has_pitch_errors(study_)) {
+            plan_.load_shares =
+                std::make_unique<const lockstep::LoadShares>(stiffness_.pairs(), plan_.march.grid);
+        }
+        return std::move(plan_);
+    }
+
+  private:
+    // All of the march but its grid.
+    void begin_march(int samples) {
+        lockstep::MarchPlan& march = plan_.march;
+        march.layout = gearbox_layout(study_);
+        // Without inertia the samples are all there is to compute.
+        plan_.stepping.steps = samples;
+        if (!study_.effects.quasi_static()) {
+            plan_.stepping =
+                choose_stepping(study_, drive_, march.layout, stiffness_.stiffest_pairs());
+            march.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
+        }
+        march.integrator = plan_.stepping.integrator;
+        march.precision = study_.numerics.precision == Precision::single_precision
+                              ? lockstep::Precision::single_precision
+                              : lockstep::Precision::double_precision;
+        march.te_weight = drive_.te_weight(march.layout);
+        if (study_.effects.separation != Separation::none) {
+            march.mesh_law = dynamics::MeshLaw::separating;
+        } else if (has_pitch_errors(study_) || !first_errors().amplitude_m.empty() ||
+                   !second_errors().amplitude_m.empty()) {
+            march.mesh_law = dynamics::MeshLaw::with_error;
+        }
+    }
+
+    // With its steps: stiffness and transmission errors at their nodes.
+    lockstep::MarchPlan march_on(lockstep::PhaseGrid grid) const {
+        const lockstep::PairSet& pairs = stiffness_.pairs();
+        lockstep::MarchPlan march = plan_.march;
+        march.grid = std::move(grid);
+        march.nodes = lockstep::tabulate(pairs, march.grid, study_.effects.mesh_damping);
+        if (march.mesh_law != dynamics::MeshLaw::linear) {
+            std::vector<lockstep::MeshError> errors(
+                static_cast<std::size_t>(drive_.pairs_per_mesh()), first_errors());
+            errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
+            lockstep::add_errors(pairs, march.grid, errors, march.nodes);
+        }
+        return march;
+    }
+
+    // Static transmission errors of one kind of mesh are alike for all planets, shifted with their
+    // mesh phases.
+    lockstep::MeshError first_errors() const {
+        const MeshErrors& e = study_.errors;
+        return study_.gearbox.kind == GearboxKind::fixed_shaft
+                   ? lockstep::MeshError{e.mesh_m, e.mesh_phase_rad}
+                   : lockstep::MeshError{e.sun_planet_m, e.sun_planet_phase_rad};
+    }
+    lockstep::MeshError second_errors() const {
+        return {study_.errors.ring_planet_m, study_.errors.ring_planet_phase_rad};
+    }
+
+    // The nominal gearbox and the first graded ones, all with the largest fault. The same for every
+    // run of the study.
+    lockstep::Pilot pilot() const {
+        const Sampler sampler(study_);
+        const SceneFault& fault = stiffness_.fault();
+        const std::vector<double> sizes = fault_sizes(study_);
+        lockstep::Pilot pilot;
+        pilot.faults = {&stiffness_.pairs(), fault.pattern(), {}};
+        pilot.faults.curve.resize(static_cast<std::size_t>(fault.curves()));
+        for (int lane = 0; lane < lockstep::kPilotLanes; ++lane) {
+            const InstanceInputs inputs =
+                lane == 0 ? sampler.nominal()
+                          : sampler.sample(Group::graded, static_cast<std::uint64_t>(lane - 1));
+            pilot.inputs.push_back(gearbox_inputs(study_, drive_, inputs));
+            for (int curve = 0; curve < fault.curves(); ++curve) {
+                pilot.faults.curve[static_cast<std::size_t>(curve)].push_back(
+                    fault.mesh(curve, sizes.empty() ? 0.0 : sizes.back()));
+            }
+        }
+        // The orbit to a thousandth; what is left of the approach is alike on all grids.
+        constexpr double kDecays = 7.0, kMostMeshes = 100.0;
+        const double decays = std::ceil(1.0 + kDecays * plan_.stepping.decay_meshes);
+        pilot.settle_meshes = static_cast<int>(std::min(kMostMeshes, decays));
+        pilot.plan = [this](lockstep::PhaseGrid grid) { return march_on(std::move(grid)); };
+        return pilot;
+    }
+
+    const Study& study_;
+    const Drive& drive_;
+    const SceneStiffness& stiffness_;
+    ScenePlan plan_;
+};
+
+}  // namespace
+
+ScenePlan make_plan(const Study& study, const Drive& drive, const SceneStiffness& stiffness) {
+    return Planner(study, drive, stiffness).make();
+}
+
+}  // namespace gearpod::mc

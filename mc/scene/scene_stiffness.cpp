@@ -1,0 +1,42 @@
+#include "mc/scene/scene_stiffness.hpp"
+
+#include <algorithm>
+
+namespace gearpod::mc {
+
+SceneStiffness::SceneStiffness(const Study& study, const Drive& drive)
+    : meshes_(make_meshes(study, drive.mesh_force_N(Sampler(study).nominal()))),
+      pairs_(make_pairs(meshes_, drive)),
+      fault_(study, meshes_, pairs_) {
+    for (const SceneMesh& mesh : meshes_) {
+        mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive.pairs_per_mesh()),
+                           mean_total(*mesh.stiffness));
+    }
+}
+
+std::vector<double> SceneStiffness::stiffest_pairs() const {
+    constexpr int kPhases = 200;
+    std::vector<double> k;
+    for (int i = 0; i < pairs_.pairs(); ++i) {
+        double stiffest = 0.0;
+        for (int p = 0; p < kPhases; ++p) {
+            stiffest = std::max(stiffest, pairs_.total(i, static_cast<double>(p) / kPhases));
+        }
+        k.push_back(stiffest);
+    }
+    return k;
+}
+
+// Steps end on the jumps of the fault's own law, too.
+std::vector<double> SceneStiffness::transitions() const {
+    std::vector<double> all = lockstep::contact_transitions(pairs_);
+    const std::vector<double> jumps = fault_.jumps(pairs_);
+    if (!jumps.empty()) {
+        all.insert(all.end(), jumps.begin(), jumps.end());
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc

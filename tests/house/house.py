@@ -1,0 +1,216 @@
+"""The house's order, read from its includes: python3 house.py TREE [FLOORS]
+
+Says what is wrong with the sources below TREE, a line each, and ends with 1 if anything is: an
+include that points up the floors (floors.txt) or round in a circle, a header that does not exist,
+files and folders that have grown too long, names in comments that no file has.
+"""
+
+import collections
+import fnmatch
+import pathlib
+import posixpath
+import re
+import sys
+
+PARTS = ("src", "analysis", "mc")  # the library's own, the lowest first
+MOST_LINES, MOST_FILES = 400, 40
+CODE = (".cpp", ".hpp")
+SCRIPTS = (".py", ".sh", ".cmake", ".txt")
+INCLUDE = re.compile(r'\s*#\s*include\s*["<]([^">]+)[">]')
+QUOTED = re.compile(r'\s*#\s*include\s*"')
+# What nothing in src may know of: files and messages.
+OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|mc/|analysis/)")
+NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
+STRING = re.compile(r'"(\\.|[^"\\])*"')
+
+Arrow = collections.namedtuple("Arrow", "file line header target")
+
+
+def text_of(arrow):
+    return f"{arrow.file}:{arrow.line} includes {arrow.header}"
+
+
+class Tree:
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        self.files = [path.relative_to(self.root).as_posix() for path in self.found()]
+        self.known = set(self.files)
+        self.arrows = [arrow for file in self.files if file.endswith(CODE)
+                       for arrow in self.includes(file)]
+        self.own = [arrow for arrow in self.arrows
+                    if arrow.target and arrow.file.startswith(tuple(f"{p}/" for p in PARTS))]
+
+    def found(self):
+        """All files but build folders and hidden ones."""
+        tops = [self.root / name for name in PARTS + ("tests",)]
+        yield from sorted(path for path in self.root.glob("*") if path.is_file()
+                          and not path.name.startswith("."))
+        for top in tops:
+            yield from sorted(path for path in top.rglob("*") if path.is_file()
+                              and "__pycache__" not in path.parts)
+
+    def lines(self, file):
+        return (self.root / file).read_text(encoding="utf-8").splitlines()
+
+    def includes(self, file):
+        for number, line in enumerate(self.lines(file), 1):
+            if match := INCLUDE.match(line):
+                header = match.group(1)
+                yield Arrow(file, number, header,
+                            self.resolved(file, header) if QUOTED.match(line) else None)
+
+    def resolved(self, file, header):
+        """The included file: beside the one that includes it, below src, or from the top."""
+        beside = posixpath.normpath(f"{folder(file)}/{header}")
+        places = (beside, f"src/{header}", header)
+        return next((place for place in places if place in self.known), None)
+
+
+def folder(file):
+    return file.rpartition("/")[0]
+
+
+def module(file):
+    """A header and its source are one."""
+    return file.rpartition(".")[0]
+
+
+class Floors:
+    def __init__(self, text):
+        self.on = {}        # folder: what its line says it stands on
+        self.below = {}     # folder: all that it may include, itself too
+        self.problems = []
+        for line in text.splitlines():
+            line = line.partition("#")[0].strip()
+            if line:
+                room, _, on = line.partition(" on ")
+                self.add(room.strip(), on.split())
+
+    def add(self, room, on):
+        for other in on:
+            if other not in self.below:
+                self.problems.append(f"floors: {room} stands on {other}, which has no line above")
+        self.on[room] = [other for other in on if other in self.below]
+        self.below[room] = {room}.union(*(self.below[other] for other in self.on[room]))
+
+
+def upward(tree, floors):
+    """Arrows that point up, rooms without a floor, and floors that nothing needs."""
+    yield from floors.problems
+    rooms = {folder(file) for file in tree.files
+             if file.endswith(CODE) and file.startswith(tuple(f"{p}/" for p in PARTS))}
+    for room in sorted(rooms - set(floors.on)):
+        yield f"floors: {room} has no line"
+    for room in sorted(set(floors.on) - rooms):
+        yield f"floors: {room} holds no sources"
+    used = collections.defaultdict(set)
+    for arrow in tree.own:
+        room, other = folder(arrow.file), folder(arrow.target)
+        used[room].add(other)
+        if room in floors.below and other in floors.on and other not in floors.below[room]:
+            points = "up" if room in floors.below[other] else "across"
+            yield f"{text_of(arrow)}: points {points}, {room} does not stand on {other}"
+    for room in sorted(rooms & set(floors.on)):
+        for other in floors.on[room]:
+            if other not in used[room]:
+                yield f"floors: {room} includes nothing of {other}, on which it is said to stand"
+
+
+def unresolved(tree):
+    """Headers that do not exist, unless a build makes them; what src must not know."""
+    recipes = "\n".join("\n".join(tree.lines(file)) for file in tree.files
+                        if file.endswith(("CMakeLists.txt", ".cmake")))
+    for arrow in tree.arrows:
+        quoted = QUOTED.match(tree.lines(arrow.file)[arrow.line - 1])
+        if quoted and not arrow.target and arrow.header.rpartition("/")[2] not in recipes:
+            yield f"{text_of(arrow)}, which does not exist"
+        if arrow.file.startswith("src/") and OUTSIDE.match(arrow.header):
+            yield f"{text_of(arrow)}: src knows neither files nor messages, nor who uses it"
+
+
+def shortest_circle(start, arrows):
+    """The arrows of the shortest way from a node back to itself, or none."""
+    came, queue = {}, collections.deque([start])
+    while queue:
+        here = queue.popleft()
+        for there, arrow in arrows[here].items():
+            if there == start:
+                way = [arrow]
+                while here != start:
+                    here, arrow = came[here]
+                    way.append(arrow)
+                return way[::-1]
+            if there not in came:
+                came[there] = (here, arrow)
+                queue.append(there)
+    return []
+
+
+def circles(tree, node_of, what):
+    """One circle through every node that is in any; nodes of one that is shown are done."""
+    arrows = collections.defaultdict(dict)
+    for arrow in tree.own:
+        here, there = node_of(arrow.file), node_of(arrow.target)
+        if here != there:
+            arrows[here].setdefault(there, arrow)
+    done = set()
+    for start in sorted(arrows):
+        if start in done:
+            continue
+        if way := shortest_circle(start, arrows):
+            nodes = [node_of(arrow.file) for arrow in way]
+            done.update(nodes)
+            yield "\n    ".join([f"circle of {what}: {' -> '.join(nodes + nodes[:1])}"]
+                                + [text_of(arrow) for arrow in way])
+
+
+def too_long(tree):
+    for file in tree.files:
+        if file.endswith(CODE + SCRIPTS) and len(tree.lines(file)) > MOST_LINES:
+            yield f"{file}: {len(tree.lines(file))} lines, at most {MOST_LINES}"
+    in_folder = collections.Counter(folder(file) for file in tree.files
+                                    if file.endswith(CODE + SCRIPTS))
+    for room, count in sorted(in_folder.items()):
+        if count > MOST_FILES:
+            yield f"{room}: {count} files, at most {MOST_FILES}"
+
+
+def comment_of(file, line):
+    if file.endswith(".md"):
+        return line
+    mark = "//" if file.endswith(CODE) else "#"
+    return STRING.sub('""', line).partition(mark)[2]
+
+
+def missing_names(tree):
+    """Names of sources in comments and READMEs: a path's end is enough, * stands for anything."""
+    for file in tree.files:
+        if not file.endswith(CODE + SCRIPTS + (".md",)):
+            continue
+        for number, line in enumerate(tree.lines(file), 1):
+            for name in NAME.findall(comment_of(file, line)):
+                name = name.lstrip("./")
+                if not any(fnmatch.fnmatchcase(f"/{known}", f"*/{name}") for known in tree.files):
+                    yield f"{file}:{number} names {name}, which does not exist"
+
+
+def complaints(root, floors):
+    tree = Tree(root)
+    yield from upward(tree, floors)
+    yield from unresolved(tree)
+    yield from circles(tree, module, "modules")
+    yield from circles(tree, folder, "folders")
+    yield from too_long(tree)
+    yield from missing_names(tree)
+
+
+def main(arguments):
+    floors = arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).with_name("floors.txt")
+    found = list(complaints(arguments[0],
+                            Floors(pathlib.Path(floors).read_text(encoding="utf-8"))))
+    print("\n".join(found) or "the house is in order")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
