@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "mc/ensemble/batch_crew.hpp"
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/pd_watch.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
-#include "mc/ensemble/tile_crew.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
 
-// Where an ensemble's tiles come from and go to, and who may end it early.
+// Where an ensemble's batches come from and go to, and who may end it early.
 struct EnsembleRun {
     const Ranks& ranks;
-    RowStore& store;  // of rank 0: finished tiles are not computed again
+    RowStore& store;  // of rank 0: finished batches are not computed again
     Progress& progress;
     const Interruption* interruption = nullptr;
     PdWatch* watch = nullptr;    // ends the run once it knows enough; shown as it goes
@@ -28,18 +28,18 @@ struct EnsembleRun {
 };
 
 struct EnsembleOutcome {
-    std::size_t tiles = 0;         // the results are the first so many
+    std::size_t batches = 0;       // the results are the first so many
     std::string interruption;      // "", or what ended the run before its time
     std::string failure;           // "", or what went wrong
     std::vector<CrewTimes> crews;  // by rank
     double wall_s = 0.0;
-    double output_s = 0.0;  // rank 0's writing of tiles
+    double output_s = 0.0;  // rank 0's writing of batches
 };
 
-// Computes all tiles that the store has not, on the threads of all ranks; every rank calls it. Rank
-// 0 deals tiles out in order as they are asked for and stores them. The outcome is rank 0's, in the
-// others empty.
-EnsembleOutcome run_tiles(const Scene& scene, const TilePlan& plan, const EnsembleRun& run);
+// Computes all batches that the store has not, on the threads of all ranks; every rank calls it.
+// Rank 0 deals batches out in order as they are asked for and stores them. The outcome is rank 0's,
+// in the others empty.
+EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run);
 
 // The same in memory and in this process, with all columns filled in. Detection and provenance are
 // left to the caller.
