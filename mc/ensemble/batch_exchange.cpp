@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <thread>
+#include <utility>
 
 #include "machine/wall_clock.hpp"
 #include "mc/ensemble/batch_messages.hpp"
@@ -135,8 +137,10 @@ class Leader {
                     outcome_.crews[rank] = times_of(message->bytes);
                     ++closed_;
                     break;
-                default:
-                    break;
+                case Say::compute:
+                case Say::drop:
+                case Say::close:
+                    break;  // rank 0's own words
             }
         }
     }
@@ -319,8 +323,11 @@ class Follower {
                 case Say::close:
                     closed_ = true;
                     break;
-                default:
-                    break;
+                case Say::finished:
+                case Say::dropped:
+                case Say::stop:
+                case Say::times:
+                    break;  // said to rank 0 only
             }
         }
     }

@@ -3,7 +3,7 @@
 // Only the main thread of a rank talks; it sleeps between looks and takes no time from the others.
 #pragma once
 
-#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/ensemble_run.hpp"
 
 namespace gearpod::mc {
 

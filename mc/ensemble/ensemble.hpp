@@ -2,39 +2,13 @@
 // them.
 #pragma once
 
-#include <functional>
-#include <string>
 #include <vector>
 
-#include "mc/ensemble/batch_crew.hpp"
-#include "mc/ensemble/interruption.hpp"
-#include "mc/ensemble/pd_watch.hpp"
-#include "mc/ensemble/progress.hpp"
-#include "mc/ensemble/ranks.hpp"
+#include "mc/ensemble/ensemble_run.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
-
-// Where an ensemble's batches come from and go to, and who may end it early.
-struct EnsembleRun {
-    const Ranks& ranks;
-    RowStore& store;  // of rank 0: finished batches are not computed again
-    Progress& progress;
-    const Interruption* interruption = nullptr;
-    PdWatch* watch = nullptr;    // ends the run once it knows enough; shown as it goes
-    double checkpoint_s = 30.0;  // how often the store is synced
-    std::function<void()> checkpointed = [] {};  // called after each sync
-};
-
-struct EnsembleOutcome {
-    std::size_t batches = 0;       // the results are the first so many
-    std::string interruption;      // "", or what ended the run before its time
-    std::string failure;           // "", or what went wrong
-    std::vector<CrewTimes> crews;  // by rank
-    double wall_s = 0.0;
-    double output_s = 0.0;  // rank 0's writing of batches
-};
 
 // Computes all batches that the store has not, on the threads of all ranks; every rank calls it.
 // Rank 0 deals batches out in order as they are asked for and stores them. The outcome is rank 0's,
