@@ -6,11 +6,13 @@
 #include <filesystem>
 
 #include "analysis/report/detection_text.hpp"
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/run_agreement.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/choice.hpp"
 #include "mc/numerics/numerical_error.hpp"
@@ -199,7 +201,7 @@ class Run {
     // Of all ranks on this machine, which have nothing more to compute.
     int idle_threads() const {
         const int ranks = ranks_.on_this_machine();
-        return std::min(processors(), ranks * thread_count(study_, ranks));
+        return std::min(machine::processors(), ranks * thread_count(study_, ranks));
     }
 
     std::string state_of(const EnsembleOutcome& outcome) const {

@@ -3,13 +3,20 @@
 #include <algorithm>
 #include <exception>
 
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 
 namespace gearpod::mc {
-BatchCrew::BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads) {
-    for (int i = 0; i < threads; ++i) {
-        threads_.emplace_back([this, &task, plan] { work(task, plan); });
-    }
+
+BatchCrew::BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads)
+    : first_([this, &task, &plan, threads] {
+          machine::run_team(threads, [&](int granted) {
+              note_size(granted);
+              work(task, plan);
+          });
+      }) {
+    std::unique_lock lock(mutex_);
+    begun_news_.wait(lock, [&] { return times_.threads > 0; });
 }
 
 BatchCrew::~BatchCrew() {
@@ -53,13 +60,18 @@ CrewTimes BatchCrew::close() {
         closed_ = true;
     }
     given_news_.notify_all();
-    times_.threads = threads();
-    for (std::thread& thread : threads_) {
-        if (thread.joinable()) {
-            thread.join();
-        }
+    if (first_.joinable()) {
+        first_.join();
     }
     return times_;
+}
+
+void BatchCrew::note_size(int threads) {
+    {
+        const std::lock_guard lock(mutex_);
+        times_.threads = threads;
+    }
+    begun_news_.notify_one();
 }
 
 std::optional<std::size_t> BatchCrew::next_batch() {
@@ -81,8 +93,8 @@ void BatchCrew::hand_in(FinishedBatch finished) {
     finished_news_.notify_one();
 }
 
-// A thread's life. Nothing may leave it by an exception.
-void BatchCrew::work(const BatchTask& task, const BatchPlan& plan) {
+// A thread's life. An exception would end it, and its batch would never come back.
+void BatchCrew::work(const BatchTask& task, const BatchPlan& plan) noexcept {
     const auto birth = WallClock::now();
     std::optional<BatchWorker> worker;
     Seconds seconds;

@@ -1,4 +1,4 @@
-// The threads of one process: batches go in, their rows come out in whatever order they finish.
+// The OpenMP team of one process: batches go in, their rows come out in whatever order they finish.
 #pragma once
 
 #include <chrono>
@@ -29,35 +29,39 @@ struct CrewTimes {
     int threads = 0;
 };
 
+// The thread that makes the crew is none of the team: it is free for messages and files, and the
+// team has the places of OMP_PLACES for itself. Waiting costs no processor time.
 class BatchCrew {
   public:
+    // A team of so many threads, or as many of them as OpenMP grants.
     BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads);
     BatchCrew(const BatchCrew&) = delete;
     BatchCrew& operator=(const BatchCrew&) = delete;
     ~BatchCrew();
 
-    int threads() const { return static_cast<int>(threads_.size()); }
+    int threads() const { return times_.threads; }
     void give(std::size_t batch);
     // Takes back what was given and not yet begun; their number.
     std::size_t drop();
     std::optional<FinishedBatch> take();
     // Until a batch is finished, at most this long.
     void wait(std::chrono::milliseconds most);
-    // Ends the threads once their batches are finished.
+    // Ends the team once its batches are finished.
     CrewTimes close();
 
   private:
-    void work(const BatchTask& task, const BatchPlan& plan);
+    void note_size(int threads);
+    void work(const BatchTask& task, const BatchPlan& plan) noexcept;
     std::optional<std::size_t> next_batch();
     void hand_in(FinishedBatch finished);
 
     std::mutex mutex_;
-    std::condition_variable given_news_, finished_news_;
+    std::condition_variable begun_news_, given_news_, finished_news_;
     std::deque<std::size_t> given_;
     std::deque<FinishedBatch> finished_;
     bool closed_ = false;
     CrewTimes times_;
-    std::vector<std::thread> threads_;
+    std::thread first_;  // of the team, which it opens
 };
 
 }  // namespace gearpod::mc

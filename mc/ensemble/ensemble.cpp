@@ -5,6 +5,7 @@
 
 #include "analysis/detection/feature_alarm.hpp"
 #include "mc/ensemble/batch_exchange.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -51,15 +52,6 @@ Results run_ensemble(const Scene& scene, Progress& progress) {
     fill_columns(results, StoredRows(store, plan, outcome.batches));
     results.timing = timing_of(outcome);
     return results;
-}
-
-int thread_count(const Study& study, int ranks_on_this_machine) {
-    if (study.numerics.threads > 0) {
-        return study.numerics.threads;
-    }
-    // Ranks that are bound to processors of their own see only those.
-    const int own = processors();
-    return own < all_processors() ? own : std::max(1, own / ranks_on_this_machine);
 }
 
 std::vector<analysis::FeatureDetection> detect_all(const Results& results) {

@@ -22,10 +22,6 @@ Results run_ensemble(const Scene& scene, Progress& progress);
 // What the results say besides their rows: names, units, noise levels, sizes. Columns are empty.
 Results results_frame(const Study& study);
 
-// Threads that the study asks for; for 0 the processors of this process, shared with the ranks
-// beside it.
-int thread_count(const Study& study, int ranks_on_this_machine = 1);
-
 // The times of all threads together, for the results file.
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome);
 

@@ -1,12 +1,11 @@
 #include "mc/forecast/calibration.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "features/feature.hpp"
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/forecast/peak_memory.hpp"
 #include "mc/gearbox/march_cache.hpp"
@@ -59,25 +58,19 @@ struct MeasuredTile {
     bool again = false;   // the same gearboxes once more
 };
 
-// The threads of a calibration.
-class Threads {
+// What the threads of a calibration share.
+class Measurement {
   public:
-    Threads(const BatchTask& task, std::vector<Batch> tiles, bool reusable, double budget_s)
+    Measurement(const BatchTask& task, std::vector<Batch> tiles, bool reusable, double budget_s)
         : task_(task), tiles_(std::move(tiles)), reusable_(reusable), budget_s_(budget_s) {}
 
     std::vector<MeasuredTile> run(int threads) {
         start_ = WallClock::now();
-        {
-            std::vector<std::jthread> all;
-            for (int i = 0; i < threads; ++i) {
-                all.emplace_back([this] { work(); });
-            }
-        }
-        if (failure_) {
-            std::rethrow_exception(failure_);
-        }
+        machine::run_team(threads, [&](int granted) { work(granted); });
         return std::move(measured_);
     }
+
+    int threads() const { return threads_; }
 
   private:
     const Batch* next(int had) {
@@ -87,22 +80,19 @@ class Threads {
         return more && next_ < tiles_.size() ? &tiles_[next_++] : nullptr;
     }
 
-    void work() {
-        try {
-            auto start = WallClock::now();
-            BatchWorker worker(task_);
-            for (int had = 0; const Batch* tile = next(had); ++had) {
-                const bool first = had == 0;
-                compute(worker, {.tile = *tile, .first = first}, start);
-                if (reusable_) {
-                    compute(worker, {.tile = *tile, .again = true}, WallClock::now());
-                }
-                start = WallClock::now();
+    void work(int threads) {
+        auto start = WallClock::now();
+        BatchWorker worker(task_);
+        for (int had = 0; const Batch* tile = next(had); ++had) {
+            const bool first = had == 0;
+            compute(worker, {.tile = *tile, .first = first}, start);
+            if (reusable_) {
+                compute(worker, {.tile = *tile, .again = true}, WallClock::now());
             }
-        } catch (...) {
-            const std::scoped_lock lock(mutex_);
-            failure_ = std::current_exception();
+            start = WallClock::now();
         }
+        const std::scoped_lock lock(mutex_);
+        threads_ = threads;
     }
 
     void compute(BatchWorker& worker, MeasuredTile measured, WallClock::time_point start) {
@@ -119,9 +109,9 @@ class Threads {
     const double budget_s_;
     WallClock::time_point start_;
     std::mutex mutex_;
+    int threads_ = 0;
     std::size_t next_ = 0;
     std::vector<MeasuredTile> measured_;
-    std::exception_ptr failure_;
 };
 
 // Means over tiles of one kind.
@@ -210,10 +200,11 @@ void measure(Scene& scene, const BatchPlan& plan, double budget_s, RunCalibratio
     result.task_s = seconds_since(start);
     const bool reusable = distinct_marches(scene).has_value();
     start = WallClock::now();
-    Threads threads(task,
-                    spread_tiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)),
-                    reusable, budget_s);
-    const std::vector<MeasuredTile> all = threads.run(result.threads);
+    Measurement measurement(
+        task, spread_tiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
+        budget_s);
+    const std::vector<MeasuredTile> all = measurement.run(result.threads);
+    result.threads = measurement.threads();
     result.wall_s = seconds_since(start);
     result.memory.peak = peak_memory_bytes();
     const double bytes_each = motion_bytes(scene);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "machine/dispatch.hpp"
-#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/forecast.hpp"
 
