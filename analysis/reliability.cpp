@@ -1,17 +1,13 @@
 #include "analysis/reliability.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <functional>
-#include <mutex>
 #include <stdexcept>
-#include <thread>
 
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/pod/outcomes.hpp"
+#include "machine/team.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -113,35 +109,6 @@ LevelSensitivity sensitivity_at(const ReliabilityData& data,
                              detection, request.confidence);
 }
 
-// Calls work(0) .. work(count - 1); rethrows what one of them threw.
-void for_each_index(std::size_t count, int threads_wanted,
-                    const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto take = [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
-                work(i);
-            } catch (...) {
-                const std::scoped_lock lock(mutex);
-                failure = std::current_exception();
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> threads;
-        const auto most = static_cast<std::size_t>(std::max(1, threads_wanted));
-        for (std::size_t t = 1; t < std::min(most, count); ++t) {
-            threads.emplace_back(take);
-        }
-        take();
-    }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
-}
-
 }  // namespace
 
 std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level) {
@@ -206,7 +173,7 @@ Reliability assess_reliability(const ReliabilityData& data,
         }
     }
     // Each entry on its own: the same numbers whatever the threads.
-    for_each_index(values.size(), threads, [&](std::size_t i) {
+    machine::for_each_index(values.size(), threads, [&](std::size_t i) {
         const std::size_t f = i / levels, n = i % levels;
         result.features[f].levels[n] = assess_level(data, data.features[f], values[i],
                                                     detections[f].levels[n], request.confidence);
@@ -222,7 +189,7 @@ Reliability assess_reliability(const ReliabilityData& data,
     }
     result.combined.resize(levels);
     result.sensitivities.resize(levels);
-    for_each_index(levels, threads, [&](std::size_t n) {
+    machine::for_each_index(levels, threads, [&](std::size_t n) {
         result.combined[n] = combined_at(data, n, request);
         result.sensitivities[n] = sensitivity_at(data, detections, result.rankings[n], n, request);
     });

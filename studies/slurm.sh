@@ -12,7 +12,7 @@
 #SBATCH --requeue
 set -u
 
-# Two minutes before its end the queue sends SIGUSR1 to all ranks: they finish their tiles, save and
+# Two minutes before its end the queue sends SIGUSR1 to all ranks: they finish their batches, save and
 # exit with 4. The next job goes on where this one ended, on as many nodes as it gets.
 srun --mpi=pmix --cpu-bind=cores "${GEARPOD:-build/gearpod}" run "$@" --resume
 code=$?

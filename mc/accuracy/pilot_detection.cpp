@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/row_source.hpp"
 

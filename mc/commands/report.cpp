@@ -6,7 +6,7 @@
 #include <span>
 
 #include "mc/commands/support.hpp"
-#include "mc/ensemble/ranks.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
@@ -42,7 +42,7 @@ int report_command(const ReportOptions& options) {
         Results results = read_frame(options.results);
         const FileRows rows(options.results, results);
         results.detection = detect_all(results, rows);
-        const auto reliability = reliability_of(results, rows, options.condition, processors());
+        const auto reliability = reliability_of(results, rows, options.condition, thread_count());
         if (!options.json.empty() || !options.html.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;

@@ -6,11 +6,13 @@
 #include <filesystem>
 
 #include "analysis/report/detection_text.hpp"
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/run_agreement.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/run_report.hpp"
@@ -74,7 +76,7 @@ std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& s
     return all;
 }
 
-// Rank 0's run: everything that is not computing tiles.
+// Rank 0's run: everything that is not computing batches.
 class Run {
   public:
     Run(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
@@ -98,14 +100,14 @@ class Run {
             }
         }
         Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
-        const EnsembleOutcome outcome = run_tiles(scene_, plan_,
-                                                  {.ranks = ranks_,
-                                                   .store = *checkpoint_,
-                                                   .progress = progress,
-                                                   .interruption = &interruption,
-                                                   .watch = &watch_,
-                                                   .checkpoint_s = study_.ensemble.checkpoint_s,
-                                                   .checkpointed = [&] { snapshot(); }});
+        const EnsembleOutcome outcome = run_batches(scene_, plan_,
+                                                    {.ranks = ranks_,
+                                                     .store = *checkpoint_,
+                                                     .progress = progress,
+                                                     .interruption = &interruption,
+                                                     .watch = &watch_,
+                                                     .checkpoint_s = study_.ensemble.checkpoint_s,
+                                                     .checkpointed = [&] { snapshot(); }});
         progress.finish();
         return conclude(outcome);
     }
@@ -113,8 +115,8 @@ class Run {
   private:
     long rows_done() const {
         long rows = 0;
-        for (std::size_t tile = 0; tile < plan_.tiles(); ++tile) {
-            rows += checkpoint_->has(tile) ? static_cast<long>(plan_.tile(tile).count) : 0;
+        for (std::size_t batch = 0; batch < plan_.batches(); ++batch) {
+            rows += checkpoint_->has(batch) ? static_cast<long>(plan_.batch(batch).count) : 0;
         }
         return rows;
     }
@@ -140,7 +142,7 @@ class Run {
             return;
         }
         const auto start = WallClock::now();
-        while (complete_ < plan_.tiles() && checkpoint_->has(complete_)) {
+        while (complete_ < plan_.batches() && checkpoint_->has(complete_)) {
             ++complete_;
         }
         const StoredRows rows(*checkpoint_, plan_, complete_);
@@ -157,7 +159,7 @@ class Run {
         }
         const std::string path = results_path(options_);
         std::string trouble = outcome.failure, text;
-        const StoredRows rows(*checkpoint_, plan_, outcome.tiles);
+        const StoredRows rows(*checkpoint_, plan_, outcome.batches);
         Results all;
         if (trouble.empty()) {
             try {
@@ -199,7 +201,7 @@ class Run {
     // Of all ranks on this machine, which have nothing more to compute.
     int idle_threads() const {
         const int ranks = ranks_.on_this_machine();
-        return std::min(processors(), ranks * thread_count(study_, ranks));
+        return std::min(machine::processors(), ranks * thread_count(study_, ranks));
     }
 
     std::string state_of(const EnsembleOutcome& outcome) const {
@@ -211,7 +213,7 @@ class Run {
     void print_end(const EnsembleOutcome& outcome, const std::string& path) const {
         if (watch_.enough()) {
             fmt::print("ensemble.until is reached with {} of {} gearboxes: {}\n",
-                       plan_.rows_before(outcome.tiles), plan_.rows(), watch_.text());
+                       plan_.rows_before(outcome.batches), plan_.rows(), watch_.text());
         } else if (study_.ensemble.until.half_width) {
             fmt::print("ensemble.until is not reached: {}, about {} more gearboxes needed\n",
                        watch_.text(), watch_.rows_left().value_or(0));
@@ -238,7 +240,7 @@ class Run {
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
     const Study& study_;
-    const TilePlan plan_;
+    const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
     PdWatch watch_;
     const double setup_s_;
@@ -248,13 +250,13 @@ class Run {
     WallClock::time_point last_snapshot_ = WallClock::now();
 };
 
-// The other ranks' run: computing tiles.
+// The other ranks' run: computing batches.
 void help(const Scene& scene, const Ranks& ranks, const Interruption& interruption) {
     const Ensemble& ensemble = scene.study().ensemble;
-    const TilePlan plan(ensemble.threshold_instances, ensemble.instances);
+    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances);
     MemoryRows nothing(0);
     Progress silent(1, true);
-    run_tiles(
+    run_batches(
         scene, plan,
         {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
 }
@@ -277,7 +279,7 @@ int run_command(const RunOptions& options) {
             const Ensemble& ensemble = scene->study().ensemble;
             try {
                 checkpoint = open_checkpoint(
-                    *scene, TilePlan(ensemble.threshold_instances, ensemble.instances),
+                    *scene, BatchPlan(ensemble.threshold_instances, ensemble.instances),
                     results_path(options), options.resume, options.quiet);
             } catch (const std::exception& error) {
                 fmt::print(stderr, "{}\n", error.what());

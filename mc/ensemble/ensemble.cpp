@@ -4,7 +4,8 @@
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
-#include "mc/ensemble/tile_exchange.hpp"
+#include "mc/ensemble/batch_exchange.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -27,39 +28,30 @@ Results results_frame(const Study& study) {
     return results;
 }
 
-EnsembleOutcome run_tiles(const Scene& scene, const TilePlan& plan, const EnsembleRun& run) {
-    const TileTask task(scene);
+EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
+    const BatchTask task(scene);
     const int threads = std::max(
         1, static_cast<int>(std::min<std::size_t>(
                static_cast<std::size_t>(thread_count(scene.study(), run.ranks.on_this_machine())),
-               plan.tiles())));
-    TileCrew crew(task, plan, threads);
+               plan.batches())));
+    BatchCrew crew(task, plan, threads);
     return run.ranks.leads() ? lead(crew, plan, run) : follow(crew, run);
 }
 
 Results run_ensemble(const Scene& scene, Progress& progress) {
     const Study& study = scene.study();
-    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
-    MemoryRows store(plan.tiles());
+    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    MemoryRows store(plan.batches());
     const Ranks alone;
     const EnsembleOutcome outcome =
-        run_tiles(scene, plan, {.ranks = alone, .store = store, .progress = progress});
+        run_batches(scene, plan, {.ranks = alone, .store = store, .progress = progress});
     if (!outcome.failure.empty()) {
         throw std::runtime_error(outcome.failure);
     }
     Results results = results_frame(study);
-    fill_columns(results, StoredRows(store, plan, outcome.tiles));
+    fill_columns(results, StoredRows(store, plan, outcome.batches));
     results.timing = timing_of(outcome);
     return results;
-}
-
-int thread_count(const Study& study, int ranks_on_this_machine) {
-    if (study.numerics.threads > 0) {
-        return study.numerics.threads;
-    }
-    // Ranks that are bound to processors of their own see only those.
-    const int own = processors();
-    return own < all_processors() ? own : std::max(1, own / ranks_on_this_machine);
 }
 
 std::vector<analysis::FeatureDetection> detect_all(const Results& results) {

@@ -8,7 +8,7 @@
 namespace gearpod::mc {
 
 // While it lives, SIGINT, SIGTERM and SIGUSR1 (a queue's warning) only ask the run to finish its
-// tiles and save; a second SIGINT or SIGTERM ends the program at once. Writing beyond a limit on
+// batches and save; a second SIGINT or SIGTERM ends the program at once. Writing beyond a limit on
 // the file size is an error of the write and no signal. One object at a time.
 class Interruption {
   public:

@@ -9,7 +9,7 @@
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/wilson.hpp"
-#include "mc/ensemble/tile_worker.hpp"
+#include "mc/ensemble/batch_worker.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -27,7 +27,7 @@ std::size_t level_next_to(const std::vector<double>& levels, double wanted) {
 
 }  // namespace
 
-PdWatch::PdWatch(const Study& study, const TilePlan& plan, const std::string& feature)
+PdWatch::PdWatch(const Study& study, const BatchPlan& plan, const std::string& feature)
     : request_(detection_request(study)), plan_(plan), shape_(row_shape(Sampler(study), study)) {
     const Until& until = study.ensemble.until;
     const auto used = used_features(study);
@@ -50,11 +50,11 @@ PdWatch::PdWatch(const Study& study, const TilePlan& plan, const std::string& fe
 }
 
 void PdWatch::advance(const RowStore& store) {
-    while (!stop_ && next_ < plan_.tiles() && store.has(next_)) {
-        if (next_ == plan_.threshold_tiles()) {
+    while (!stop_ && next_ < plan_.batches() && store.has(next_)) {
+        if (next_ == plan_.threshold_batches()) {
             set_threshold(store);
         }
-        if (next_ >= plan_.threshold_tiles()) {
+        if (next_ >= plan_.threshold_batches()) {
             count(store.read(next_));
         }
         ++next_;
@@ -66,8 +66,8 @@ void PdWatch::advance(const RowStore& store) {
 
 void PdWatch::set_threshold(const RowStore& store) {
     std::vector<double> healthy;
-    for (std::size_t tile = 0; tile < plan_.threshold_tiles(); ++tile) {
-        const TileRows rows = store.read(tile);
+    for (std::size_t batch = 0; batch < plan_.threshold_batches(); ++batch) {
+        const BatchRows rows = store.read(batch);
         for (std::size_t row = 0; row < rows.count(); ++row) {
             healthy.push_back(rows.values[row * shape_.values() + column_]);
         }
@@ -76,7 +76,7 @@ void PdWatch::set_threshold(const RowStore& store) {
         analysis::alarm_threshold(std::move(healthy), alarm_, request_.false_alarm_rate).value;
 }
 
-void PdWatch::count(const TileRows& rows) {
+void PdWatch::count(const BatchRows& rows) {
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const double* values = rows.values.data() + row * shape_.values();
         const double value = values[column_];

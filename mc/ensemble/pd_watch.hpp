@@ -6,24 +6,24 @@
 #include <string>
 
 #include "analysis/detection/detection.hpp"
-#include "mc/results/tile_rows.hpp"
+#include "mc/results/batch_rows.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Looks at tiles in their order only, each once all before it are there: what it says, and the tile
-// at which it says stop, are the same whoever computed them and whenever.
+// Looks at batches in their order only, each once all before it are there: what it says, and the
+// batch at which it says stop, are the same whoever computed them and whenever.
 class PdWatch {
   public:
     // Of ensemble.until, else of `feature` ("": the first in use) at the largest size and the
     // noise level next to 1.
-    PdWatch(const Study& study, const TilePlan& plan, const std::string& feature);
+    PdWatch(const Study& study, const BatchPlan& plan, const std::string& feature);
 
     void advance(const RowStore& store);
 
-    // Whether ensemble.until is reached, and after how many tiles.
+    // Whether ensemble.until is reached, and after how many batches.
     bool enough() const { return stop_.has_value(); }
-    std::size_t tiles() const { return *stop_; }
+    std::size_t batches() const { return *stop_; }
     // "Pd(window_ratio, 3 mm, noise x 1) = 0.93 [0.91, 0.95]"; "" while nothing is known.
     std::string text() const;
     // Graded gearboxes still needed for ensemble.until, as far as the rate tells.
@@ -31,7 +31,7 @@ class PdWatch {
 
   private:
     void set_threshold(const RowStore& store);
-    void count(const TileRows& rows);
+    void count(const BatchRows& rows);
     double half_width(double tested) const;
 
     analysis::DetectionRequest request_;
@@ -40,10 +40,10 @@ class PdWatch {
     std::size_t group_ = 0;
     std::size_t level_ = 0;
     std::optional<double> wanted_;  // half width
-    TilePlan plan_;
+    BatchPlan plan_;
     RowShape shape_;
     std::size_t column_ = 0;  // of the feature at the level, in a row
-    std::size_t next_ = 0;    // tile to look at
+    std::size_t next_ = 0;    // batch to look at
     double threshold_ = 0.0;
     long tested_ = 0, detected_ = 0;
     std::size_t graded_ = 0;  // gearboxes looked at

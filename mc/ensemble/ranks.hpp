@@ -51,8 +51,4 @@ class Ranks {
 // "rank 2 on node17".
 std::string rank_name(const Ranks& ranks);
 
-// Processors that this process may use, and those of the machine.
-int processors();
-int all_processors();
-
 }  // namespace gearpod::mc

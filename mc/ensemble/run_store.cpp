@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "mc/ensemble/tile_worker.hpp"
+#include "mc/ensemble/batch_worker.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
@@ -22,10 +22,10 @@ RunIdentity identity_of(const Results& results, const std::string& path) {
     return identity;
 }
 
-// Rows of finished results into a checkpoint: all whole tiles.
-class TileFiller {
+// Rows of finished results into a checkpoint: all whole batches.
+class BatchFiller {
   public:
-    TileFiller(Checkpoint& checkpoint, const TilePlan& plan, const RowShape& shape)
+    BatchFiller(Checkpoint& checkpoint, const BatchPlan& plan, const RowShape& shape)
         : checkpoint_(checkpoint), plan_(plan), shape_(shape) {}
 
     void add(const RowBlock& block) {
@@ -35,10 +35,10 @@ class TileFiller {
             rows_.status.push_back(block.status[row]);
             rows_.values.insert(rows_.values.end(), values,
                                 values + static_cast<std::ptrdiff_t>(shape_.values()));
-            const std::size_t tile = plan_.tile_of_row(block.first + row);
-            const Tile place = plan_.tile(tile);
+            const std::size_t batch = plan_.batch_of_row(block.first + row);
+            const Batch place = plan_.batch(batch);
             if (block.first + row + 1 == place.first_row + place.count) {
-                checkpoint_.write(tile, rows_);
+                checkpoint_.write(batch, rows_);
                 rows_ = {};
             }
         }
@@ -46,13 +46,13 @@ class TileFiller {
 
   private:
     Checkpoint& checkpoint_;
-    const TilePlan& plan_;
+    const BatchPlan& plan_;
     const RowShape shape_;
-    TileRows rows_;
+    BatchRows rows_;
 };
 
 std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
-                                 const RunIdentity& identity, const TilePlan& plan) {
+                                 const RunIdentity& identity, const BatchPlan& plan) {
     const Results old = read_frame(results_path);
     const FileRows rows(results_path, old);
     const std::string why = difference(identity_of(old, results_path), identity);
@@ -66,18 +66,18 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
                         results_path, rows.rows(), plan.rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
-    TileFiller filler(*checkpoint, plan, identity.shape);
+    BatchFiller filler(*checkpoint, plan, identity.shape);
     rows.visit([&](const RowBlock& block) { filler.add(block); });
     checkpoint->sync();
     return checkpoint;
 }
 
-void tell(const Checkpoint& checkpoint, const TilePlan& plan, const std::string& from) {
+void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string& from) {
     for (const std::string& finding : checkpoint.findings()) {
         fmt::print(stderr, "{}\n", finding);
     }
     fmt::print(stderr, "continuing {}: {} of {} tiles of gearboxes are there\n", from,
-               checkpoint.tiles_done(), plan.tiles());
+               checkpoint.batches_done(), plan.batches());
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ std::string checkpoint_path(const std::string& results_path) {
     return behind_links(results_path) + ".part";
 }
 
-std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const TilePlan& plan,
+std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
                                             const std::string& results_path, bool resume,
                                             bool quiet) {
     const Study& study = scene.study();

@@ -1,4 +1,4 @@
-// Where a run keeps its finished tiles: a new checkpoint, one to continue, or one filled from
+// Where a run keeps its finished batches: a new checkpoint, one to continue, or one filled from
 // finished results that are to grow.
 #pragma once
 
@@ -15,7 +15,7 @@ std::string checkpoint_path(const std::string& results_path);
 
 // Throws std::runtime_error naming the file and the reason. Unless quiet, says on stderr what it
 // continues.
-std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const TilePlan& plan,
+std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
                                             const std::string& results_path, bool resume,
                                             bool quiet);
 

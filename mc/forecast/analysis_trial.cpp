@@ -140,7 +140,7 @@ class Pool {
     }
 
   private:
-    const TileRows& rows_;
+    const BatchRows& rows_;
     const RowShape shape_;
     std::vector<std::size_t> order_;
 };
@@ -168,8 +168,9 @@ double seconds_of_analysis(Results results, int threads, bool assessed) {
 
 }  // namespace
 
-Results made_up_results(const Study& study, const RunCalibration& calibration, const TilePlan& plan,
-                        std::size_t rows, const std::vector<std::size_t>& levels) {
+Results made_up_results(const Study& study, const RunCalibration& calibration,
+                        const BatchPlan& plan, std::size_t rows,
+                        const std::vector<std::size_t>& levels) {
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
     Results results = results_frame(study);
@@ -221,7 +222,7 @@ Results made_up_results(const Study& study, const RunCalibration& calibration, c
 }
 
 AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,
-                           const TilePlan& plan, int threads, double budget_s) {
+                           const BatchPlan& plan, int threads, double budget_s) {
     AnalysisTrial trial;
     const std::size_t levels = study.sensor.noise_levels.size();
     const std::size_t values = plan.rows() * study.features.use.size() * levels;

@@ -21,14 +21,15 @@ struct AnalysisTrial {
 // moved along the feature's trend over the sizes; and moved by what a smoothed bootstrap moves them
 // (B. W. Silverman, G. A. Young, Biometrika 74 (1987), 469-479), so that no two are tied that would
 // not be in a run. Detection is left to the caller.
-Results made_up_results(const Study& study, const RunCalibration& calibration, const TilePlan& plan,
-                        std::size_t rows, const std::vector<std::size_t>& levels);
+Results made_up_results(const Study& study, const RunCalibration& calibration,
+                        const BatchPlan& plan, std::size_t rows,
+                        const std::vector<std::size_t>& levels);
 
 // Detection and reliability of made-up results as `run` finds them: of all features and as many
 // gearboxes as there are, up to kTrialRows, at as many noise levels at once as there are threads,
 // from the middle on, until `budget_s` seconds are over. The rest counts in proportion.
 AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,
-                           const TilePlan& plan, int threads, double budget_s);
+                           const BatchPlan& plan, int threads, double budget_s);
 
 inline constexpr std::size_t kTrialRows = 6000;
 

@@ -1,12 +1,11 @@
 #include "mc/forecast/calibration.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "features/feature.hpp"
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/forecast/peak_memory.hpp"
 #include "mc/gearbox/march_cache.hpp"
@@ -19,18 +18,18 @@ std::size_t at(Group group) {
     return static_cast<std::size_t>(group);
 }
 
-// All batches of a plan: first one of each group, then here and there, so that any first part of
+// All tiles of a plan: first one of each group, then here and there, so that any first part of
 // the list is spread over the ensemble.
-std::vector<Tile> spread_batches(const TilePlan& plan, std::size_t lanes) {
-    std::vector<Tile> all;
-    for (std::size_t t = 0; t < plan.tiles(); ++t) {
-        const Tile tile = plan.tile(t);
-        for (std::size_t first = 0; first < tile.count; first += lanes) {
-            all.push_back({tile.group, tile.first_index + first, tile.first_row + first,
-                           std::min(lanes, tile.count - first)});
+std::vector<Batch> spread_tiles(const BatchPlan& plan, std::size_t lanes) {
+    std::vector<Batch> all;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        for (std::size_t first = 0; first < batch.count; first += lanes) {
+            all.push_back({batch.group, batch.first_index + first, batch.first_row + first,
+                           std::min(lanes, batch.count - first)});
         }
     }
-    std::vector<Tile> spread;
+    std::vector<Batch> spread;
     // A stride near the golden section of the whole that shares no divisor with it.
     std::size_t stride = std::max<std::size_t>(1, all.size() * 618 / 1000);
     while (std::gcd(stride, all.size()) != 1) {
@@ -40,7 +39,7 @@ std::vector<Tile> spread_batches(const TilePlan& plan, std::size_t lanes) {
         spread.push_back(all[place]);
         place = (place + stride) % all.size();
     }
-    const auto graded = std::find_if(spread.begin() + 1, spread.end(), [&](const Tile& tile) {
+    const auto graded = std::find_if(spread.begin() + 1, spread.end(), [&](const Batch& tile) {
         return tile.group != spread.front().group;
     });
     if (graded != spread.end()) {
@@ -49,9 +48,9 @@ std::vector<Tile> spread_batches(const TilePlan& plan, std::size_t lanes) {
     return spread;
 }
 
-struct MeasuredBatch {
-    Tile batch = {};
-    TileRows rows = {};
+struct MeasuredTile {
+    Batch tile = {};
+    BatchRows rows = {};
     Seconds work = {};
     double wall_s = 0.0;
     bool first = false;   // of its thread
@@ -59,88 +58,79 @@ struct MeasuredBatch {
     bool again = false;   // the same gearboxes once more
 };
 
-// The threads of a calibration.
-class Threads {
+// What the threads of a calibration share.
+class Measurement {
   public:
-    Threads(const TileTask& task, std::vector<Tile> batches, bool reusable, double budget_s)
-        : task_(task), batches_(std::move(batches)), reusable_(reusable), budget_s_(budget_s) {}
+    Measurement(const BatchTask& task, std::vector<Batch> tiles, bool reusable, double budget_s)
+        : task_(task), tiles_(std::move(tiles)), reusable_(reusable), budget_s_(budget_s) {}
 
-    std::vector<MeasuredBatch> run(int threads) {
+    std::vector<MeasuredTile> run(int threads) {
         start_ = WallClock::now();
-        {
-            std::vector<std::jthread> all;
-            for (int i = 0; i < threads; ++i) {
-                all.emplace_back([this] { work(); });
-            }
-        }
-        if (failure_) {
-            std::rethrow_exception(failure_);
-        }
+        machine::run_team(threads, [&](int granted) { work(granted); });
         return std::move(measured_);
     }
 
+    int threads() const { return threads_; }
+
   private:
-    const Tile* next(int had) {
+    const Batch* next(int had) {
         const std::scoped_lock lock(mutex_);
         const double over = seconds_since(start_) / budget_s_;
         const bool more = had == 0 || over < 1.0 || (had == 1 && over < 2.0);
-        return more && next_ < batches_.size() ? &batches_[next_++] : nullptr;
+        return more && next_ < tiles_.size() ? &tiles_[next_++] : nullptr;
     }
 
-    void work() {
-        try {
-            auto start = WallClock::now();
-            TileWorker worker(task_);
-            for (int had = 0; const Tile* batch = next(had); ++had) {
-                const bool first = had == 0;
-                compute(worker, {.batch = *batch, .first = first}, start);
-                if (reusable_) {
-                    compute(worker, {.batch = *batch, .again = true}, WallClock::now());
-                }
-                start = WallClock::now();
+    void work(int threads) {
+        auto start = WallClock::now();
+        BatchWorker worker(task_);
+        for (int had = 0; const Batch* tile = next(had); ++had) {
+            const bool first = had == 0;
+            compute(worker, {.tile = *tile, .first = first}, start);
+            if (reusable_) {
+                compute(worker, {.tile = *tile, .again = true}, WallClock::now());
             }
-        } catch (...) {
-            const std::scoped_lock lock(mutex_);
-            failure_ = std::current_exception();
+            start = WallClock::now();
         }
+        const std::scoped_lock lock(mutex_);
+        threads_ = threads;
     }
 
-    void compute(TileWorker& worker, MeasuredBatch measured, WallClock::time_point start) {
-        measured.rows = worker.compute(measured.batch, measured.work);
+    void compute(BatchWorker& worker, MeasuredTile measured, WallClock::time_point start) {
+        measured.rows = worker.compute(measured.tile, measured.work);
         measured.wall_s = seconds_since(start);
         measured.reused = measured.work.meshes == 0;
         const std::scoped_lock lock(mutex_);
         measured_.push_back(std::move(measured));
     }
 
-    const TileTask& task_;
-    const std::vector<Tile> batches_;
+    const BatchTask& task_;
+    const std::vector<Batch> tiles_;
     const bool reusable_;
     const double budget_s_;
     WallClock::time_point start_;
     std::mutex mutex_;
+    int threads_ = 0;
     std::size_t next_ = 0;
-    std::vector<MeasuredBatch> measured_;
-    std::exception_ptr failure_;
+    std::vector<MeasuredTile> measured_;
 };
 
-// Means over batches of one kind.
+// Means over tiles of one kind.
 class Mean {
   public:
-    void add(const MeasuredBatch& batch) {
-        work_ += batch.work;
-        rest_ += batch.wall_s - batch.work.sum();
-        rows_ += batch.batch.count;
-        ++batches_;
+    void add(const MeasuredTile& tile) {
+        work_ += tile.work;
+        rest_ += tile.wall_s - tile.work.sum();
+        rows_ += tile.tile.count;
+        ++tiles_;
     }
-    bool empty() const { return batches_ == 0; }
-    BatchCost cost() const {
-        const double n = batches_, rows = static_cast<double>(rows_);
-        BatchCost cost;
+    bool empty() const { return tiles_ == 0; }
+    TileCost cost() const {
+        const double n = tiles_, rows = static_cast<double>(rows_);
+        TileCost cost;
         cost.whole = {work_.sampling / n, work_.stiffness / n, work_.march / n, work_.signals / n};
         cost.row.noise = work_.noise / rows;
         cost.row.features = work_.features / rows;
-        cost.whole.meshes = work_.meshes / batches_;
+        cost.whole.meshes = work_.meshes / tiles_;
         cost.rest = rest_ / n;
         return cost;
     }
@@ -149,16 +139,16 @@ class Mean {
     Seconds work_;
     double rest_ = 0.0;
     std::size_t rows_ = 0;
-    int batches_ = 0;
+    int tiles_ = 0;
 };
 
-// Of a group's batches; of a thread's first ones only if there are no others.
-BatchCost cost_of(const std::vector<MeasuredBatch>& all, Group group, bool reused,
-                  const BatchCost& otherwise) {
+// Of a group's tiles; of a thread's first ones only if there are no others.
+TileCost cost_of(const std::vector<MeasuredTile>& all, Group group, bool reused,
+                 const TileCost& otherwise) {
     for (const bool first : {false, true}) {
         Mean mean;
-        for (const MeasuredBatch& one : all) {
-            if (one.batch.group == group && one.reused == reused && one.first == first) {
+        for (const MeasuredTile& one : all) {
+            if (one.tile.group == group && one.reused == reused && one.first == first) {
                 mean.add(one);
             }
         }
@@ -169,22 +159,21 @@ BatchCost cost_of(const std::vector<MeasuredBatch>& all, Group group, bool reuse
     return otherwise;
 }
 
-double start_of_thread(const std::vector<MeasuredBatch>& all,
-                       const std::array<GroupCost, 2>& cost) {
+double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<GroupCost, 2>& cost) {
     double sum = 0.0;
     int threads = 0;
-    for (const MeasuredBatch& one : all) {
-        const GroupCost& group = cost[at(one.batch.group)];
+    for (const MeasuredTile& one : all) {
+        const GroupCost& group = cost[at(one.tile.group)];
         if (one.first) {
-            sum += one.wall_s - (one.reused ? group.reused : group.fresh).seconds(one.batch.count);
+            sum += one.wall_s - (one.reused ? group.reused : group.fresh).seconds(one.tile.count);
             ++threads;
         }
     }
     return threads == 0 ? 0.0 : std::max(0.0, sum / threads);
 }
 
-// A batch that records `recorded` meshes, as one that records them all.
-void complete(BatchCost& cost, int recorded, int to_record) {
+// A tile that records `recorded` meshes, as one that records them all.
+void complete(TileCost& cost, int recorded, int to_record) {
     const auto missing = static_cast<double>(to_record - recorded);
     if (cost.whole.meshes > 0) {
         cost.whole.march *= 1.0 + missing / static_cast<double>(cost.whole.meshes);
@@ -193,7 +182,7 @@ void complete(BatchCost& cost, int recorded, int to_record) {
     }
 }
 
-// Meshes that a batch may record.
+// Meshes that a tile may record.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
     const int all = scene.recorded_meshes();
     if (scene.study().numerics.horizon != Horizon::march || mesh_s == 0.0) {
@@ -205,16 +194,17 @@ int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
                              : std::min(all, std::max(kFewestMeshes, static_cast<int>(affordable)));
 }
 
-void measure(const Scene& scene, const TilePlan& plan, double budget_s, RunCalibration& result) {
+void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCalibration& result) {
     auto start = WallClock::now();
-    const TileTask task(scene);
+    const BatchTask task(scene);
     result.task_s = seconds_since(start);
     const bool reusable = distinct_marches(scene).has_value();
     start = WallClock::now();
-    Threads threads(task,
-                    spread_batches(plan, static_cast<std::size_t>(scene.study().numerics.lanes)),
-                    reusable, budget_s);
-    const std::vector<MeasuredBatch> all = threads.run(result.threads);
+    Measurement measurement(
+        task, spread_tiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
+        budget_s);
+    const std::vector<MeasuredTile> all = measurement.run(result.threads);
+    result.threads = measurement.threads();
     result.wall_s = seconds_since(start);
     result.memory.peak = peak_memory_bytes();
     const double bytes_each = motion_bytes(scene);
@@ -223,18 +213,18 @@ void measure(const Scene& scene, const TilePlan& plan, double budget_s, RunCalib
     std::array<GroupCost, 2>& cost = result.cost;
     for (const Group group : {Group::threshold, Group::graded}) {
         const Group other = group == Group::graded ? Group::threshold : Group::graded;
-        const BatchCost alike = cost_of(all, other, false, {});
+        const TileCost alike = cost_of(all, other, false, {});
         cost[at(group)].fresh = cost_of(all, group, false, alike);
         cost[at(group)].reused = cost_of(all, group, true, cost[at(group)].fresh);
     }
     result.start_s = start_of_thread(all, cost);
-    for (const MeasuredBatch& one : all) {
+    for (const MeasuredTile& one : all) {
         result.meshes += one.work.meshes;
         if (one.again) {
             continue;
         }
-        for (std::size_t i = 0; i < one.batch.count; ++i) {
-            result.gearboxes.push_back({one.batch.group, one.batch.first_index + i});
+        for (std::size_t i = 0; i < one.tile.count; ++i) {
+            result.gearboxes.push_back({one.tile.group, one.tile.first_index + i});
         }
         result.rows.status.insert(result.rows.status.end(), one.rows.status.begin(),
                                   one.rows.status.end());
@@ -245,11 +235,11 @@ void measure(const Scene& scene, const TilePlan& plan, double budget_s, RunCalib
 
 }  // namespace
 
-RunCalibration calibrate_run(const Scene& scene, const TilePlan& plan, int threads,
+RunCalibration calibrate_run(const Scene& scene, const BatchPlan& plan, int threads,
                              double budget_s) {
     RunCalibration result;
     result.threads =
-        static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.tiles()));
+        static_cast<int>(std::min(static_cast<std::size_t>(std::max(1, threads)), plan.batches()));
     result.to_record = scene.recorded_meshes();
     const bool moves = !scene.study().effects.quasi_static();
     const double mesh_s = moves ? mesh_period_s(scene) : 0.0;
@@ -258,7 +248,7 @@ RunCalibration calibrate_run(const Scene& scene, const TilePlan& plan, int threa
     const double all_records = motion_bytes(scene), whole_march_s = mesh_s * marched_meshes(scene);
     const Scene measured = scene.recording_at_most(result.recorded);
     result.memory.before = peak_memory_bytes();
-    if (mesh_s * marched_meshes(measured) > std::max(kLongestBatch_s, budget_s)) {
+    if (mesh_s * marched_meshes(measured) > std::max(kLongestTile_s, budget_s)) {
         result.march_alone = true;
         for (GroupCost& group : result.cost) {
             group.fresh.whole.march = group.reused.whole.march = whole_march_s;

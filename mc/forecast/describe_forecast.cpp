@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "machine/dispatch.hpp"
-#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/forecast.hpp"
 
@@ -50,7 +50,7 @@ std::string shares_text(const Seconds& work, double thread_s) {
 
 void print_forecast(const Scene& scene, double setup_s) {
     const Study& study = scene.study();
-    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const int threads = thread_count(study);
     const RunCalibration calibration = calibrate_run(scene, plan, threads, kBudget_s);
     const AnalysisTrial trial = try_analysis(study, calibration, plan, threads, kBudget_s);

@@ -14,12 +14,12 @@ namespace {
 // the HDF5 library at work. From runs of two gearboxes; a slow disk's syncing comes on top.
 constexpr double kFiles_s = 0.01, kFileBytes = 4.5e6;
 
-// Hands out the batches of a group: those that march before those that need not.
-class Batches {
+// Hands out the tiles of a group: those that march before those that need not.
+class Tiles {
   public:
-    Batches(const GroupCost& cost, std::size_t marched) : cost_(cost), marches_left_(marched) {}
+    Tiles(const GroupCost& cost, std::size_t marched) : cost_(cost), marches_left_(marched) {}
 
-    const BatchCost& next() {
+    const TileCost& next() {
         if (marches_left_ == 0) {
             return cost_.reused;
         }
@@ -32,47 +32,47 @@ class Batches {
     std::size_t marches_left_;
 };
 
-// Calls visit(cost, rows) for the batches of a tile.
+// Calls visit(cost, rows) for the tiles of a batch.
 template <class Visit>
-void each_batch(const Tile& tile, std::size_t lanes, Batches& batches, Visit visit) {
-    for (std::size_t first = 0; first < tile.count; first += lanes) {
-        visit(batches.next(), std::min(lanes, tile.count - first));
+void each_tile(const Batch& batch, std::size_t lanes, Tiles& tiles, Visit visit) {
+    for (std::size_t first = 0; first < batch.count; first += lanes) {
+        visit(tiles.next(), std::min(lanes, batch.count - first));
     }
 }
 
-std::array<Batches, 2> batches_of(const RunCalibration& calibration, const MarchCounts& marches) {
-    return {Batches(calibration.cost[0], marches.marched[0]),
-            Batches(calibration.cost[1], marches.marched[1])};
+std::array<Tiles, 2> tiles_of(const RunCalibration& calibration, const MarchCounts& marches) {
+    return {Tiles(calibration.cost[0], marches.marched[0]),
+            Tiles(calibration.cost[1], marches.marched[1])};
 }
 
-Seconds all_work(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
+Seconds all_work(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
                  const MarchCounts& marches) {
-    auto batches = batches_of(calibration, marches);
+    auto tiles = tiles_of(calibration, marches);
     Seconds work;
-    for (std::size_t t = 0; t < plan.tiles(); ++t) {
-        const Tile tile = plan.tile(t);
-        each_batch(tile, lanes, batches[static_cast<std::size_t>(tile.group)],
-                   [&](const BatchCost& cost, std::size_t rows) {
-                       work += cost.whole;
-                       work.noise += static_cast<double>(rows) * cost.row.noise;
-                       work.features += static_cast<double>(rows) * cost.row.features;
-                   });
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+                  [&](const TileCost& cost, std::size_t rows) {
+                      work += cost.whole;
+                      work.noise += static_cast<double>(rows) * cost.row.noise;
+                      work.features += static_cast<double>(rows) * cost.row.features;
+                  });
     }
     return work;
 }
 
 }  // namespace
 
-double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
+double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
                    const MarchCounts& marches) {
-    auto batches = batches_of(calibration, marches);
+    auto tiles = tiles_of(calibration, marches);
     // When each thread is free again.
     std::vector<double> free(static_cast<std::size_t>(calibration.threads), calibration.start_s);
-    for (std::size_t t = 0; t < plan.tiles(); ++t) {
-        const Tile tile = plan.tile(t);
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
         double seconds = 0.0;
-        each_batch(tile, lanes, batches[static_cast<std::size_t>(tile.group)],
-                   [&](const BatchCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
+        each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
+                  [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
         *std::min_element(free.begin(), free.end()) += seconds;
     }
     return *std::max_element(free.begin(), free.end());
@@ -85,7 +85,7 @@ double verification_s(const Scene& scene, const RunCalibration& calibration) {
         return 0.0;
     }
     const double setup_s = seconds_since(start);
-    const BatchCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].fresh;
+    const TileCost& own = calibration.cost[static_cast<std::size_t>(Group::graded)].fresh;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
     const double march_s = mesh_period_s(*finer.scene) * marched_meshes(*finer.scene);
     return setup_s + 2.0 * own.seconds(lanes) - own.whole.march + march_s;
@@ -100,7 +100,7 @@ double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double 
                     memory.before + analysis_bytes + kFileBytes);
 }
 
-RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
+RunForecast forecast_run(const Scene& scene, const BatchPlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,
                          double setup_s) {
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);

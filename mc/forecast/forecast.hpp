@@ -10,7 +10,7 @@ namespace gearpod::mc {
 // Wall clock of a run in one process, s, by the lines in which `run` tells it.
 struct RunForecast {
     double setup_s = 0.0;      // the study's and what all threads share
-    double gearboxes_s = 0.0;  // until the last thread has finished its last tile
+    double gearboxes_s = 0.0;  // until the last thread has finished its last batch
     double detection_s = 0.0;  // and results
     Seconds work;              // of all threads, without what `rest` and `start_s` say
     double memory_bytes = 0.0;
@@ -18,9 +18,9 @@ struct RunForecast {
     double total_s() const { return setup_s + gearboxes_s + detection_s; }
 };
 
-// How long `threads` threads take for the tiles of the plan, each the next tile in order as soon as
-// it is free: the last tiles may leave some of them idle.
-double gearboxes_s(const RunCalibration& calibration, const TilePlan& plan, std::size_t lanes,
+// How long `threads` threads take for the batches of the plan, each the next batch in order as soon
+// as it is free: the last batches may leave some of them idle.
+double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
                    const MarchCounts& marches);
 
 // The most memory at a time: of the gearboxes with the motions kept, or of the analysis after them.
@@ -31,7 +31,7 @@ double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double 
 double verification_s(const Scene& scene, const RunCalibration& calibration);
 
 // `setup_s`: of the program and the scene. The most it takes: ensemble.until may end it before.
-RunForecast forecast_run(const Scene& scene, const TilePlan& plan,
+RunForecast forecast_run(const Scene& scene, const BatchPlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,
                          double setup_s);
 

@@ -58,7 +58,7 @@ std::optional<std::size_t> distinct_marches(const Scene& scene) {
     return count;
 }
 
-MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motion_bytes) {
+MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double motion_bytes) {
     // More distinct ones than that do not come again before they are many.
     constexpr std::size_t kMostDistinct = 2000;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
@@ -67,18 +67,18 @@ MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motio
     MarchCounts counts;
     std::set<std::string> keys;
     for (std::size_t g = 0; g < rows.size(); ++g) {
-        const std::size_t batches = (rows[g] + lanes - 1) / lanes;
-        counts.marched[g] = batches;
+        const std::size_t tiles = (rows[g] + lanes - 1) / lanes;
+        counts.marched[g] = tiles;
         if (distinct > kMostDistinct) {
             continue;
         }
         const Sampler sampler(scene.study());
         const std::size_t before = keys.size();
-        // n distinct gearboxes in turn fill at most n different batches; the last may not be full.
-        for (std::size_t b = 0; b < batches;
-             b = b + 1 < distinct ? b + 1 : std::max(b + 1, batches - 1)) {
+        // n distinct gearboxes in turn fill at most n different tiles; the last may not be full.
+        for (std::size_t t = 0; t < tiles;
+             t = t + 1 < distinct ? t + 1 : std::max(t + 1, tiles - 1)) {
             std::vector<InstanceInputs> inputs;
-            for (std::size_t i = b * lanes; i < std::min(rows[g], (b + 1) * lanes); ++i) {
+            for (std::size_t i = t * lanes; i < std::min(rows[g], (t + 1) * lanes); ++i) {
                 inputs.push_back(sampler.sample(static_cast<Group>(g), i));
             }
             inputs.resize(lanes, inputs.back());
@@ -95,9 +95,9 @@ MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motio
     const double lost = 1.0 - static_cast<double>(counts.kept) /
                                   static_cast<double>(std::max<std::size_t>(1, keys.size()));
     for (std::size_t g = 0; g < rows.size(); ++g) {
-        const std::size_t batches = (rows[g] + lanes - 1) / lanes;
+        const std::size_t tiles = (rows[g] + lanes - 1) / lanes;
         counts.marched[g] +=
-            static_cast<std::size_t>(lost * static_cast<double>(batches - counts.marched[g]));
+            static_cast<std::size_t>(lost * static_cast<double>(tiles - counts.marched[g]));
     }
     return counts;
 }

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "lockstep/tile/tile.hpp"
-#include "mc/results/tile_rows.hpp"
+#include "mc/results/batch_rows.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
 
@@ -22,13 +22,13 @@ namespace gearpod::mc {
 // input of the march has a continuous distribution, or every tooth its own pitch error.
 std::optional<std::size_t> distinct_marches(const Scene& scene);
 
-// How often a run of the plan marches, by group: batches (of as many gearboxes as there are lanes)
-// whose motion no batch before them has left behind. `motion_bytes`: of a batch's records.
+// How often a run of the plan marches, by group: tiles (of as many gearboxes as there are lanes)
+// whose motion no tile before them has left behind. `motion_bytes`: of a tile's records.
 struct MarchCounts {
     std::array<std::size_t, 2> marched{};
     std::size_t kept = 0;  // motions in the cache at the end
 };
-MarchCounts count_marches(const Scene& scene, const TilePlan& plan, double motion_bytes);
+MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double motion_bytes);
 
 // Results of marched tiles by the inputs of their gearboxes, 256 MB of them at most; what finds no
 // room is marched again. A result that is used again has the bits of its march. All threads may use

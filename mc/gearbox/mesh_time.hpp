@@ -7,12 +7,12 @@ namespace gearpod::mc {
 
 // Mesh periods that the nominal gearboxes march until their orbit repeats; 0 if nothing is marched.
 double approach_meshes(const Scene& scene);
-// Mesh periods that a batch of gearboxes marches or solves: approach, run-in, and the passages of
+// Mesh periods that a tile of gearboxes marches or solves: approach, run-in, and the passages of
 // the fault or, where every mesh is marched, all that is recorded. From the nominal damping: most
 // gearboxes march about as many.
 double marched_meshes(const Scene& scene);
 
-// Bytes of what a batch records of its motion.
+// Bytes of what a tile records of its motion.
 double motion_bytes(const Scene& scene);
 
 // Seconds of one thread for one healthy mesh period of as many gearboxes as there are lanes, driven

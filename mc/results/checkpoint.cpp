@@ -16,13 +16,13 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::string_view kMagic = "gearpod tiles 1\n";
-constexpr std::uint64_t kMark = 0x454c495444504721u;  // in front of a written tile
-constexpr std::size_t kBlock = 4096;                  // tiles begin at a multiple of it
+constexpr std::uint64_t kMark = 0x454c495444504721u;  // in front of a written batch
+constexpr std::size_t kBlock = 4096;                  // batches begin at a multiple of it
 constexpr std::size_t kMostText = 1u << 24;           // longer is damage
 
 // A record's numbers, 8 bytes each.
 constexpr std::size_t kStatusAt = 2;
-constexpr std::size_t kValuesAt = kStatusAt + kTileRows;
+constexpr std::size_t kValuesAt = kStatusAt + kBatchRows;
 
 std::string bytes_of(std::uint64_t number) {
     std::string bytes(sizeof number, '\0');
@@ -66,8 +66,8 @@ std::string header_of(const RunIdentity& identity) {
     return header + bytes_of(fnv1a(header));
 }
 
-std::uint64_t record_sum(std::size_t tile, std::string_view record) {
-    return fnv1a(record.substr(0, record.size() - 8), fnv1a(bytes_of(tile)));
+std::uint64_t record_sum(std::size_t batch, std::string_view record) {
+    return fnv1a(record.substr(0, record.size() - 8), fnv1a(bytes_of(batch)));
 }
 
 bool all_zero(std::string_view bytes) {
@@ -77,13 +77,13 @@ bool all_zero(std::string_view bytes) {
 }  // namespace
 
 Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& identity,
-                       const TilePlan& plan)
+                       const BatchPlan& plan)
     : path_(std::move(path)),
       file_(std::move(file)),
       identity_(identity),
       plan_(plan),
       header_(header_of(identity)),
-      done_(plan.tiles()) {
+      done_(plan.batches()) {
     if (file_.get() < 0) {
         fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
     }
@@ -98,11 +98,11 @@ void Checkpoint::fail(const std::string& what) const {
 }
 
 std::size_t Checkpoint::record_bytes() const {
-    return 8 * (kValuesAt + kTileRows * identity_.shape.values() + 1);
+    return 8 * (kValuesAt + kBatchRows * identity_.shape.values() + 1);
 }
 
-off_t Checkpoint::place(std::size_t tile) const {
-    return begin_ + static_cast<off_t>(tile * record_bytes());
+off_t Checkpoint::place(std::size_t batch) const {
+    return begin_ + static_cast<off_t>(batch * record_bytes());
 }
 
 bool Checkpoint::exists(const std::string& path) {
@@ -121,7 +121,7 @@ void Checkpoint::lock() {
 }
 
 std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const RunIdentity& identity,
-                                               const TilePlan& plan) {
+                                               const BatchPlan& plan) {
     if (exists(path)) {
         throw std::runtime_error(path +
                                  ": holds what an interrupted run has finished; continue it with "
@@ -137,7 +137,7 @@ std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const Ru
 }
 
 std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const RunIdentity& identity,
-                                               const TilePlan& plan) {
+                                               const BatchPlan& plan) {
     std::unique_ptr<Checkpoint> checkpoint(
         new Checkpoint(path, Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)), identity, plan));
     checkpoint->lock();
@@ -171,7 +171,7 @@ void Checkpoint::check_header() {
     }
 }
 
-// Tiles that the last sync counted; 0 if the counter was never written.
+// Batches that the last sync counted; 0 if the counter was never written.
 std::uint64_t Checkpoint::synced_before() {
     std::vector<std::byte> counter(24);
     const auto at = static_cast<off_t>(header_.size());
@@ -181,7 +181,7 @@ std::uint64_t Checkpoint::synced_before() {
     const std::string_view bytes = view(counter);
     if (number_at(bytes, 16) != fnv1a(bytes.substr(0, 16))) {
         if (!all_zero(bytes)) {
-            findings_.push_back(path_ + ": its counter of finished tiles is damaged");
+            findings_.push_back(path_ + ": its counter of finished batches is damaged");
         }
         return 0;
     }
@@ -194,13 +194,13 @@ std::uint64_t Checkpoint::synced_before() {
     return number_at(bytes, 8);
 }
 
-// One pass over all tiles: which are whole.
+// One pass over all batches: which are whole.
 void Checkpoint::scan() {
     const std::uint64_t synced = synced_before();
     std::size_t damaged = 0, partial = 0;
-    for (std::size_t tile = 0; tile < plan_.tiles(); ++tile) {
+    for (std::size_t batch = 0; batch < plan_.batches(); ++batch) {
         std::fill(scratch_.begin(), scratch_.end(), std::byte{});
-        if (read_at(file_.get(), scratch_, place(tile)) < 0) {
+        if (read_at(file_.get(), scratch_, place(batch)) < 0) {
             fail(fmt::format("cannot be read ({})", std::strerror(errno)));
         }
         const std::string_view record = view(scratch_);
@@ -208,14 +208,14 @@ void Checkpoint::scan() {
             continue;
         }
         const bool whole = number_at(record, 0) == kMark &&
-                           number_at(record, record.size() - 8) == record_sum(tile, record);
+                           number_at(record, record.size() - 8) == record_sum(batch, record);
         const std::uint64_t rows = number_at(record, 8);
-        if (!whole || rows > plan_.tile(tile).count) {
+        if (!whole || rows > plan_.batch(batch).count) {
             ++damaged;
-        } else if (rows < plan_.tile(tile).count) {
+        } else if (rows < plan_.batch(batch).count) {
             ++partial;  // the last one of a smaller ensemble: filling it up costs no more
         } else {
-            done_[tile] = true;
+            done_[batch] = true;
             ++count_;
         }
     }
@@ -233,16 +233,16 @@ void Checkpoint::scan() {
     }
 }
 
-TileRows Checkpoint::read(std::size_t tile) const {
+BatchRows Checkpoint::read(std::size_t batch) const {
     std::vector<std::byte> buffer(record_bytes());
-    const ssize_t got = read_at(file_.get(), buffer, place(tile));
+    const ssize_t got = read_at(file_.get(), buffer, place(batch));
     const std::string_view record = view(buffer);
     if (got < static_cast<ssize_t>(buffer.size()) ||
-        number_at(record, record.size() - 8) != record_sum(tile, record)) {
-        fail(fmt::format("tile {} was damaged after it had been written", tile));
+        number_at(record, record.size() - 8) != record_sum(batch, record)) {
+        fail(fmt::format("tile {} was damaged after it had been written", batch));
     }
-    TileRows rows;
-    const std::size_t count = plan_.tile(tile).count;
+    BatchRows rows;
+    const std::size_t count = plan_.batch(batch).count;
     for (std::size_t i = 0; i < count; ++i) {
         rows.status.push_back(static_cast<int>(number_at(record, 8 * (kStatusAt + i))));
     }
@@ -251,7 +251,7 @@ TileRows Checkpoint::read(std::size_t tile) const {
     return rows;
 }
 
-void Checkpoint::write(std::size_t tile, const TileRows& rows) {
+void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
     std::fill(scratch_.begin(), scratch_.end(), std::byte{});
     const auto put = [&](std::size_t place, std::uint64_t number) {
         std::memcpy(scratch_.data() + 8 * place, &number, 8);
@@ -262,12 +262,12 @@ void Checkpoint::write(std::size_t tile, const TileRows& rows) {
         put(kStatusAt + i, static_cast<std::uint64_t>(rows.status[i]));
     }
     std::memcpy(scratch_.data() + 8 * kValuesAt, rows.values.data(), 8 * rows.values.size());
-    put(scratch_.size() / 8 - 1, record_sum(tile, view(scratch_)));
-    if (!write_at(file_.get(), scratch_, place(tile))) {
+    put(scratch_.size() / 8 - 1, record_sum(batch, view(scratch_)));
+    if (!write_at(file_.get(), scratch_, place(batch))) {
         fail(fmt::format("cannot be written ({})", std::strerror(errno)));
     }
-    if (!done_[tile]) {
-        done_[tile] = true;
+    if (!done_[batch]) {
+        done_[batch] = true;
         ++count_;
     }
 }
@@ -282,7 +282,7 @@ void Checkpoint::write_counter() {
     }
 }
 
-// The tiles first: the counter never promises what is not there.
+// The batches first: the counter never promises what is not there.
 void Checkpoint::sync() {
     if (::fsync(file_.get()) != 0) {
         fail(fmt::format("cannot be written ({})", std::strerror(errno)));

@@ -37,9 +37,9 @@ void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
 }  // namespace
 
 void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
-    for (std::size_t tile = 0; tile < tiles_; ++tile) {
-        const Tile place = plan_.tile(tile);
-        TileRows rows = store_.read(tile);
+    for (std::size_t batch = 0; batch < batches_; ++batch) {
+        const Batch place = plan_.batch(batch);
+        BatchRows rows = store_.read(batch);
         use({place.first_row, std::vector<int>(place.count, static_cast<int>(place.group)),
              std::move(rows.status), std::move(rows.values)});
     }

@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "mc/results/batch_rows.hpp"
 #include "mc/results/results_file.hpp"
-#include "mc/results/tile_rows.hpp"
 
 namespace gearpod::mc {
 
@@ -26,18 +26,18 @@ class RowSource {
     virtual void visit(const std::function<void(const RowBlock&)>& use) const = 0;
 };
 
-// The first tiles of a plan, from a store that has them.
+// The first batches of a plan, from a store that has them.
 class StoredRows final : public RowSource {
   public:
-    StoredRows(const RowStore& store, const TilePlan& plan, std::size_t tiles)
-        : store_(store), plan_(plan), tiles_(tiles) {}
-    std::size_t rows() const override { return plan_.rows_before(tiles_); }
+    StoredRows(const RowStore& store, const BatchPlan& plan, std::size_t batches)
+        : store_(store), plan_(plan), batches_(batches) {}
+    std::size_t rows() const override { return plan_.rows_before(batches_); }
     void visit(const std::function<void(const RowBlock&)>& use) const override;
 
   private:
     const RowStore& store_;
-    const TilePlan plan_;
-    std::size_t tiles_;
+    const BatchPlan plan_;
+    std::size_t batches_;
 };
 
 // The columns of results in memory.

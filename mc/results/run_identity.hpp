@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mc/results/tile_rows.hpp"
+#include "mc/results/batch_rows.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {

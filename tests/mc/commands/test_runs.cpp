@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Three tiles of the threshold group and four graded ones, the last of each not full; results
+// Three batches of the threshold group and four graded ones, the last of each not full; results
 // written all the time.
 std::string run_of(const std::string& out, int instances = 50) {
     return "run " + study("planet-crack.toml") + " --instances " + std::to_string(instances) +
@@ -61,8 +61,8 @@ std::uintmax_t size_of(const std::string& path) {
     return none ? 0 : size;
 }
 
-// Waits until the checkpoint has grown by a tile or more.
-void await_tiles(const std::string& part, std::uintmax_t before) {
+// Waits until the checkpoint has grown by a batch or more.
+void await_batches(const std::string& part, std::uintmax_t before) {
     for (int i = 0; i < 4000 && size_of(part) < before + 8192; ++i) {
         std::this_thread::sleep_for(5ms);
     }
@@ -134,7 +134,7 @@ TEST_CASE("Signals and the time limit finish, save and exit with 4") {
     for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
         const std::uintmax_t before = size_of(out + ".part");
         const pid_t child = start(run_of(out, 5000) + " --resume --quiet");
-        await_tiles(out + ".part", before);
+        await_batches(out + ".part", before);
         kill(child, number);
         const int status = status_of(child);
         INFO("signal " << number);
@@ -250,10 +250,10 @@ TEST_CASE("Ranks with another study, or without it, end the run with one line") 
     CHECK_FALSE(fs::exists(out + ".part"));
 }
 
-TEST_CASE("A rank that dies ends the run, and finished tiles are kept") {
+TEST_CASE("A rank that dies ends the run, and finished batches are kept") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    // The second rank kills itself once there are tiles.
+    // The second rank kills itself once there are batches.
     const std::string mortal = "sh -c '( until [ -s " + out + ".part ] && [ $(stat -c %s " + out +
                                ".part) -gt 8192 ]; do sleep 0.05; done; kill -9 $$ ) & exec " +
                                GEARPOD_PROGRAM + " " + run_of(out, 5000) + "'";

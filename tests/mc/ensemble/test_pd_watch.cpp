@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "mc/ensemble/batch_worker.hpp"
 #include "mc/ensemble/pd_watch.hpp"
-#include "mc/ensemble/tile_worker.hpp"
 #include "mc/scene/sampling.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -18,13 +18,13 @@ const std::vector<std::string> kUntil{
     R"(ensemble.until={half_width=0.1, feature="window_ratio", size=4.28})"};
 
 // Healthy gearboxes have 1, graded ones 2 in every feature.
-TileRows rows_of(const Sampler& sampler, const RowShape& shape, const Tile& tile) {
-    TileRows rows;
-    for (std::size_t i = 0; i < tile.count; ++i) {
-        const auto parameters = sampler.row(tile.group, tile.first_index + i);
+BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& batch) {
+    BatchRows rows;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const auto parameters = sampler.row(batch.group, batch.first_index + i);
         rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
         rows.values.resize(rows.values.size() + shape.features * shape.levels,
-                           tile.group == Group::threshold ? 1.0 : 2.0);
+                           batch.group == Group::threshold ? 1.0 : 2.0);
         rows.status.push_back(0);
     }
     return rows;
@@ -34,7 +34,7 @@ TileRows rows_of(const Sampler& sampler, const RowShape& shape, const Tile& tile
 
 TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in any order") {
     const Study study = test::shipped_study("planet-crack.toml", kUntil);
-    const TilePlan plan(48, 700);
+    const BatchPlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
     // All of n detected: half the interval is z^2 / (2 (n + z^2)), so n >= z^2 (1 / (2 w) - 1).
@@ -42,22 +42,22 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
     const auto needed = static_cast<std::size_t>(std::ceil(z2 * (1.0 / 0.2 - 1.0)));
     REQUIRE(needed == 16);
     // Seven sizes in turn, the largest last: the n-th of them is graded gearbox 7 n - 1.
-    const std::size_t tiles = 3 + (7 * needed - 1) / kTileRows + 1;
+    const std::size_t batches = 3 + (7 * needed - 1) / kBatchRows + 1;
 
-    std::vector<std::size_t> order(plan.tiles());
-    for (std::size_t tile = 0; tile < order.size(); ++tile) {
-        order[tile] = tile;
+    std::vector<std::size_t> order(plan.batches());
+    for (std::size_t batch = 0; batch < order.size(); ++batch) {
+        order[batch] = batch;
     }
     std::mt19937 engine(1);
     for (int trial = 0; trial < 5; ++trial) {
-        MemoryRows store(plan.tiles());
+        MemoryRows store(plan.batches());
         PdWatch watch(study, plan, "");
-        for (const std::size_t tile : order) {
-            store.write(tile, rows_of(sampler, shape, plan.tile(tile)));
+        for (const std::size_t batch : order) {
+            store.write(batch, rows_of(sampler, shape, plan.batch(batch)));
             watch.advance(store);
         }
         REQUIRE(watch.enough());
-        CHECK(watch.tiles() == tiles);
+        CHECK(watch.batches() == batches);
         CHECK(watch.text().starts_with("Pd(window_ratio, 4.28 mm, noise x 1) = 1 ["));
         std::shuffle(order.begin(), order.end(), engine);
     }
@@ -65,16 +65,16 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
 
 TEST_CASE("What is left until the wanted interval is predicted from the rate so far") {
     const Study study = test::shipped_study("planet-crack.toml", kUntil);
-    const TilePlan plan(48, 700);
+    const BatchPlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
-    MemoryRows store(plan.tiles());
+    MemoryRows store(plan.batches());
     PdWatch watch(study, plan, "");
     CHECK_FALSE(watch.rows_left().has_value());
     CHECK(watch.text().empty());
     // The threshold group and 64 graded gearboxes: nine of the largest size, 16 wanted.
-    for (std::size_t tile = 0; tile < 7; ++tile) {
-        store.write(tile, rows_of(sampler, shape, plan.tile(tile)));
+    for (std::size_t batch = 0; batch < 7; ++batch) {
+        store.write(batch, rows_of(sampler, shape, plan.batch(batch)));
     }
     watch.advance(store);
     CHECK_FALSE(watch.enough());

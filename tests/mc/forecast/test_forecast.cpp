@@ -30,18 +30,18 @@ RunCalibration given_costs(int threads) {
     return calibration;
 }
 
-MarchCounts all_marched(const TilePlan& plan) {
+MarchCounts all_marched(const BatchPlan& plan) {
     MarchCounts counts;
     counts.marched = {(plan.threshold_rows() + kLanes - 1) / kLanes,
                       (plan.graded_rows() + kLanes - 1) / kLanes};
     return counts;
 }
 
-double forecast_s(const RunCalibration& calibration, const TilePlan& plan) {
+double forecast_s(const RunCalibration& calibration, const BatchPlan& plan) {
     return gearboxes_s(calibration, plan, kLanes, all_marched(plan));
 }
 
-std::vector<std::uint64_t> bits_of(const TileRows& rows) {
+std::vector<std::uint64_t> bits_of(const BatchRows& rows) {
     std::vector<std::uint64_t> all;
     for (const double value : rows.values) {
         all.push_back(std::bit_cast<std::uint64_t>(value));
@@ -49,33 +49,33 @@ std::vector<std::uint64_t> bits_of(const TileRows& rows) {
     return all;
 }
 
-TileRows first_batch(const Scene& scene) {
-    const TileTask task(scene);
+BatchRows first_tile(const Scene& scene) {
+    const BatchTask task(scene);
     Seconds seconds;
-    return TileWorker(task).compute({Group::graded, 0, 0, kLanes}, seconds);
+    return BatchWorker(task).compute({Group::graded, 0, 0, kLanes}, seconds);
 }
 
 const std::vector<std::string> kFast{"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
                                      "sensor.encoder_sampling_Hz=20000"};
 
-// Enough time for a batch a thread.
+// Enough time for a tile a thread.
 constexpr double kNoBudget_s = 1e-9;
 
 }  // namespace
 
-TEST_CASE("A run takes as many rounds of tiles as the threads need, the last perhaps not full") {
-    // A tile of sixteen gearboxes: two marches and a second for the features.
-    const double tile_s = 3.0;
+TEST_CASE("A run takes as many rounds of batches as the threads need, the last perhaps not full") {
+    // A batch of sixteen gearboxes: two marches and a second for the features.
+    const double batch_s = 3.0;
     const RunCalibration two = given_costs(2);
-    CHECK(forecast_s(two, {16, 16}) == Approx(tile_s));
-    CHECK(forecast_s(two, {16, 32}) == Approx(2 * tile_s));
-    CHECK(forecast_s(two, {16, 48}) == Approx(2 * tile_s));
-    CHECK(forecast_s(two, {1600, 1600}) == Approx(100 * tile_s));
-    CHECK(forecast_s(given_costs(1), {16, 48}) == Approx(4 * tile_s));
-    CHECK(forecast_s(given_costs(3), {16, 48}) == Approx(2 * tile_s));
-    // A batch costs its march however few gearboxes it has.
-    CHECK(forecast_s(given_costs(1), {16, 1}) == Approx(tile_s + 1.0 + 1.0 / 16.0));
-    CHECK(forecast_s(given_costs(1), {16, 9}) == Approx(tile_s + 2.0 + 9.0 / 16.0));
+    CHECK(forecast_s(two, {16, 16}) == Approx(batch_s));
+    CHECK(forecast_s(two, {16, 32}) == Approx(2 * batch_s));
+    CHECK(forecast_s(two, {16, 48}) == Approx(2 * batch_s));
+    CHECK(forecast_s(two, {1600, 1600}) == Approx(100 * batch_s));
+    CHECK(forecast_s(given_costs(1), {16, 48}) == Approx(4 * batch_s));
+    CHECK(forecast_s(given_costs(3), {16, 48}) == Approx(2 * batch_s));
+    // A tile costs its march however few gearboxes it has.
+    CHECK(forecast_s(given_costs(1), {16, 1}) == Approx(batch_s + 1.0 + 1.0 / 16.0));
+    CHECK(forecast_s(given_costs(1), {16, 9}) == Approx(batch_s + 2.0 + 9.0 / 16.0));
 }
 
 TEST_CASE("Groups cost what each of them does, and a thread starts once") {
@@ -86,7 +86,7 @@ TEST_CASE("Groups cost what each of them does, and a thread starts once") {
     calibration.threads = 2;
     CHECK(forecast_s(calibration, {16, 16}) == Approx(0.25 + 11.0));
     calibration.cost[0].fresh.rest = 0.5;
-    // Ten tiles for two threads, and a gearbox for one of them.
+    // Ten batches for two threads, and a gearbox for one of them.
     CHECK(forecast_s(calibration, {160, 1}) == Approx(0.25 + 5 * 4.0 + 5.0 + 1.0 / 16.0));
 }
 
@@ -107,13 +107,13 @@ TEST_CASE("Marches are counted as the cache keeps them") {
         return !input.key.starts_with("sensor.") && !input.key.starts_with("fault.");
     });
     const Scene scene(study);
-    // Full batches at each of seven sizes, and one that is not full in either group.
-    const TilePlan plan(20, 180);
-    const TileTask task(scene);
-    TileWorker worker(task);
+    // Full tiles at each of seven sizes, and one that is not full in either group.
+    const BatchPlan plan(20, 180);
+    const BatchTask task(scene);
+    BatchWorker worker(task);
     Seconds seconds;
-    for (std::size_t t = 0; t < plan.tiles(); ++t) {
-        worker.compute(plan.tile(t), seconds);
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        worker.compute(plan.batch(b), seconds);
     }
     const MarchCounts counts = count_marches(scene, plan, 1.0);
     CHECK(counts.kept == task.marches.kept());
@@ -140,7 +140,7 @@ TEST_CASE("The most memory is that of the gearboxes, or of the analysis after th
     CHECK(memory_bytes(memory, counts, 4e6, 500e6) < 530e6);
 }
 
-TEST_CASE("Every shipped study is measured on no more than a batch a thread, if it must be quick") {
+TEST_CASE("Every shipped study is measured on no more than a tile a thread, if it must be quick") {
     int studies = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test::study_path(""))) {
         if (entry.path().extension() != ".toml") {
@@ -152,7 +152,7 @@ TEST_CASE("Every shipped study is measured on no more than a batch a thread, if 
         }
         INFO(entry.path());
         const Scene scene(study);
-        const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+        const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
         const AnalysisTrial trial = try_analysis(study, calibration, plan, 1, kNoBudget_s);
         const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
@@ -179,8 +179,8 @@ TEST_CASE("A march that is cut short to be measured counts in full, and leaves n
     std::vector<std::string> overrides = kFast;
     overrides.push_back("numerics.horizon=march");
     const Scene scene(test::shipped_study("planet-crack.toml", overrides));
-    const auto before = bits_of(first_batch(scene));
-    const TilePlan plan(16, 32);
+    const auto before = bits_of(first_tile(scene));
+    const BatchPlan plan(16, 32);
     const RunCalibration cut = calibrate_run(scene, plan, 1, kNoBudget_s);
     CHECK(cut.recorded == kFewestMeshes);
     CHECK(cut.to_record == 2511);
@@ -192,13 +192,13 @@ TEST_CASE("A march that is cut short to be measured counts in full, and leaves n
     // In records that a run has and this had not: 2503 mesh periods of eight gearboxes.
     const double mesh_bytes = motion_bytes(scene) / 2512;
     CHECK(cut.memory.records == Approx(2503 * mesh_bytes));
-    CHECK(bits_of(first_batch(scene)) == before);
+    CHECK(bits_of(first_tile(scene)) == before);
 }
 
 TEST_CASE("Made-up results have the run's gearboxes and values like those of computed ones") {
     const Study study = test::shipped_study("planet-crack.toml", kFast);
     const Scene scene(study);
-    const TilePlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const RunCalibration calibration = calibrate_run(scene, plan, 2, 0.5);
     const std::size_t rows = 1100, shown = 1;
     const Results made = made_up_results(study, calibration, plan, rows, {1, 2});

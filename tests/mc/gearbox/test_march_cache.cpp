@@ -3,7 +3,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 
-#include "mc/ensemble/tile_worker.hpp"
+#include "mc/ensemble/batch_worker.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
@@ -26,7 +26,7 @@ Study study_with(const std::vector<std::string>& kept, const std::vector<std::st
 const std::vector<std::string> kSensorOnly{"sensor.path_exponent", "sensor.noise_m_s2",
                                            "sensor.encoder_noise_arcsec", "fault.depth_mm"};
 
-std::vector<std::uint64_t> bits(const TileRows& rows) {
+std::vector<std::uint64_t> bits(const BatchRows& rows) {
     std::vector<std::uint64_t> all(rows.status.begin(), rows.status.end());
     for (const double value : rows.values) {
         all.push_back(std::bit_cast<std::uint64_t>(value));
@@ -34,8 +34,8 @@ std::vector<std::uint64_t> bits(const TileRows& rows) {
     return all;
 }
 
-std::vector<Tile> graded_tiles(std::size_t count) {
-    std::vector<Tile> tiles;
+std::vector<Batch> graded_tiles(std::size_t count) {
+    std::vector<Batch> tiles;
     for (std::size_t t = 0; t < count; ++t) {
         tiles.push_back({Group::graded, 8 * t, 0, 8});
     }
@@ -47,14 +47,14 @@ std::vector<Tile> graded_tiles(std::size_t count) {
 TEST_CASE("What was marched before is not marched again, and gives the same bits") {
     const Scene scene(study_with(kSensorOnly));
     CHECK(distinct_marches(scene) == 7);  // the sizes; 0 is among them
-    const TileTask shared(scene);
-    TileWorker worker(shared);
+    const BatchTask shared(scene);
+    BatchWorker worker(shared);
     Seconds seconds;
-    for (const Tile& tile : graded_tiles(16)) {
-        const TileRows again = worker.compute(tile, seconds);
+    for (const Batch& tile : graded_tiles(16)) {
+        const BatchRows again = worker.compute(tile, seconds);
         REQUIRE(again.count() == 8);
-        const TileTask fresh(scene);
-        CHECK(bits(again) == bits(TileWorker(fresh).compute(tile, seconds)));
+        const BatchTask fresh(scene);
+        CHECK(bits(again) == bits(BatchWorker(fresh).compute(tile, seconds)));
         CHECK(fresh.marches.kept() == 1);
     }
     // Eight gearboxes in a row begin at any of seven sizes.
@@ -67,9 +67,9 @@ TEST_CASE("What was marched before is not marched again, and gives the same bits
 TEST_CASE("Where every gearbox moves differently nothing is kept") {
     const Scene scene(study_with({"sensor.path_exponent", "gearbox.planet_bearing_stiffness_N_m"}));
     CHECK_FALSE(distinct_marches(scene).has_value());
-    const TileTask task(scene);
+    const BatchTask task(scene);
     Seconds seconds;
-    TileWorker(task).compute({Group::graded, 0, 0, 8}, seconds);
+    BatchWorker(task).compute({Group::graded, 0, 0, 8}, seconds);
     CHECK(task.marches.kept() == 0);
     const Scene errors(
         study_with(kSensorOnly, {"gearbox.pitch_error_um=1", "numerics.horizon=march"}));

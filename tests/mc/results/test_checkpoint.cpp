@@ -19,14 +19,14 @@ namespace {
 
 const RowShape kShape{2, 2, 3};
 const RunIdentity kIdentity{"gearpod 1 (git abc)", "7", "[ensemble]\nseed = 7\n", kShape};
-const TilePlan kPlan(20, 42);  // tiles of 16, 4, 16, 16, 10
+const BatchPlan kPlan(20, 42);  // batches of 16, 4, 16, 16, 10
 
-TileRows rows_of(const TilePlan& plan, std::size_t tile) {
-    TileRows rows;
-    for (std::size_t row = 0; row < plan.tile(tile).count; ++row) {
+BatchRows rows_of(const BatchPlan& plan, std::size_t batch) {
+    BatchRows rows;
+    for (std::size_t row = 0; row < plan.batch(batch).count; ++row) {
         rows.status.push_back(static_cast<int>(row % 3));
         for (std::size_t value = 0; value < kShape.values(); ++value) {
-            rows.values.push_back(100.0 * static_cast<double>(plan.tile(tile).first_row + row) +
+            rows.values.push_back(100.0 * static_cast<double>(plan.batch(batch).first_row + row) +
                                   0.1 * static_cast<double>(value));
         }
     }
@@ -34,8 +34,8 @@ TileRows rows_of(const TilePlan& plan, std::size_t tile) {
     return rows;
 }
 
-bool same(const TileRows& a, const TileRows& b) {
-    const auto bits = [](const TileRows& rows) {
+bool same(const BatchRows& a, const BatchRows& b) {
+    const auto bits = [](const BatchRows& rows) {
         std::vector<std::uint64_t> all;
         for (const double value : rows.values) {
             all.push_back(std::bit_cast<std::uint64_t>(value));
@@ -45,16 +45,16 @@ bool same(const TileRows& a, const TileRows& b) {
     return a.status == b.status && bits(a) == bits(b);
 }
 
-void fill(const std::string& path, const std::vector<std::size_t>& tiles) {
+void fill(const std::string& path, const std::vector<std::size_t>& batches) {
     const auto checkpoint = Checkpoint::create(path, kIdentity, kPlan);
-    for (const std::size_t tile : tiles) {
-        checkpoint->write(tile, rows_of(kPlan, tile));
+    for (const std::size_t batch : batches) {
+        checkpoint->write(batch, rows_of(kPlan, batch));
     }
     checkpoint->sync();
 }
 
 std::string reason_of(const std::string& path, const RunIdentity& identity = kIdentity,
-                      const TilePlan& plan = kPlan) {
+                      const BatchPlan& plan = kPlan) {
     try {
         Checkpoint::resume(path, identity, plan);
     } catch (const std::runtime_error& error) {
@@ -69,51 +69,51 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("A plan's tiles hold every row once, the threshold group's apart from the graded") {
+TEST_CASE("A plan's batches hold every row once, the threshold group's apart from the graded") {
     std::size_t row = 0;
-    for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
-        CHECK(kPlan.rows_before(tile) == row);
-        const Tile place = kPlan.tile(tile);
+    for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
+        CHECK(kPlan.rows_before(batch) == row);
+        const Batch place = kPlan.batch(batch);
         CHECK(place.first_row == row);
         CHECK(place.first_index == (row < 20 ? row : row - 20));
         for (std::size_t i = 0; i < place.count; ++i, ++row) {
-            CHECK(kPlan.tile_of_row(row) == tile);
+            CHECK(kPlan.batch_of_row(row) == batch);
             CHECK((place.group == Group::threshold) == (row < 20));
         }
     }
     CHECK(row == 62);
-    CHECK(kPlan.rows_before(kPlan.tiles()) == 62);
-    CHECK(kPlan.tiles() == 5);
+    CHECK(kPlan.rows_before(kPlan.batches()) == 62);
+    CHECK(kPlan.batches() == 5);
 }
 
-TEST_CASE("Finished tiles are there again, in whatever order they were written") {
+TEST_CASE("Finished batches are there again, in whatever order they were written") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {4, 0, 2});
     const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
     CHECK(checkpoint->findings().empty());
-    CHECK(checkpoint->tiles_done() == 3);
-    for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
-        CHECK(checkpoint->has(tile) == (tile == 0 || tile == 2 || tile == 4));
-        if (checkpoint->has(tile)) {
-            CHECK(same(checkpoint->read(tile), rows_of(kPlan, tile)));
+    CHECK(checkpoint->batches_done() == 3);
+    for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
+        CHECK(checkpoint->has(batch) == (batch == 0 || batch == 2 || batch == 4));
+        if (checkpoint->has(batch)) {
+            CHECK(same(checkpoint->read(batch), rows_of(kPlan, batch)));
         }
     }
     checkpoint->remove();
     CHECK(folder.empty());
 }
 
-TEST_CASE("A larger ensemble keeps all tiles but the one that it fills up") {
+TEST_CASE("A larger ensemble keeps all batches but the one that it fills up") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
-    const TilePlan larger(20, 80);
+    const BatchPlan larger(20, 80);
     const auto checkpoint = Checkpoint::resume(path, kIdentity, larger);
     CHECK(checkpoint->findings().empty());
-    for (std::size_t tile = 0; tile < larger.tiles(); ++tile) {
-        CHECK(checkpoint->has(tile) == (tile < 4));
+    for (std::size_t batch = 0; batch < larger.batches(); ++batch) {
+        CHECK(checkpoint->has(batch) == (batch < 4));
     }
-    CHECK(contains(reason_of(path, kIdentity, TilePlan(20, 40)), "80 graded gearboxes"));
+    CHECK(contains(reason_of(path, kIdentity, BatchPlan(20, 40)), "80 graded gearboxes"));
 }
 
 TEST_CASE("Another study, seed or version is refused with the reason") {
@@ -153,7 +153,7 @@ TEST_CASE("Two runs cannot work on one checkpoint") {
     CHECK(status == 0);
 }
 
-TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged tile is used") {
+TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 1, 2, 3, 4});
@@ -170,21 +170,21 @@ TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged tile is used") {
         write_bytes(path, damaged);
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         std::size_t there = 0;
-        for (std::size_t tile = 0; tile < kPlan.tiles(); ++tile) {
-            if (checkpoint->has(tile)) {
+        for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
+            if (checkpoint->has(batch)) {
                 ++there;
-                REQUIRE(same(checkpoint->read(tile), rows_of(kPlan, tile)));
+                REQUIRE(same(checkpoint->read(batch), rows_of(kPlan, batch)));
             }
         }
-        if (there < kPlan.tiles()) {
-            REQUIRE(there == kPlan.tiles() - 1);
+        if (there < kPlan.batches()) {
+            REQUIRE(there == kPlan.batches() - 1);
             REQUIRE(checkpoint->findings().size() == 1);
             REQUIRE(contains(checkpoint->findings()[0], "1 tile is damaged"));
             ++found;
         }
     }
     CHECK(refused > 20);
-    CHECK(found == 5 * 1176 / 3);  // every byte looked at of every tile
+    CHECK(found == 5 * 1176 / 3);  // every byte looked at of every batch
 }
 
 TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {
@@ -196,14 +196,14 @@ TEST_CASE("A truncated checkpoint is continued with what is left, and says what 
     write_bytes(path, bytes.substr(0, 4096 + 2 * record));
     {
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
-        CHECK(checkpoint->tiles_done() == 2);
+        CHECK(checkpoint->batches_done() == 2);
         REQUIRE(checkpoint->findings().size() == 1);
         CHECK(contains(checkpoint->findings()[0], "3 of 5 tiles"));
     }
     write_bytes(path, bytes.substr(0, 4096 + 4 * record + 100));
     {
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
-        CHECK(checkpoint->tiles_done() == 4);
+        CHECK(checkpoint->batches_done() == 4);
         CHECK(contains(checkpoint->findings()[0], "1 tile is damaged or incomplete"));
     }
     for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{60}}) {
@@ -214,7 +214,7 @@ TEST_CASE("A truncated checkpoint is continued with what is left, and says what 
     CHECK(contains(reason_of(path), "is not a checkpoint"));
 }
 
-TEST_CASE("A tile at another tile's place is not taken for it") {
+TEST_CASE("A batch at another batch's place is not taken for it") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     fill(path, {0, 2, 3});
@@ -228,7 +228,7 @@ TEST_CASE("A tile at another tile's place is not taken for it") {
     CHECK(checkpoint->findings().size() == 1);
 }
 
-TEST_CASE("A full disk is an error of the write, and the tiles before it stay") {
+TEST_CASE("A full disk is an error of the write, and the batches before it stay") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     std::signal(SIGXFSZ, SIG_IGN);
@@ -237,21 +237,21 @@ TEST_CASE("A full disk is an error of the write, and the tiles before it stay") 
     const rlimit small{4096 + 2000, limit.rlim_max};
     REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
     std::string reason;
-    std::size_t tile = 0;
+    std::size_t batch = 0;
     try {
         const auto checkpoint = Checkpoint::create(path, kIdentity, kPlan);
-        for (; tile < kPlan.tiles(); ++tile) {
-            checkpoint->write(tile, rows_of(kPlan, tile));
+        for (; batch < kPlan.batches(); ++batch) {
+            checkpoint->write(batch, rows_of(kPlan, batch));
         }
     } catch (const std::runtime_error& error) {
         reason = error.what();
     }
     REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
     CHECK(contains(reason, "r.h5.part: cannot be written (File too large)"));
-    REQUIRE(tile > 0);
+    REQUIRE(batch > 0);
     const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
-    CHECK(checkpoint->tiles_done() == tile);
-    for (std::size_t t = 0; t < tile; ++t) {
+    CHECK(checkpoint->batches_done() == batch);
+    for (std::size_t t = 0; t < batch; ++t) {
         CHECK(same(checkpoint->read(t), rows_of(kPlan, t)));
     }
 }

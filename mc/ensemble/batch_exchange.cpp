@@ -1,28 +1,32 @@
-#include "mc/ensemble/tile_exchange.hpp"
+#include "mc/ensemble/batch_exchange.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <thread>
+#include <utility>
 
 #include "machine/wall_clock.hpp"
-#include "mc/ensemble/tile_messages.hpp"
+#include "mc/ensemble/batch_messages.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 // How long a main thread sleeps between two looks for messages. Every look takes a processor, and
-// its caches, from a thread that computes; so it is rare while the threads have tiles ahead: within
-// a tile's time, a finished tile is seen and the next one fetched. A process alone looks for
-// signals only.
+// its caches, from a thread that computes; so it is rare while the threads have batches ahead:
+// within a batch's time, a finished batch is seen and the next one fetched. A process alone looks
+// for signals only.
 class Naps {
   public:
     explicit Naps(const Ranks& ranks) : alone_(ranks.size() == 1) {}
-    void finished(const FinishedTile& tile) { shortest_s_ = std::min(shortest_s_, tile.seconds); }
-    std::chrono::milliseconds next(bool tiles_ahead) const {
+    void finished(const FinishedBatch& batch) {
+        shortest_s_ = std::min(shortest_s_, batch.seconds);
+    }
+    std::chrono::milliseconds next(bool batches_ahead) const {
         if (alone_) {
             return kLongest;
         }
-        return tiles_ahead ? std::clamp(milliseconds(0.25 * shortest_s_), kShortest, kLongest)
-                           : kShortest;
+        return batches_ahead ? std::clamp(milliseconds(0.25 * shortest_s_), kShortest, kLongest)
+                             : kShortest;
     }
 
   private:
@@ -41,7 +45,7 @@ void say(const Ranks& ranks, int to, Say what, const std::vector<std::byte>& byt
 
 class Leader {
   public:
-    Leader(TileCrew& crew, const TilePlan& plan, const EnsembleRun& run)
+    Leader(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run)
         : crew_(crew),
           plan_(plan),
           run_(run),
@@ -63,7 +67,7 @@ class Leader {
             if (outstanding_ == 0) {
                 break;
             }
-            crew_.wait(naps_.next(tiles_ahead()));
+            crew_.wait(naps_.next(batches_ahead()));
             receive();
             consider_stopping();
             checkpoint();
@@ -71,24 +75,24 @@ class Leader {
         close();
         outcome_.crews[0].output = outcome_.output_s;
         outcome_.wall_s = seconds_since(start);
-        outcome_.tiles =
-            run_.watch != nullptr && run_.watch->enough() ? run_.watch->tiles() : first_missing();
+        outcome_.batches =
+            run_.watch != nullptr && run_.watch->enough() ? run_.watch->batches() : first_missing();
         return std::move(outcome_);
     }
 
   private:
-    // Tiles that a rank should have: one for each thread and one ahead, so that none waits for a
-    // message; none ahead near the end, where a tile queued at one rank would keep another idle.
+    // Batches that a rank should have: one for each thread and one ahead, so that none waits for a
+    // message; none ahead near the end, where a batch queued at one rank would keep another idle.
     std::size_t share(std::size_t rank) const {
-        return tiles_ahead() ? 2 * threads_[rank] : threads_[rank];
+        return batches_ahead() ? 2 * threads_[rank] : threads_[rank];
     }
-    bool tiles_ahead() const { return plan_.tiles() - next_ > 4 * all_threads_; }
+    bool batches_ahead() const { return plan_.batches() - next_ > 4 * all_threads_; }
 
     bool next_missing() {
-        while (next_ < plan_.tiles() && run_.store.has(next_)) {
+        while (next_ < plan_.batches() && run_.store.has(next_)) {
             ++next_;
         }
-        return next_ < plan_.tiles();
+        return next_ < plan_.batches();
     }
 
     void deal() {
@@ -103,13 +107,13 @@ class Leader {
         }
     }
 
-    void give(std::size_t rank, std::size_t tile) {
+    void give(std::size_t rank, std::size_t batch) {
         ++dealt_[rank];
         ++outstanding_;
         if (rank == 0) {
-            crew_.give(tile);
+            crew_.give(batch);
         } else {
-            say(run_.ranks, static_cast<int>(rank), Say::compute, bytes_of_number(tile));
+            say(run_.ranks, static_cast<int>(rank), Say::compute, bytes_of_number(batch));
         }
     }
 
@@ -121,7 +125,7 @@ class Leader {
             const auto rank = static_cast<std::size_t>(message->from);
             switch (static_cast<Say>(message->kind)) {
                 case Say::finished:
-                    accept(rank, tile_of(message->bytes));
+                    accept(rank, batch_of(message->bytes));
                     break;
                 case Say::dropped:
                     settle(rank, number_of(message->bytes));
@@ -133,26 +137,28 @@ class Leader {
                     outcome_.crews[rank] = times_of(message->bytes);
                     ++closed_;
                     break;
-                default:
-                    break;
+                case Say::compute:
+                case Say::drop:
+                case Say::close:
+                    break;  // rank 0's own words
             }
         }
     }
 
-    void settle(std::size_t rank, std::size_t tiles) {
-        dealt_[rank] -= tiles;
-        outstanding_ -= tiles;
+    void settle(std::size_t rank, std::size_t batches) {
+        dealt_[rank] -= batches;
+        outstanding_ -= batches;
     }
 
-    void accept(std::size_t rank, const FinishedTile& finished) {
+    void accept(std::size_t rank, const FinishedBatch& finished) {
         settle(rank, 1);
-        longest_tile_s_ = std::max(longest_tile_s_, finished.seconds);
+        longest_batch_s_ = std::max(longest_batch_s_, finished.seconds);
         naps_.finished(finished);
         if (!finished.failure.empty()) {
             fail(finished.failure);
             return;
         }
-        store([&] { run_.store.write(finished.tile, finished.rows); });
+        store([&] { run_.store.write(finished.batch, finished.rows); });
         look();
         run_.progress.advance(static_cast<long>(finished.rows.count()));
     }
@@ -201,8 +207,8 @@ class Leader {
         if (stopping_ || run_.interruption == nullptr) {
             return;
         }
-        // The tiles in work, once more for a guess, and saving as long as it took last.
-        const std::chrono::duration<double> ahead(1.5 * longest_tile_s_ + saving_s_);
+        // The batches in work, once more for a guess, and saving as long as it took last.
+        const std::chrono::duration<double> ahead(1.5 * longest_batch_s_ + saving_s_);
         interrupt(run_.interruption->reason(ahead));
     }
 
@@ -243,15 +249,15 @@ class Leader {
     }
 
     std::size_t first_missing() const {
-        std::size_t tile = 0;
-        while (tile < plan_.tiles() && run_.store.has(tile)) {
-            ++tile;
+        std::size_t batch = 0;
+        while (batch < plan_.batches() && run_.store.has(batch)) {
+            ++batch;
         }
-        return tile;
+        return batch;
     }
 
-    TileCrew& crew_;
-    const TilePlan plan_;
+    BatchCrew& crew_;
+    const BatchPlan plan_;
     const EnsembleRun& run_;
     Naps naps_;
     std::vector<std::size_t> dealt_, threads_;  // by rank
@@ -260,14 +266,14 @@ class Leader {
     std::size_t next_ = 0;
     int closed_ = 0;
     bool stopping_ = false, unwritable_ = false;
-    double longest_tile_s_ = 0.0, saving_s_ = 0.0;
+    double longest_batch_s_ = 0.0, saving_s_ = 0.0;
     WallClock::time_point last_sync_;
     EnsembleOutcome outcome_;
 };
 
 class Follower {
   public:
-    Follower(TileCrew& crew, const EnsembleRun& run)
+    Follower(BatchCrew& crew, const EnsembleRun& run)
         : crew_(crew),
           run_(run),
           naps_(run.ranks),
@@ -277,14 +283,14 @@ class Follower {
 
     void run() {
         while (!closed_) {
-            crew_.wait(naps_.next(tiles_ > threads_));
+            crew_.wait(naps_.next(batches_ > threads_));
             while (auto finished = crew_.take()) {
-                --tiles_;
+                --batches_;
                 naps_.finished(*finished);
                 if (!finished->failure.empty()) {
                     finished->failure = rank_name(run_.ranks) + ": " + finished->failure;
                 }
-                say(run_.ranks, 0, Say::finished, bytes_of_tile(*finished));
+                say(run_.ranks, 0, Say::finished, bytes_of_batch(*finished));
             }
             pass_on_signal();
             receive();
@@ -309,7 +315,7 @@ class Follower {
             switch (static_cast<Say>(message->kind)) {
                 case Say::compute:
                     crew_.give(number_of(message->bytes));
-                    ++tiles_;
+                    ++batches_;
                     break;
                 case Say::drop:
                     drop();
@@ -317,33 +323,36 @@ class Follower {
                 case Say::close:
                     closed_ = true;
                     break;
-                default:
-                    break;
+                case Say::finished:
+                case Say::dropped:
+                case Say::stop:
+                case Say::times:
+                    break;  // said to rank 0 only
             }
         }
     }
 
     void drop() {
         const std::size_t dropped = crew_.drop();
-        tiles_ -= dropped;
+        batches_ -= dropped;
         say(run_.ranks, 0, Say::dropped, bytes_of_number(dropped));
     }
 
-    TileCrew& crew_;
+    BatchCrew& crew_;
     const EnsembleRun& run_;
     Naps naps_;
     const std::size_t threads_;
-    std::size_t tiles_ = 0;  // given and not yet handed in
+    std::size_t batches_ = 0;  // given and not yet handed in
     bool closed_ = false, told_ = false;
 };
 
 }  // namespace
 
-EnsembleOutcome lead(TileCrew& crew, const TilePlan& plan, const EnsembleRun& run) {
+EnsembleOutcome lead(BatchCrew& crew, const BatchPlan& plan, const EnsembleRun& run) {
     return Leader(crew, plan, run).run();
 }
 
-EnsembleOutcome follow(TileCrew& crew, const EnsembleRun& run) {
+EnsembleOutcome follow(BatchCrew& crew, const EnsembleRun& run) {
     Follower(crew, run).run();
     return {};
 }

@@ -1,5 +1,5 @@
-// What ranks say to each other while they share tiles, as bytes. All ranks run the same program on
-// the same kind of machine.
+// What ranks say to each other while they share batches, as bytes. All ranks run the same program
+// on the same kind of machine.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "mc/ensemble/tile_crew.hpp"
+#include "mc/ensemble/batch_crew.hpp"
 
 namespace gearpod::mc {
 
 enum class Say {
-    compute,   // to a rank: a tile
-    drop,      // to a rank: begin no more of its tiles
+    compute,   // to a rank: a batch
+    drop,      // to a rank: begin no more of its batches
     close,     // to a rank: all is done
-    finished,  // to rank 0: a tile's rows, or what went wrong
-    dropped,   // to rank 0: how many tiles were not begun
+    finished,  // to rank 0: a batch's rows, or what went wrong
+    dropped,   // to rank 0: how many batches were not begun
     stop,      // to rank 0: a signal has come, its name
     times      // to rank 0: what the threads did, the last word
 };
@@ -27,8 +27,8 @@ std::size_t number_of(std::span<const std::byte> bytes);
 std::vector<std::byte> bytes_of_text(const std::string& text);
 std::string text_of(std::span<const std::byte> bytes);
 
-std::vector<std::byte> bytes_of_tile(const FinishedTile& tile);
-FinishedTile tile_of(std::span<const std::byte> bytes);
+std::vector<std::byte> bytes_of_batch(const FinishedBatch& batch);
+FinishedBatch batch_of(std::span<const std::byte> bytes);
 
 std::vector<std::byte> bytes_of_times(const CrewTimes& times);
 CrewTimes times_of(std::span<const std::byte> bytes);

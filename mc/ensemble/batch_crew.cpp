@@ -1,79 +1,91 @@
-#include "mc/ensemble/tile_crew.hpp"
+#include "mc/ensemble/batch_crew.hpp"
 
 #include <algorithm>
 #include <exception>
 
+#include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 
 namespace gearpod::mc {
-TileCrew::TileCrew(const TileTask& task, const TilePlan& plan, int threads) {
-    for (int i = 0; i < threads; ++i) {
-        threads_.emplace_back([this, &task, plan] { work(task, plan); });
-    }
+
+BatchCrew::BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads)
+    : first_([this, &task, &plan, threads] {
+          machine::run_team(threads, [&](int granted) {
+              note_size(granted);
+              work(task, plan);
+          });
+      }) {
+    std::unique_lock lock(mutex_);
+    begun_news_.wait(lock, [&] { return times_.threads > 0; });
 }
 
-TileCrew::~TileCrew() {
+BatchCrew::~BatchCrew() {
     drop();
     close();
 }
 
-void TileCrew::give(std::size_t tile) {
+void BatchCrew::give(std::size_t batch) {
     {
         const std::lock_guard lock(mutex_);
-        given_.push_back(tile);
+        given_.push_back(batch);
     }
     given_news_.notify_one();
 }
 
-std::size_t TileCrew::drop() {
+std::size_t BatchCrew::drop() {
     const std::lock_guard lock(mutex_);
     const std::size_t count = given_.size();
     given_.clear();
     return count;
 }
 
-std::optional<FinishedTile> TileCrew::take() {
+std::optional<FinishedBatch> BatchCrew::take() {
     const std::lock_guard lock(mutex_);
     if (finished_.empty()) {
         return std::nullopt;
     }
-    FinishedTile finished = std::move(finished_.front());
+    FinishedBatch finished = std::move(finished_.front());
     finished_.pop_front();
     return finished;
 }
 
-void TileCrew::wait(std::chrono::milliseconds most) {
+void BatchCrew::wait(std::chrono::milliseconds most) {
     std::unique_lock lock(mutex_);
     finished_news_.wait_for(lock, most, [&] { return !finished_.empty(); });
 }
 
-CrewTimes TileCrew::close() {
+CrewTimes BatchCrew::close() {
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;
     }
     given_news_.notify_all();
-    times_.threads = threads();
-    for (std::thread& thread : threads_) {
-        if (thread.joinable()) {
-            thread.join();
-        }
+    if (first_.joinable()) {
+        first_.join();
     }
     return times_;
 }
 
-std::optional<std::size_t> TileCrew::next_tile() {
+void BatchCrew::note_size(int threads) {
+    {
+        const std::lock_guard lock(mutex_);
+        times_.threads = threads;
+    }
+    begun_news_.notify_one();
+}
+
+std::optional<std::size_t> BatchCrew::next_batch() {
     std::unique_lock lock(mutex_);
     given_news_.wait(lock, [&] { return closed_ || !given_.empty(); });
     if (given_.empty()) {
         return std::nullopt;
     }
-    const std::size_t tile = given_.front();
+    const std::size_t batch = given_.front();
     given_.pop_front();
-    return tile;
+    return batch;
 }
 
-void TileCrew::hand_in(FinishedTile finished) {
+void BatchCrew::hand_in(FinishedBatch finished) {
     {
         const std::lock_guard lock(mutex_);
         finished_.push_back(std::move(finished));
@@ -81,20 +93,20 @@ void TileCrew::hand_in(FinishedTile finished) {
     finished_news_.notify_one();
 }
 
-// A thread's life. Nothing may leave it by an exception.
-void TileCrew::work(const TileTask& task, const TilePlan& plan) {
+// A thread's life. An exception would end it, and its batch would never come back.
+void BatchCrew::work(const BatchTask& task, const BatchPlan& plan) noexcept {
     const auto birth = WallClock::now();
-    std::optional<TileWorker> worker;
+    std::optional<BatchWorker> worker;
     Seconds seconds;
-    while (const auto tile = next_tile()) {
-        FinishedTile finished;
-        finished.tile = *tile;
+    while (const auto batch = next_batch()) {
+        FinishedBatch finished;
+        finished.batch = *batch;
         const auto start = WallClock::now();
         try {
             if (!worker) {
                 worker.emplace(task);
             }
-            finished.rows = worker->compute(plan.tile(*tile), seconds);
+            finished.rows = worker->compute(plan.batch(*batch), seconds);
         } catch (const std::exception& error) {
             finished.failure = error.what();
         }

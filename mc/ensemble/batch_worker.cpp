@@ -1,4 +1,4 @@
-#include "mc/ensemble/tile_worker.hpp"
+#include "mc/ensemble/batch_worker.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -23,17 +23,17 @@ RowShape row_shape(const Sampler& sampler, const Study& study) {
     return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size()};
 }
 
-TileWorker::TileWorker(const TileTask& task)
+BatchWorker::BatchWorker(const BatchTask& task)
     : task_(task),
       features_(task.scene, &task.healthy),
       shape_(row_shape(task.sampler, task.scene.study())) {}
 
-TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
+BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     std::vector<GearboxId> ids;
-    for (std::size_t i = 0; i < tile.count; ++i) {
-        ids.push_back({tile.group, tile.first_index + i});
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        ids.push_back({batch.group, batch.first_index + i});
     }
-    TileRows rows;
+    BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
     for (std::size_t first = 0; first < ids.size(); first += lanes) {
         add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), rows, seconds);
@@ -42,7 +42,7 @@ TileRows TileWorker::compute(const Tile& tile, Seconds& seconds) {
 }
 
 // As many gearboxes as there are lanes.
-void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds) {
+void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seconds& seconds) {
     const GearboxTile computed =
         run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
                       task_.scene.study().numerics.lanes, false, &task_.marches);
@@ -58,8 +58,8 @@ void TileWorker::add_rows(std::span<const GearboxId> ids, TileRows& rows, Second
          spent_s - noise,     computed.meshes};
 }
 
-void TileWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,
-                         TileRows& rows) {
+void BatchWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,
+                          BatchRows& rows) {
     const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
     rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
     const Status status = computed.status[static_cast<std::size_t>(lane)];

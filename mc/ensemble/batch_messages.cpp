@@ -1,4 +1,4 @@
-#include "mc/ensemble/tile_messages.hpp"
+#include "mc/ensemble/batch_messages.hpp"
 
 #include <cstring>
 
@@ -73,24 +73,24 @@ std::string text_of(std::span<const std::byte> bytes) {
     return Unpacker(bytes).get_list<std::string>();
 }
 
-std::vector<std::byte> bytes_of_tile(const FinishedTile& tile) {
+std::vector<std::byte> bytes_of_batch(const FinishedBatch& batch) {
     Packer packer;
-    packer.put(tile.tile);
-    packer.put(tile.seconds);
-    packer.put_list(tile.rows.status);
-    packer.put_list(tile.rows.values);
-    packer.put_list(tile.failure);
+    packer.put(batch.batch);
+    packer.put(batch.seconds);
+    packer.put_list(batch.rows.status);
+    packer.put_list(batch.rows.values);
+    packer.put_list(batch.failure);
     return packer.take();
 }
-FinishedTile tile_of(std::span<const std::byte> bytes) {
+FinishedBatch batch_of(std::span<const std::byte> bytes) {
     Unpacker unpacker(bytes);
-    FinishedTile tile;
-    tile.tile = unpacker.get<std::size_t>();
-    tile.seconds = unpacker.get<double>();
-    tile.rows.status = unpacker.get_list<std::vector<int>>();
-    tile.rows.values = unpacker.get_list<std::vector<double>>();
-    tile.failure = unpacker.get_list<std::string>();
-    return tile;
+    FinishedBatch batch;
+    batch.batch = unpacker.get<std::size_t>();
+    batch.seconds = unpacker.get<double>();
+    batch.rows.status = unpacker.get_list<std::vector<int>>();
+    batch.rows.values = unpacker.get_list<std::vector<double>>();
+    batch.failure = unpacker.get_list<std::string>();
+    return batch;
 }
 
 std::vector<std::byte> bytes_of_times(const CrewTimes& times) {

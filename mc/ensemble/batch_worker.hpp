@@ -1,4 +1,4 @@
-// Computes tiles: from a tile's place in the ensemble to its rows.
+// Computes batches: from a batch's place in the ensemble to its rows.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "mc/gearbox/healthy_reference.hpp"
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/gearbox/march_cache.hpp"
-#include "mc/results/tile_rows.hpp"
+#include "mc/results/batch_rows.hpp"
 
 namespace gearpod::mc {
 
@@ -26,8 +26,8 @@ struct Seconds {
 RowShape row_shape(const Sampler& sampler, const Study& study);
 
 // What all workers share, made once.
-struct TileTask {
-    explicit TileTask(const Scene& shared_scene)
+struct BatchTask {
+    explicit BatchTask(const Scene& shared_scene)
         : scene(shared_scene),
           sampler(scene.study()),
           path(path_grid(scene)),
@@ -42,19 +42,19 @@ struct TileTask {
 };
 
 // Holds scratch memory: one object per thread.
-class TileWorker {
+class BatchWorker {
   public:
-    explicit TileWorker(const TileTask& task);
+    explicit BatchWorker(const BatchTask& task);
 
     // The same bits whatever the lanes and whatever was computed before. Adds its time to
     // `seconds`.
-    TileRows compute(const Tile& tile, Seconds& seconds);
+    BatchRows compute(const Batch& batch, Seconds& seconds);
 
   private:
-    void add_rows(std::span<const GearboxId> ids, TileRows& rows, Seconds& seconds);
-    void add_row(const GearboxId& id, const GearboxTile& computed, int lane, TileRows& rows);
+    void add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seconds& seconds);
+    void add_row(const GearboxId& id, const GearboxTile& computed, int lane, BatchRows& rows);
 
-    const TileTask& task_;
+    const BatchTask& task_;
     InstanceFeatures features_;
     RowShape shape_;
 };

@@ -1,0 +1,91 @@
+// The rows of an ensemble and the batches that are computed, stored and exchanged as one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mc/random/philox.hpp"
+
+namespace gearpod::mc {
+
+// Gearboxes of a batch, whatever the lanes: the unit of work must not depend on who does it.
+inline constexpr int kBatchRows = 16;
+
+// Numbers in a row: the parameters, of which the last is the fault's size, then features x noise
+// levels.
+struct RowShape {
+    std::size_t parameters = 0;
+    std::size_t features = 0;
+    std::size_t levels = 0;
+
+    std::size_t values() const { return parameters + features * levels; }
+    std::size_t value_of(std::size_t feature, std::size_t level) const {
+        return parameters + feature * levels + level;
+    }
+    bool operator==(const RowShape&) const = default;
+};
+
+// Up to kBatchRows rows.
+struct BatchRows {
+    std::vector<int> status;     // Status by row
+    std::vector<double> values;  // rows x RowShape::values()
+
+    std::size_t count() const { return status.size(); }
+};
+
+// Consecutive gearboxes of one group.
+struct Batch {
+    Group group = Group::graded;
+    std::uint64_t first_index = 0;  // in the group
+    std::size_t first_row = 0;      // in the results
+    std::size_t count = 0;
+};
+
+// All batches of an ensemble: first the threshold group's, then the graded group's. A larger graded
+// group begins with the batches of a smaller one, but for the last, which may be filled up.
+class BatchPlan {
+  public:
+    BatchPlan(std::int64_t threshold_instances, std::int64_t instances);
+
+    std::size_t rows() const { return threshold_rows_ + graded_rows_; }
+    std::size_t threshold_rows() const { return threshold_rows_; }
+    std::size_t graded_rows() const { return graded_rows_; }
+    std::size_t batches() const { return threshold_batches() + batches_of(graded_rows_); }
+    std::size_t threshold_batches() const { return batches_of(threshold_rows_); }
+    Batch batch(std::size_t index) const;
+    std::size_t batch_of_row(std::size_t row) const;
+    // Rows of the first `batches` batches.
+    std::size_t rows_before(std::size_t batches) const;
+
+  private:
+    static std::size_t batches_of(std::size_t rows) { return (rows + kBatchRows - 1) / kBatchRows; }
+
+    std::size_t threshold_rows_, graded_rows_;
+};
+
+// Finished batches by their number.
+class RowStore {
+  public:
+    virtual ~RowStore() = default;
+    virtual bool has(std::size_t batch) const = 0;
+    virtual BatchRows read(std::size_t batch) const = 0;
+    virtual void write(std::size_t batch, const BatchRows& rows) = 0;
+    // What was written is safe from now on.
+    virtual void sync() {}
+};
+
+// In memory.
+class MemoryRows final : public RowStore {
+  public:
+    explicit MemoryRows(std::size_t batches) : batches_(batches) {}
+    bool has(std::size_t batch) const override { return batches_[batch].count() > 0; }
+    BatchRows read(std::size_t batch) const override { return batches_[batch]; }
+    void write(std::size_t batch, const BatchRows& rows) override { batches_[batch] = rows; }
+
+  private:
+    std::vector<BatchRows> batches_;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,69 @@
+#include "machine/team.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+
+namespace gearpod::machine {
+namespace {
+
+// Nothing may leave a parallel region by an exception: the last one is kept here until its end.
+class Failure {
+  public:
+    template <class Action>
+    void keep_from(Action action) noexcept {
+        try {
+            action();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            what_ = std::current_exception();
+        }
+    }
+    void rethrow() const {
+        if (what_) {
+            std::rethrow_exception(what_);
+        }
+    }
+
+  private:
+    std::mutex mutex_;
+    std::exception_ptr what_;
+};
+
+}  // namespace
+
+void run_team(int threads, const std::function<void(int)>& work) {
+    Failure failure;
+#pragma omp parallel num_threads(threads)
+    failure.keep_from([&] { work(omp_get_num_threads()); });
+    failure.rethrow();
+}
+
+void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+    const auto most = std::clamp<std::size_t>(count, 1, static_cast<std::size_t>(threads));
+    Failure failure;
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(most))
+    for (std::size_t i = 0; i < count; ++i) {
+        failure.keep_from([&] { work(i); });
+    }
+    failure.rethrow();
+}
+
+int processors() {
+    return omp_get_num_procs();
+}
+
+int threads_asked_for() {
+    const char* text = std::getenv("OMP_NUM_THREADS");
+    const long first = text == nullptr ? 0 : std::strtol(text, nullptr, 10);
+    return first == omp_get_max_threads() ? static_cast<int>(first) : 0;
+}
+
+int most_threads() {
+    return omp_get_thread_limit();
+}
+
+}  // namespace gearpod::machine

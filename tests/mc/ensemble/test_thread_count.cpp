@@ -1,0 +1,119 @@
+// How many threads a run takes, and where they run: OMP_NUM_THREADS, OMP_THREAD_LIMIT and
+// numerics.threads, the ranks beside it, OMP_PROC_BIND and OMP_PLACES.
+#include <algorithm>
+#include <sstream>
+
+#include "machine/team.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::Folder;
+
+namespace {
+
+// Five batches.
+std::string run_of(const Folder& folder) {
+    return "run " + test::study("planet-crack.toml") +
+           " --instances 48 --set ensemble.threshold_instances=32"
+           " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
+           " --set sensor.encoder_sampling_Hz=20000 --out " +
+           folder.file("r.h5");
+}
+
+const std::string kProgram = std::string(GEARPOD_PROGRAM) + " ";
+
+// A command's beginning, whatever the environment of the tests.
+std::string with(const std::string& environment) {
+    return "unset OMP_NUM_THREADS OMP_THREAD_LIMIT OMP_PROC_BIND OMP_PLACES; " + environment + " ";
+}
+
+// What the run says of its threads.
+void check_threads(const std::string& environment, const std::string& more, int threads) {
+    const Folder folder;
+    const test::Outcome run = test::shell(with(environment) + kProgram + run_of(folder) + more);
+    INFO(environment << more << "\n" << run.output);
+    CHECK(run.code == 0);
+    CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
+                       (threads == 1 ? "" : "s") + " in all"));
+}
+
+}  // namespace
+
+TEST_CASE("OMP_NUM_THREADS says how many threads, numerics.threads overrules, the limit holds") {
+    const std::string own = " --set numerics.threads=";
+    check_threads("OMP_NUM_THREADS=3", "", 3);
+    check_threads("OMP_NUM_THREADS=2,4", "", 2);
+    check_threads("OMP_NUM_THREADS=3", own + "1", 1);
+    check_threads("OMP_NUM_THREADS=1", own + "3", 3);
+    check_threads("OMP_NUM_THREADS=3 OMP_THREAD_LIMIT=2", "", 2);
+    check_threads("OMP_THREAD_LIMIT=2", own + "3", 2);
+    // More than there are batches have nothing to do.
+    check_threads("OMP_NUM_THREADS=64", "", 5);
+}
+
+TEST_CASE("What OMP_NUM_THREADS does not say well counts as not said, and OpenMP tells so") {
+    const int processors = std::min(5, machine::processors());
+    check_threads("", "", processors);
+    check_threads("OMP_NUM_THREADS=many", "", processors);
+    check_threads("OMP_NUM_THREADS=0", "", processors);
+    const Folder folder;
+    CHECK(test::shell(with("OMP_NUM_THREADS=many") + kProgram + run_of(folder))
+              .mentions("OMP_NUM_THREADS"));
+}
+
+TEST_CASE("Ranks share a machine's processors, but not what OMP_NUM_THREADS gives to each") {
+    const auto in_all = [](const std::string& environment) {
+        const Folder folder;
+        const test::Outcome run = test::shell(with(environment) + test::mpirun(2) +
+                                              "--bind-to none " + kProgram + run_of(folder));
+        INFO(run.output);
+        const auto at = run.output.find("(2 ranks, ");
+        REQUIRE(at != std::string::npos);
+        return std::stoi(run.output.substr(at + 10));
+    };
+    CHECK(in_all("OMP_NUM_THREADS=2") == 4);
+    if (machine::processors() <= 4) {  // more would be more threads than batches
+        CHECK(in_all("") == 2 * std::max(1, machine::processors() / 2));
+    }
+}
+
+TEST_CASE("A forecast is one of the run's threads") {
+    for (const int threads : {1, 3}) {
+        const auto forecast = test::shell(
+            with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
+            test::study("planet-crack.toml") + " --set operation.carrier_speed_rpm=60" +
+            " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
+        INFO(forecast.output);
+        std::istringstream lines(forecast.output);
+        std::string name, count;
+        while (lines >> name && name != "threads") {
+        }
+        lines >> count;
+        CHECK(count == std::to_string(threads) + ",");
+    }
+}
+
+TEST_CASE("The team alone has the places: each thread one, the main thread none of its own") {
+    if (machine::processors() < 2) {
+        WARN("one processor: there is nothing to bind to");
+        return;
+    }
+    const Folder folder;
+    const auto run = test::shell(
+        with("OMP_NUM_THREADS=2 OMP_PROC_BIND=true OMP_PLACES=threads OMP_DISPLAY_AFFINITY=TRUE "
+             "OMP_AFFINITY_FORMAT='<%n of %N at %A>'") +
+        kProgram + run_of(folder) + " --quiet");
+    INFO(run.output);
+    CHECK(run.code == 0);
+    std::vector<std::string> places;
+    for (const std::string thread : {"<0 of 2 at ", "<1 of 2 at "}) {
+        const auto at = run.output.find(thread);
+        REQUIRE(at != std::string::npos);
+        const auto end = run.output.find('>', at);
+        places.push_back(run.output.substr(at + thread.size(), end - at - thread.size()));
+    }
+    CHECK(places[0] != places[1]);
+    CHECK(places[0].find_first_of("-,") == std::string::npos);
+    CHECK(places[1].find_first_of("-,") == std::string::npos);
+    CHECK_FALSE(run.mentions("of 3"));
+}
