@@ -1,5 +1,5 @@
 // A study: everything a study file (TOML) says, checked, in SI units and radians.
-// The keys, their units, defaults and ranges are the table in schema_keys.cpp.
+// The keys, their units, defaults and ranges are the table in schema/*_keys.cpp.
 #pragma once
 
 #include <cstdint>

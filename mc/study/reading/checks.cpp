@@ -6,7 +6,8 @@
 #include "machine/lanes.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

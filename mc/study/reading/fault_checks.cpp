@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mc/study/gears.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

@@ -1,4 +1,7 @@
 // Keys of [fault]. Each kind of fault has one size, the only key that may be random.
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+#include "mc/study/schema/presence.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {

@@ -6,7 +6,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr Presence kOptional{Need::optional, "", {}};
+const Presence kOptional{Need::optional, "", {}};
 constexpr std::string_view kProfile = "gearbox.tooth_profile";
 constexpr std::string_view kMotion = "effects.motion";
 
@@ -18,7 +18,7 @@ bool planet_fault(const Study& s) {
     return s.fault.kind != FaultKind::none && s.fault.member == Member::planet;
 }
 
-Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
+Presence damping(const Study& s, MeshDamping kind, const std::string& why) {
     if (s.effects.quasi_static()) {
         return kOptional;
     }
@@ -27,17 +27,17 @@ Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
 }
 
 // Required with that key, and else forbidden.
-Presence with(const std::optional<double>& given, std::string_view because, std::string_view only,
-              std::string_view governor) {
+Presence with(const std::optional<double>& given, const std::string& because,
+              const std::string& only, std::string_view governor) {
     return given ? Presence{Need::required, because, {governor}}
                  : Presence{Need::forbidden, only, {governor}};
 }
 
 struct FaultWords {
     FaultKind kind;
-    std::string_view only, because;
+    std::string only, because;
 };
-constexpr FaultWords kFaultWords[] = {
+const FaultWords kFaultWords[] = {
     {FaultKind::crack, "only for fault.kind = \"crack\"", "fault.kind is \"crack\""},
     {FaultKind::spatial_crack, "only for fault.kind = \"spatial-crack\"",
      "fault.kind is \"spatial-crack\""},
@@ -65,7 +65,7 @@ Presence may(const Study&) {
     return kOptional;
 }
 
-Presence of_kind(const Study& s, GearboxKind kind, PresenceRule rule) {
+Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&)) {
     if (s.gearbox.kind != kind) {
         return {Need::forbidden,
                 kind == GearboxKind::planetary ? "only for gearbox.kind = \"planetary\""

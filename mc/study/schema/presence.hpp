@@ -1,7 +1,7 @@
 // Which keys must, may or must not be given, depending on the choices of a study.
 #pragma once
 
-#include "mc/study/schema/schema.hpp"
+#include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
 
@@ -9,12 +9,12 @@ Presence always(const Study&);
 Presence may(const Study&);
 
 // A key of one kind of gearbox only; there Rule decides.
-Presence of_kind(const Study&, GearboxKind kind, PresenceRule rule);
-template <PresenceRule Rule>
+Presence of_kind(const Study&, GearboxKind kind, Presence (*rule)(const Study&));
+template <Presence (*Rule)(const Study&)>
 Presence planetary(const Study& s) {
     return of_kind(s, GearboxKind::planetary, Rule);
 }
-template <PresenceRule Rule>
+template <Presence (*Rule)(const Study&)>
 Presence fixed_shaft(const Study& s) {
     return of_kind(s, GearboxKind::fixed_shaft, Rule);
 }

@@ -1,5 +1,8 @@
 // Keys of [sensor], [features], [detection], [numerics] and [ensemble].
 #include "features/feature.hpp"
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+#include "mc/study/schema/presence.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {

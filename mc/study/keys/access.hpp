@@ -2,7 +2,11 @@
 // number<&Gearbox::module_m>.
 #pragma once
 
-#include "mc/study/schema/schema.hpp"
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
 
@@ -39,6 +43,11 @@ struct Inner<std::optional<Type>> {
 template <auto Member>
 using MemberType =
     typename Inner<std::remove_cvref_t<decltype(std::declval<PartOf<Member>>().*Member)>>::type;
+
+template <class Enum>
+constexpr ChoiceName name(std::string_view text, Enum value) {
+    return {text, static_cast<int>(value)};
+}
 
 // `Shown` is the schema's type for the member's: int64 for an int, int for an enumeration.
 template <auto Member, class Shown>
