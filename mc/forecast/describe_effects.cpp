@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mc/scene/sampling.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -143,7 +144,7 @@ void print_driving_left_out(const Study& study) {
 }
 
 void print_fault(const Study& study) {
-    if (study.fault.kind == FaultKind::none) {
+    if (study.fault.kind == nullptr) {
         return;
     }
     std::string where(member_name(*study.fault.member));
@@ -151,11 +152,7 @@ void print_fault(const Study& study) {
         where += fmt::format(" {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
                              study.fault.side == FaultSide::both ? "s" : "");
     }
-    print_entry("fault",
-                fmt::format("{} on the {}",
-                            study.fault.kind == FaultKind::crack ? "tooth crack"
-                                                                 : choice(study, "fault", "kind"),
-                            where));
+    print_entry("fault", fmt::format("{} on the {}", study.fault.kind->title(), where));
 }
 
 void print_sensor(const Study& study) {
@@ -201,7 +198,7 @@ void print_left_out(const Scene& scene) {
     if (!stiffness_given(study) && e.foundation == Foundation::none) {
         print_entry("gear bodies", "effects.foundation = \"none\"");
     }
-    if (study.fault.kind == FaultKind::none) {
+    if (study.fault.kind == nullptr) {
         print_entry("fault", "fault.kind = \"none\"");
     }
     if (!e.quasi_static() && !sensor_noise(study)) {

@@ -10,10 +10,13 @@
 #include "dynamics/effects/mesh_damping.hpp"
 #include "mc/input/problems.hpp"
 #include "mc/study/distributions/distribution.hpp"
+#include "mc/study/fault_shapes.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 
 namespace gearpod::mc {
+
+class FaultKind;  // mc/study/faults/fault_kind.hpp
 
 enum class GearboxKind { planetary, fixed_shaft };
 enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
@@ -24,7 +27,6 @@ using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
 using stiffness::Contact;
 enum class PathWindow { hamming, hann, rectangular, none };
-enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
 enum class FaultSide { ring, sun, both };
 enum class Integrator {
     automatic,
@@ -164,34 +166,13 @@ struct Effects {
     bool operator==(const Effects&) const = default;
 };
 
-// Every kind has one size: depth, stage, chip, pit width, broken or reduction.
+// What a kind needs besides is its own file's business (mc/study/faults).
 struct Fault {
-    FaultKind kind = FaultKind::none;
-    std::optional<Member> member;   // of the gearbox's toothed members
-    std::optional<FaultSide> side;  // of a planet tooth
-    int planet = 1;                 // 1..planets
-
-    std::optional<double> depth_m;           // crack: along it
-    double angle_rad = 0.78539816339744828;  // 45 degrees, Liang (2016), section 3.1
-
-    // Spatial crack, Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
-    std::optional<double> stage;  // 0: healthy; between entries linear
-    std::vector<double> growth_depth_m, growth_end_depth_m, growth_length_m, growth_height_m,
-        growth_end_height_m;
-    std::optional<double> end_angle_rad;  // by default angle_rad
-    double height_wave = 0.0;
-    double height_waves = 0.0;
-    int slices = 16;
-
-    std::optional<double> chip_m;         // along the face width, at the tip
-    std::optional<double> chip_height_m;  // along the tooth
-
-    std::optional<double> pit_width_m;  // along the face width
-    std::optional<double> pit_depth_m, pit_length_m,
-        pit_radius_m;  // along the profile, centre of the band
-    int teeth = 1;     // neighbouring pitted teeth
-
-    std::optional<double> broken, reduction;  // share of the pair's stiffness that is lost, 0..1
+    const FaultKind* kind = nullptr;  // of all_faults(); null without a fault
+    std::optional<Member> member;     // of the gearbox's toothed members
+    std::optional<FaultSide> side;    // of a planet tooth
+    int planet = 1;                   // 1..planets
+    FaultShapes shapes;
 
     bool operator==(const Fault&) const = default;
 };

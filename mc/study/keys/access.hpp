@@ -1,5 +1,5 @@
 // Turns a member of one of Study's parts into the access that a schema line holds:
-// number<&Gearbox::module_m>.
+// number<&Gearbox::module_m>. The shape of a fault is such a part, too.
 #pragma once
 
 #include <tuple>
@@ -23,6 +23,14 @@ Part& part_of(Study& s) {
 template <class Part>
 const Part& part_of(const Study& s) {
     return std::get<const Part&>(parts(s));
+}
+template <std::derived_from<FaultShape> Part>
+Part& part_of(Study& s) {
+    return s.fault.shapes.edit<Part>();
+}
+template <std::derived_from<FaultShape> Part>
+const Part& part_of(const Study& s) {
+    return s.fault.shapes.get<Part>();
 }
 
 template <class Part, class Type>
