@@ -156,9 +156,9 @@ void print_fault(const Study& study) {
 }
 
 void print_sensor(const Study& study) {
-    if (study.effects.path != PathWindow::none) {
+    if (study.effects.path != nullptr) {
         print_entry("transmission path",
-                    fmt::format("{} window, exponent {:g}", choice(study, "effects", "path"),
+                    fmt::format("{} window, exponent {:g}", study.effects.path->name,
                                 study.sensor.path_exponent));
     } else {
         print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",

@@ -11,6 +11,7 @@
 #include "mc/input/problems.hpp"
 #include "mc/study/distributions/distribution.hpp"
 #include "mc/study/fault_shapes.hpp"
+#include "signals/path/path_window.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 
@@ -26,7 +27,6 @@ enum class Separation { none, one_sided, two_sided };
 using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
 using stiffness::Contact;
-enum class PathWindow { hamming, hann, rectangular, none };
 enum class FaultSide { ring, sun, both };
 enum class Integrator {
     automatic,
@@ -154,7 +154,8 @@ struct Effects {
     MeshDamping mesh_damping = MeshDamping::ratio;
     bool gravity = false;
     double gravity_direction_rad = -1.5707963267948966;  // in the housing; down
-    PathWindow path = PathWindow::hamming;  // in a file by default none where no path leads
+    // Null: no path leads to a sensor, in a file by default where it is so.
+    const signals::PathWindow* path = &signals::path_window("hamming");
 
     bool quasi_static() const {
         return motion == Motion::quasi_static || motion == Motion::quasi_static_torsional;

@@ -2,6 +2,7 @@
 // number<&Gearbox::module_m>. The shape of a fault is such a part, too.
 #pragma once
 
+#include <concepts>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -77,6 +78,37 @@ constexpr BooleanAccess boolean{get_member<Member, bool>, set_member<Member, boo
 template <auto Member>
 constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
     return {get_member<Member, int>, set_member<Member, int>, names};
+}
+
+// One of a list, to which the member points; null stands for none of them. Shown as its place in
+// the list, counted from 1, and 0 for none.
+template <class Entry>
+const Entry* address(const Entry& entry) {
+    return &entry;
+}
+template <class Entry>
+const Entry* address(const Entry* entry) {
+    return entry;
+}
+template <auto Member, auto List>
+std::optional<int> get_listed(const Study& s) {
+    int place = 0;
+    for (const auto& entry : List()) {
+        ++place;
+        if (address(entry) == part_of<PartOf<Member>>(s).*Member) {
+            return place;
+        }
+    }
+    return 0;
+}
+template <auto Member, auto List>
+void set_listed(Study& s, int place) {
+    part_of<PartOf<Member>>(s).*Member =
+        place > 0 ? address(List()[static_cast<std::size_t>(place - 1)]) : nullptr;
+}
+template <auto Member, auto List>
+constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {
+    return {get_listed<Member, List>, set_listed<Member, List>, names};
 }
 
 template <auto Member>

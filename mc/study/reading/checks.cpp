@@ -51,7 +51,7 @@ void check_path(StudyDraft& draft) {
         return;
     }
     const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
-    const bool none = s.effects.path == PathWindow::none;
+    const bool none = s.effects.path == nullptr;
     if (s.effects.quasi_static() && !none) {
         draft.reject("effects.path",
                      "leads nothing to a sensor (a quasi-static gearbox has no accelerations: "

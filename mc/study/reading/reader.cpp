@@ -130,7 +130,7 @@ void fill_path(StudyDraft& draft) {
     Study& study = draft.study;
     if (!draft.is_given("effects.path") &&
         (study.gearbox.kind == GearboxKind::fixed_shaft || study.effects.quasi_static())) {
-        study.effects.path = PathWindow::none;
+        study.effects.path = nullptr;
     }
 }
 

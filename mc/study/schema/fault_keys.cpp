@@ -16,7 +16,6 @@ constexpr ChoiceName kToothed[] = {name("planet", Member::planet), name("sun", M
 constexpr ChoiceName kSides[] = {name("ring", FaultSide::ring), name("sun", FaultSide::sun),
                                  name("both", FaultSide::both)};
 
-// 0 is no fault, n the n-th kind.
 std::span<const ChoiceName> kind_names() {
     static const std::vector<ChoiceName> names = [] {
         std::vector<ChoiceName> all{{"none", 0}};
@@ -26,14 +25,6 @@ std::span<const ChoiceName> kind_names() {
         return all;
     }();
     return names;
-}
-std::optional<int> get_kind(const Study& s) {
-    const auto kinds = all_faults();
-    const auto found = std::find(kinds.begin(), kinds.end(), s.fault.kind);
-    return found == kinds.end() ? 0 : static_cast<int>(found - kinds.begin()) + 1;
-}
-void set_kind(Study& s, int value) {
-    s.fault.kind = value == 0 ? nullptr : all_faults()[static_cast<std::size_t>(value) - 1];
 }
 
 std::string is_kind(const FaultKind& kind) {
@@ -93,7 +84,7 @@ Presence of_kinds(const Study& s, std::string_view name) {
 
 // clang-format off
 const Key kKeys[] = {
-    {"fault", "kind", ChoiceAccess{get_kind, set_kind, kind_names()}, kNone, kAny, always, kShared, "kind of fault"},
+    {"fault", "kind", listed<&Fault::kind, all_faults>(kind_names()), kNone, kAny, always, kShared, "kind of fault"},
     {"fault", "member", choice<&Fault::member>(kToothed), kNone, kAny, faulty_member, kShared, "gear with the faulty tooth"},
     {"fault", "side", choice<&Fault::side>(kSides), kNone, kAny, planet_side, kShared, "mesh in which a planet's fault acts"},
     {"fault", "planet", integer<&Fault::planet>, kNone, from_to(1, 8), planet_number, kShared, "number of the faulty planet"},

@@ -276,14 +276,24 @@ TEST_CASE("Each kind of fault has one size, with its unit") {
 
 TEST_CASE("What a motion and a gearbox leave no room for is off by default") {
     const Study quasi = study_of(kQuasiStaticStudy), shaft = study_of(kFixedShaftStudy);
-    CHECK(quasi.effects.path == PathWindow::none);
-    CHECK(shaft.effects.path == PathWindow::none);
-    CHECK(study_of(kExampleStudy).effects.path == PathWindow::hamming);
+    CHECK(quasi.effects.path == nullptr);
+    CHECK(shaft.effects.path == nullptr);
+    CHECK(study_of(kExampleStudy).effects.path->name == "hamming");
     CHECK(quasi.features.use ==
           std::vector<std::string>{"te_rms", "te_kurtosis", "te_fc", "te_fm0"});
     CHECK(shaft.features.use.size() == 7);
     CHECK(quasi.operation.torque_on == Member::carrier);
     CHECK(study_of(kExampleStudy, {"operation.input=carrier"}).operation.torque_on == Member::sun);
+}
+
+TEST_CASE("A study can name every path window, and none") {
+    for (const gearpod::signals::PathWindow& window : gearpod::signals::path_windows()) {
+        const Study study = study_of(kExampleStudy, {"effects.path=" + std::string(window.name)});
+        CHECK(study.effects.path == &window);
+        CHECK(choice_text(study, "effects", "path") == window.name);
+        CHECK(study_of(resolved_text(study)) == study);
+    }
+    CHECK(choice_text(study_of(kQuasiStaticStudy), "effects", "path") == "none");
 }
 
 TEST_CASE("Lists of errors keep their order and come in SI units") {
