@@ -10,23 +10,6 @@
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-void choose_instruction_set(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::baseline:
-            return machine::use_instruction_set(machine::InstructionSet::baseline);
-        case InstructionSet::x86_64_v3:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v3);
-        case InstructionSet::x86_64_v4:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v4);
-        case InstructionSet::automatic:
-            break;
-    }
-    machine::use_instruction_set(machine::best_instruction_set());
-}
-
-}  // namespace
 
 void print_problems(const Problems& problems) {
     fmt::print(stderr, "{}", format(problems));
@@ -54,7 +37,8 @@ std::unique_ptr<Scene> make_scene(const std::string& name, StudyReading reading,
         return nullptr;
     }
     try {
-        choose_instruction_set(study.numerics.instruction_set);
+        machine::use_instruction_set(
+            study.numerics.instruction_set.value_or(machine::best_instruction_set()));
     } catch (const std::exception& error) {
         problems = {{name, 0, "numerics.instruction_set", error.what(), "use auto"}};
         return nullptr;

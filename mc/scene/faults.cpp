@@ -63,18 +63,6 @@ lockstep::PlanetTurns planet_turns(const Study& study) {
     return turns;
 }
 
-lockstep::PlanetSide side_of(FaultSide side) {
-    switch (side) {
-        case FaultSide::sun:
-            return lockstep::PlanetSide::sun;
-        case FaultSide::both:
-            return lockstep::PlanetSide::both;
-        case FaultSide::ring:
-            break;
-    }
-    return lockstep::PlanetSide::ring;
-}
-
 lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet& pairs) {
     const Fault& f = study.fault;
     const int teeth = teeth_of(study, *f.member).value();
@@ -84,7 +72,7 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
         case Member::ring:
             return lockstep::ring_fault_pattern(pairs, planet_turns(study), teeth);
         case Member::planet:
-            return lockstep::planet_fault_pattern(pairs, f.planet - 1, side_of(*f.side), teeth);
+            return lockstep::planet_fault_pattern(pairs, f.planet - 1, *f.side, teeth);
         case Member::pinion:
         case Member::gear:
             return lockstep::shaft_fault_pattern(pairs, teeth);

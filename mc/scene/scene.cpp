@@ -118,9 +118,7 @@ void Scene::build_plan() {
     }
     settle();
     plan_.integrator = stepping_.integrator;
-    plan_.precision = study_.numerics.precision == Precision::single_precision
-                          ? lockstep::Precision::single_precision
-                          : lockstep::Precision::double_precision;
+    plan_.precision = study_.numerics.precision;
     plan_.te_weight = drive_->te_weight(plan_.layout);
     if (study_.effects.separation != Separation::none) {
         plan_.mesh_law = dynamics::MeshLaw::separating;

@@ -105,9 +105,12 @@ stiffness::Profile profile_of(const Study& study) {
             return stiffness::Profile::base_circle;
         case ToothProfile::fillet:
             return stiffness::Profile::fillet;
-        default:
+        case ToothProfile::root_circle:
+        case ToothProfile::constant:
+        case ToothProfile::square_wave:
             return stiffness::Profile::root_circle;
     }
+    return stiffness::Profile::root_circle;
 }
 
 stiffness::Material material_of(const Study& study) {

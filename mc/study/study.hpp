@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/plan/fault_pattern.hpp"
+#include "lockstep/plan/integrator.hpp"
+#include "machine/dispatch.hpp"
 #include "mc/input/problems.hpp"
 #include "mc/study/distributions/distribution.hpp"
 #include "mc/study/fault_shapes.hpp"
@@ -26,21 +29,11 @@ enum class Motion { translational_torsional, torsional, quasi_static, quasi_stat
 enum class Separation { none, one_sided, two_sided };
 using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
+using lockstep::Precision;
 using stiffness::Contact;
-enum class FaultSide { ring, sun, both };
-enum class Integrator {
-    automatic,
-    rk4,
-    newmark,
-    sdirk3,
-    generalized_alpha,
-    bs3,
-    central_difference
-};
-enum class Precision { double_precision, single_precision };
+using FaultSide = lockstep::PlanetSide;
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
-enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
 
 // Inputs that may be random hold their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
@@ -218,7 +211,7 @@ struct Detection {
 };
 
 struct Numerics {
-    Integrator integrator = Integrator::automatic;
+    std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
     Precision precision = Precision::double_precision;
     StepGrid grid = StepGrid::uniform;
     double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
@@ -234,7 +227,7 @@ struct Numerics {
     Horizon horizon = Horizon::reuse;
     int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
     int threads = 0;  // 0: all
-    InstructionSet instruction_set = InstructionSet::automatic;
+    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
 
     bool operator==(const Numerics&) const = default;
 };

@@ -80,6 +80,25 @@ constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
     return {get_member<Member, int>, set_member<Member, int>, names};
 }
 
+// One that the program may choose: what is not given then reads "auto".
+inline constexpr ChoiceName kAutomatic{"auto", -1};
+template <auto Member>
+std::optional<int> get_or_auto(const Study& s) {
+    return get_member<Member, int>(s).value_or(kAutomatic.value);
+}
+template <auto Member>
+void set_or_auto(Study& s, int value) {
+    if (value == kAutomatic.value) {
+        (part_of<PartOf<Member>>(s).*Member).reset();
+    } else {
+        set_member<Member, int>(s, value);
+    }
+}
+template <auto Member>
+constexpr ChoiceAccess choice_or_auto(std::span<const ChoiceName> names) {
+    return {get_or_auto<Member>, set_or_auto<Member>, names};
+}
+
 // One of a list, to which the member points; null stands for none of them. Shown as its place in
 // the list, counted from 1, and 0 for none.
 template <class Entry>

@@ -164,9 +164,7 @@ void check_lanes(StudyDraft& draft) {
 
 void check_precision(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
-    const bool doubles_only = n.integrator != Integrator::automatic &&
-                              n.integrator != Integrator::rk4 &&
-                              n.integrator != Integrator::central_difference;
+    const bool doubles_only = n.integrator && !lockstep::marches_singles(*n.integrator);
     if (n.precision == Precision::single_precision && doubles_only &&
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
         draft.reject(

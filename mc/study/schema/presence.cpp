@@ -205,9 +205,11 @@ Presence bearing(const Study& s) {
             return {Need::required, "effects.motion is \"translational-torsional\"", {kMotion}};
         case Motion::quasi_static:
             return {Need::required, "effects.motion is \"quasi-static\"", {kMotion}};
-        default:
+        case Motion::torsional:
+        case Motion::quasi_static_torsional:
             return kOptional;
     }
+    return kOptional;
 }
 
 Presence damping_ratio(const Study& s) {
