@@ -46,7 +46,7 @@ void add_graded(const Study& study, const Flight& flight, double least_cost,
 
 Study without_steps(const Study& study) {
     Study free = study;
-    free.numerics.integrator = Integrator::automatic;
+    free.numerics.integrator.reset();
     free.numerics.steps_per_mesh = 0;
     return free;
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mc/scene/sampling.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
@@ -144,7 +145,7 @@ void print_driving_left_out(const Study& study) {
 }
 
 void print_fault(const Study& study) {
-    if (study.fault.kind == FaultKind::none) {
+    if (study.fault.kind == nullptr) {
         return;
     }
     std::string where(member_name(*study.fault.member));
@@ -152,17 +153,13 @@ void print_fault(const Study& study) {
         where += fmt::format(" {}, {} side{}", study.fault.planet, choice(study, "fault", "side"),
                              study.fault.side == FaultSide::both ? "s" : "");
     }
-    print_entry("fault",
-                fmt::format("{} on the {}",
-                            study.fault.kind == FaultKind::crack ? "tooth crack"
-                                                                 : choice(study, "fault", "kind"),
-                            where));
+    print_entry("fault", fmt::format("{} on the {}", study.fault.kind->title(), where));
 }
 
 void print_sensor(const Study& study) {
-    if (study.effects.path != PathWindow::none) {
+    if (study.effects.path != nullptr) {
         print_entry("transmission path",
-                    fmt::format("{} window, exponent {:g}", choice(study, "effects", "path"),
+                    fmt::format("{} window, exponent {:g}", study.effects.path->name,
                                 study.sensor.path_exponent));
     } else {
         print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",
@@ -202,7 +199,7 @@ void print_left_out(const Scene& scene) {
     if (!stiffness_given(study) && e.foundation == Foundation::none) {
         print_entry("gear bodies", "effects.foundation = \"none\"");
     }
-    if (study.fault.kind == FaultKind::none) {
+    if (study.fault.kind == nullptr) {
         print_entry("fault", "fault.kind = \"none\"");
     }
     if (!e.quasi_static() && !sensor_noise(study)) {

@@ -6,7 +6,6 @@
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/tile_draws.hpp"
-#include "mc/study/schema/schema.hpp"
 #include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
@@ -110,15 +109,14 @@ Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::L
 
 signals::PathGrid path_grid(const Scene& scene) {
     const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
-    if (planetary == nullptr || scene.study().effects.path == PathWindow::none) {
+    if (planetary == nullptr || scene.study().effects.path == nullptr) {
         // One sensor that weighs the same whatever turns.
         return {signals::path_window("rectangular"), 1, scene.samples_per_mesh(), scene.span()};
     }
     const auto sense = planetary->carrier_turns_backwards() ? signals::CarrierSense::negative
                                                             : signals::CarrierSense::positive;
-    return {signals::path_window(choice_text(scene.study(), "effects", "path")),
-            gears::planet_places(planetary->train()), scene.samples_per_mesh(), scene.span(),
-            sense};
+    return {*scene.study().effects.path, gears::planet_places(planetary->train()),
+            scene.samples_per_mesh(), scene.span(), sense};
 }
 
 namespace {

@@ -105,7 +105,7 @@ Rung Flight::rung(std::size_t place, double settle_tolerance) const {
 std::vector<Flight> flights(const Study& study, double beyond) {
     std::vector<Flight> all;
     for (const std::string& integrator : integrator_names()) {
-        if (study.numerics.integrator == Integrator::automatic ||
+        if (!study.numerics.integrator ||
             choice_text(study, "numerics", "integrator") == integrator) {
             for (const std::vector<std::string>& way : ways()) {
                 add_flights(study, integrator, way, beyond, all);

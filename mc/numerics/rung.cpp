@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mc/study/keys/access.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -50,7 +51,7 @@ std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const ChoiceName& choice :
          std::get<ChoiceAccess>(find_key("numerics", "integrator")->access).names) {
-        if (choice.value != static_cast<int>(Integrator::automatic)) {
+        if (choice.value != kAutomatic.value) {
             names.emplace_back(choice.text);
         }
     }

@@ -1,26 +1,12 @@
 #include "mc/numerics/study_scene.hpp"
 
-#include <exception>
+#include <stdexcept>
 
-#include "machine/dispatch.hpp"
+#include "lockstep/kernels/built_kernels.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-void choose_instruction_set(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::baseline:
-            return machine::use_instruction_set(machine::InstructionSet::baseline);
-        case InstructionSet::x86_64_v3:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v3);
-        case InstructionSet::x86_64_v4:
-            return machine::use_instruction_set(machine::InstructionSet::x86_64_v4);
-        case InstructionSet::automatic:
-            break;
-    }
-    machine::use_instruction_set(machine::best_instruction_set());
-}
 
 StudyScene refused(Problems problems) {
     StudyScene none;
@@ -40,9 +26,15 @@ StudyScene make_scene(const std::string& name, StudyReading reading) {
                          "give sun_teeth, planet_teeth, ring_teeth and module_mm"}});
     }
     try {
-        choose_instruction_set(reading.study->numerics.instruction_set);
-    } catch (const std::exception& error) {
+        lockstep::choose_instruction_set(reading.study->numerics.instruction_set);
+    } catch (const std::invalid_argument& error) {
         return refused({{name, 0, "numerics.instruction_set", error.what(), "use auto"}});
+    }
+    try {
+        lockstep::check_lanes(reading.study->numerics.precision, reading.study->numerics.lanes);
+    } catch (const lockstep::NoSuchKernel& error) {
+        return refused({{name, 0, "numerics.lanes", error.what(),
+                         "leave it out, or build with all kernels (preset portable)"}});
     }
     try {
         ResolvedStudy resolved = resolve_numerics(*std::move(reading.study));

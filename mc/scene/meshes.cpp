@@ -92,12 +92,6 @@ double body_radius_m(const Study& study, Member member) {
     return 0.5 * diameter.value_or(0.0);
 }
 
-stiffness::Material material_of(const Study& study) {
-    const Gearbox& g = study.gearbox;
-    return {g.young_modulus_Pa.value(), g.poisson_ratio.value(), g.face_width_m.value(),
-            study.effects.shear};
-}
-
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
     const bool coupled =
         study.effects.foundation != Foundation::none || study.effects.contact != Contact::linear;

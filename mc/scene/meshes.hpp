@@ -11,7 +11,6 @@
 #include "mc/study/gears.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/mesh_stiffness.hpp"
-#include "stiffness/teeth/material.hpp"
 
 namespace gearpod::mc {
 
@@ -24,7 +23,6 @@ struct SceneMesh {
     const stiffness::FilletFoundation* body[2] = {nullptr, nullptr};
 };
 
-stiffness::Material material_of(const Study& study);
 // The circle on which a gear's body is held: half of the diameter given, 0 if none is.
 double body_radius_m(const Study& study, Member member);
 

@@ -179,7 +179,7 @@ Study Sampler::draw(Group group, std::uint64_t index) const {
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
     if (group == Group::threshold) {
-        std::get<NumberAccess>(fault_size_key(study_).access).set(drawn, 0.0);
+        set_fault_size(drawn, 0.0);
     }
     return drawn;
 }

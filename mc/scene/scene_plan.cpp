@@ -51,9 +51,7 @@ class Planner {
             march.low_pass_rad_s = 2.0 * pi * study_.sensor.low_pass_Hz;
         }
         march.integrator = plan_.stepping.integrator;
-        march.precision = study_.numerics.precision == Precision::single_precision
-                              ? lockstep::Precision::single_precision
-                              : lockstep::Precision::double_precision;
+        march.precision = study_.numerics.precision;
         march.te_weight = drive_.te_weight(march.layout);
         if (study_.effects.separation != Separation::none) {
             march.mesh_law = dynamics::MeshLaw::separating;

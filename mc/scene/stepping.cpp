@@ -166,21 +166,8 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
 }
 
 lockstep::Integrator integrator_of(const Study& study, const StepNeeds& needs) {
-    switch (study.numerics.integrator) {
-        case Integrator::rk4:
-            return lockstep::Integrator::rk4;
-        case Integrator::newmark:
-            return lockstep::Integrator::newmark;
-        case Integrator::sdirk3:
-            return lockstep::Integrator::sdirk3;
-        case Integrator::generalized_alpha:
-            return lockstep::Integrator::generalized_alpha;
-        case Integrator::bs3:
-            return lockstep::Integrator::bs3;
-        case Integrator::central_difference:
-            return lockstep::Integrator::central_difference;
-        case Integrator::automatic:
-            break;
+    if (study.numerics.integrator) {
+        return *study.numerics.integrator;
     }
     const lockstep::Integrator chosen =
         lockstep::choose_integrator(needs.stable(lockstep::Integrator::rk4));

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "dynamics/helical_pair.hpp"
-#include "stiffness/teeth/crack.hpp"
-#include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -14,26 +11,6 @@ namespace {
 constexpr std::array kPlanetaryMeshes{MeshMembers{Member::sun, Member::planet},
                                       MeshMembers{Member::planet, Member::ring}};
 constexpr std::array kFixedShaftMeshes{MeshMembers{Member::pinion, Member::gear}};
-
-// The mate against which the faulty flank works.
-Member mate_of(const Fault& fault) {
-    switch (*fault.member) {
-        case Member::planet:
-            return fault.side == FaultSide::sun ? Member::sun : Member::ring;
-        case Member::pinion:
-            return Member::gear;
-        case Member::gear:
-            return Member::pinion;
-        default:
-            return Member::planet;
-    }
-}
-
-// Distance along the line of action from the base circle to the contact at radius r.
-double along_line_of_action(const gears::Gear& gear, double radius_m) {
-    const double base = gear.base_radius();
-    return std::sqrt(std::max(0.0, radius_m * radius_m - base * base));
-}
 
 }  // namespace
 
@@ -128,28 +105,18 @@ stiffness::Profile profile_of(const Study& study) {
             return stiffness::Profile::base_circle;
         case ToothProfile::fillet:
             return stiffness::Profile::fillet;
-        default:
+        case ToothProfile::root_circle:
+        case ToothProfile::constant:
+        case ToothProfile::square_wave:
             return stiffness::Profile::root_circle;
     }
+    return stiffness::Profile::root_circle;
 }
 
-double max_crack_depth_m(const Study& study) {
-    const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()),
-                                        profile_of(study));
-    return stiffness::max_crack_depth(tooth, study.fault.angle_rad);
-}
-
-ActiveFlank active_flank(const Study& study) {
-    const gears::Gear gear = gear_of(study, *study.fault.member);
-    const gears::Gear mate = gear_of(study, mate_of(study.fault));
-    const double sine = std::sin(gear.pressure_angle_rad);
-    const double reach = along_line_of_action(mate, mate.tip_radius());
-    // The flank is touched between its own tip and where the mate's tip touches it.
-    const double other = gear.internal || mate.internal
-                             ? reach + (gear.pitch_radius() - mate.pitch_radius()) * sine
-                             : (gear.pitch_radius() + mate.pitch_radius()) * sine - reach;
-    const double end = std::hypot(gear.base_radius(), other);
-    return {std::min(end, gear.tip_radius()), std::max(end, gear.tip_radius())};
+stiffness::Material material_of(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    return {g.young_modulus_Pa.value(), g.poisson_ratio.value(), g.face_width_m.value(),
+            study.effects.shear};
 }
 
 }  // namespace gearpod::mc

@@ -8,6 +8,7 @@
 
 #include "gears/gear.hpp"
 #include "mc/study/study.hpp"
+#include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {
@@ -52,15 +53,7 @@ gears::Gear gear_of(const Study& study, Member member);
 // Where the beams of its teeth begin; of no meaning where the stiffness is given.
 stiffness::Profile profile_of(const Study& study);
 
-// Length of the longest crack that the faulty member's tooth holds, m: there it breaks. The study
-// must have the tooth geometry and a crack.
-double max_crack_depth_m(const Study& study);
-
-// Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
-// on the faulty side.
-struct ActiveFlank {
-    double low_m, high_m;
-};
-ActiveFlank active_flank(const Study& study);
+// What they are made of, and how wide. They must not be without a face width.
+stiffness::Material material_of(const Study& study);
 
 }  // namespace gearpod::mc

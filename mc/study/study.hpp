@@ -1,5 +1,5 @@
 // A study: everything a study file (TOML) says, checked, in SI units and radians.
-// The keys, their units, defaults and ranges are the table in schema_keys.cpp.
+// The keys, their units, defaults and ranges are the table in schema/*_keys.cpp.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,19 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/plan/fault_pattern.hpp"
+#include "lockstep/plan/integrator.hpp"
+#include "machine/dispatch.hpp"
 #include "mc/input/problems.hpp"
 #include "mc/study/distributions/distribution.hpp"
+#include "mc/study/fault_shapes.hpp"
+#include "signals/path/path_window.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 
 namespace gearpod::mc {
+
+class FaultKind;  // mc/study/faults/fault_kind.hpp
 
 enum class GearboxKind { planetary, fixed_shaft };
 enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
@@ -22,23 +29,11 @@ enum class Motion { translational_torsional, torsional, quasi_static, quasi_stat
 enum class Separation { none, one_sided, two_sided };
 using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
+using lockstep::Precision;
 using stiffness::Contact;
-enum class PathWindow { hamming, hann, rectangular, none };
-enum class FaultKind { none, crack, spatial_crack, chip, pitting, broken, reduction };
-enum class FaultSide { ring, sun, both };
-enum class Integrator {
-    automatic,
-    rk4,
-    newmark,
-    sdirk3,
-    generalized_alpha,
-    bs3,
-    central_difference
-};
-enum class Precision { double_precision, single_precision };
+using FaultSide = lockstep::PlanetSide;
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
-enum class InstructionSet { automatic, baseline, x86_64_v3, x86_64_v4 };
 
 // Inputs that may be random hold their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
@@ -152,7 +147,8 @@ struct Effects {
     MeshDamping mesh_damping = MeshDamping::ratio;
     bool gravity = false;
     double gravity_direction_rad = -1.5707963267948966;  // in the housing; down
-    PathWindow path = PathWindow::hamming;  // in a file by default none where no path leads
+    // Null: no path leads to a sensor, in a file by default where it is so.
+    const signals::PathWindow* path = &signals::path_window("hamming");
 
     bool quasi_static() const {
         return motion == Motion::quasi_static || motion == Motion::quasi_static_torsional;
@@ -164,34 +160,13 @@ struct Effects {
     bool operator==(const Effects&) const = default;
 };
 
-// Every kind has one size: depth, stage, chip, pit width, broken or reduction.
+// What a kind needs besides is its own file's business (mc/study/faults).
 struct Fault {
-    FaultKind kind = FaultKind::none;
-    std::optional<Member> member;   // of the gearbox's toothed members
-    std::optional<FaultSide> side;  // of a planet tooth
-    int planet = 1;                 // 1..planets
-
-    std::optional<double> depth_m;           // crack: along it
-    double angle_rad = 0.78539816339744828;  // 45 degrees, Liang (2016), section 3.1
-
-    // Spatial crack, Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
-    std::optional<double> stage;  // 0: healthy; between entries linear
-    std::vector<double> growth_depth_m, growth_end_depth_m, growth_length_m, growth_height_m,
-        growth_end_height_m;
-    std::optional<double> end_angle_rad;  // by default angle_rad
-    double height_wave = 0.0;
-    double height_waves = 0.0;
-    int slices = 16;
-
-    std::optional<double> chip_m;         // along the face width, at the tip
-    std::optional<double> chip_height_m;  // along the tooth
-
-    std::optional<double> pit_width_m;  // along the face width
-    std::optional<double> pit_depth_m, pit_length_m,
-        pit_radius_m;  // along the profile, centre of the band
-    int teeth = 1;     // neighbouring pitted teeth
-
-    std::optional<double> broken, reduction;  // share of the pair's stiffness that is lost, 0..1
+    const FaultKind* kind = nullptr;  // of all_faults(); null without a fault
+    std::optional<Member> member;     // of the gearbox's toothed members
+    std::optional<FaultSide> side;    // of a planet tooth
+    int planet = 1;                   // 1..planets
+    FaultShapes shapes;
 
     bool operator==(const Fault&) const = default;
 };
@@ -236,7 +211,7 @@ struct Detection {
 };
 
 struct Numerics {
-    Integrator integrator = Integrator::automatic;
+    std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
     Precision precision = Precision::double_precision;
     StepGrid grid = StepGrid::uniform;
     double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
@@ -252,7 +227,7 @@ struct Numerics {
     Horizon horizon = Horizon::reuse;
     int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
     int threads = 0;  // 0: all
-    InstructionSet instruction_set = InstructionSet::automatic;
+    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
 
     bool operator==(const Numerics&) const = default;
 };

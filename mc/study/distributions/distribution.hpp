@@ -11,19 +11,12 @@
 
 #include "mc/input/problems.hpp"
 #include "mc/random/philox.hpp"
+#include "mc/study/distributions/support.hpp"
 
 namespace gearpod::mc {
 
 struct Value;             // mc/input/document.hpp
 struct DistributionKind;  // distribution.cpp
-
-// Smallest and largest value that can be drawn; +-infinity where unbounded.
-struct Support {
-    double low = 0.0;
-    double high = 0.0;
-    bool low_open = false;  // the bound itself is never drawn
-    bool high_open = false;
-};
 
 // An immutable distribution; copies share it. Values are in the unit of the study file's key.
 class Distribution {

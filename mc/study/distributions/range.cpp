@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "mc/study/distributions/distribution.hpp"
-
 namespace gearpod::mc {
 
 bool Range::contains(double value) const {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <string>
 
-namespace gearpod::mc {
+#include "mc/study/distributions/support.hpp"
 
-struct Support;  // distribution.hpp
+namespace gearpod::mc {
 
 struct Range {
     double low = -std::numeric_limits<double>::infinity();

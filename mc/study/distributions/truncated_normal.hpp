@@ -13,8 +13,9 @@
 #include <tuple>
 #include <vector>
 
-#include "mc/study/distributions/distribution.hpp"
+#include "mc/random/philox.hpp"
 #include "mc/study/distributions/field.hpp"
+#include "mc/study/distributions/support.hpp"
 
 namespace gearpod::mc {
 

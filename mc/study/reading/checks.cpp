@@ -6,7 +6,8 @@
 #include "machine/lanes.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -50,7 +51,7 @@ void check_path(StudyDraft& draft) {
         return;
     }
     const bool fixed_shaft = s.gearbox.kind == GearboxKind::fixed_shaft;
-    const bool none = s.effects.path == PathWindow::none;
+    const bool none = s.effects.path == nullptr;
     if (s.effects.quasi_static() && !none) {
         draft.reject("effects.path",
                      "leads nothing to a sensor (a quasi-static gearbox has no accelerations: "
@@ -163,9 +164,7 @@ void check_lanes(StudyDraft& draft) {
 
 void check_precision(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
-    const bool doubles_only = n.integrator != Integrator::automatic &&
-                              n.integrator != Integrator::rk4 &&
-                              n.integrator != Integrator::central_difference;
+    const bool doubles_only = n.integrator && !lockstep::marches_singles(*n.integrator);
     if (n.precision == Precision::single_precision && doubles_only &&
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
         draft.reject(

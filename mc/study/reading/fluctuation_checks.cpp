@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -7,7 +7,7 @@
 #include "gears/mesh_geometry.hpp"
 #include "gears/planetary.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
 
 namespace gearpod::mc {
 namespace {

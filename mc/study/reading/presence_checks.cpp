@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "mc/input/spelling.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/reading/unknown_keys.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,3 +1,4 @@
+// read_study(): the whole of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,93 +6,11 @@
 #include "features/feature.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/fluctuations.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/reading/unknown_keys.hpp"
+#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
-
-Position StudyDraft::position(const std::string& path) const {
-    if (const auto found = given.find(path); found != given.end()) {
-        return found->second;
-    }
-    if (const auto found = given_random.find(path); found != given_random.end()) {
-        return found->second;
-    }
-    if (const auto found = sections.find(path.substr(0, path.find('.'))); found != sections.end()) {
-        return found->second;
-    }
-    return sections.at("");
-}
-
-void StudyDraft::reject(const Position& at, const std::string& path, std::string what,
-                        std::string remedy) {
-    problems.push_back({at.file, at.line, path, std::move(what), std::move(remedy)});
-    bad.insert(path);
-    if (path.starts_with("random.")) {
-        bad.insert(path.substr(7));
-    }
-}
-
-void StudyDraft::reject(const std::string& path, std::string what, std::string remedy) {
-    reject(position(path), path, std::move(what), std::move(remedy));
-}
-
-bool StudyDraft::all_usable(const std::vector<std::string>& paths) const {
-    return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
-        return usable(path) && usable(path.substr(0, path.find('.')));
-    });
-}
-
-namespace {
-
-struct Guess {
-    const Key* key = nullptr;  // what was probably meant
-    std::string words;
-};
-
-Guess guess_by_unit(const std::string& section, const std::string& name) {
-    for (const Key& key : schema()) {
-        if (key.section != section || key.unit.suffix.empty()) {
-            continue;
-        }
-        if (key.stem() == name) {
-            return {&key, fmt::format("did you mean {}? (unit missing)", key.name)};
-        }
-        if (key.stem() == without_unit(name)) {
-            return {&key,
-                    fmt::format("did you mean {}? (its unit is {})", key.name, key.unit.name)};
-        }
-    }
-    return {};
-}
-
-Guess guess_key(const std::string& section, const std::string& name) {
-    if (Guess guess = guess_by_unit(section, name); guess.key != nullptr) {
-        return guess;
-    }
-    std::vector<std::string_view> names;
-    for (const Key& key : schema()) {
-        if (key.name == name) {
-            return {nullptr, fmt::format("it belongs in [{}]", key.section)};
-        }
-        if (key.section == section) {
-            names.push_back(key.name);
-        }
-    }
-    const std::string words = suggest(name, names);
-    const bool near = words.starts_with("did you mean");
-    return {near ? find_key(section, nearest(name, names)) : nullptr, words};
-}
-
-}  // namespace
-
-void reject_unknown_key(StudyDraft& draft, const std::string& prefix, const std::string& section,
-                        const Entry& entry) {
-    const Guess guess = guess_key(section, entry.name);
-    draft.reject(entry.position, prefix + section + "." + entry.name, "unknown key", guess.words);
-    if (guess.key != nullptr) {
-        draft.bad.insert(guess.key->path());
-    }
-}
 
 namespace {
 
@@ -211,7 +130,7 @@ void fill_path(StudyDraft& draft) {
     Study& study = draft.study;
     if (!draft.is_given("effects.path") &&
         (study.gearbox.kind == GearboxKind::fixed_shaft || study.effects.quasi_static())) {
-        study.effects.path = PathWindow::none;
+        study.effects.path = nullptr;
     }
 }
 
@@ -256,12 +175,6 @@ StudyReading read_document(const Value& document, Problems problems) {
 }
 
 }  // namespace
-
-const RandomInput* Study::find_random(const std::string& key) const {
-    const auto found = std::find_if(random.begin(), random.end(),
-                                    [&](const RandomInput& input) { return input.key == key; });
-    return found == random.end() ? nullptr : &*found;
-}
 
 StudyReading read_study_text(const std::string& text, const std::string& name,
                              const std::vector<std::string>& overrides) {

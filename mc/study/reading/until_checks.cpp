@@ -4,7 +4,7 @@
 
 #include "analysis/detection/size_groups.hpp"
 #include "features/feature.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {

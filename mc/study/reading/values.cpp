@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mc/input/spelling.hpp"
-#include "mc/study/reading/draft.hpp"
+#include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/tones.hpp"
 
 namespace gearpod::mc {

@@ -1,4 +1,7 @@
 // Keys of [gearbox].
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+#include "mc/study/schema/presence.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {

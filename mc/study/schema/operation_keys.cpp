@@ -1,4 +1,7 @@
 // Keys of [operation] and [effects].
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+#include "mc/study/schema/presence.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {
@@ -21,9 +24,18 @@ constexpr ChoiceName kSeparations[] = {name("none", Separation::none),
 constexpr ChoiceName kDampings[] = {name("ratio", MeshDamping::ratio),
                                     name("proportional", MeshDamping::proportional),
                                     name("constant", MeshDamping::constant)};
-constexpr ChoiceName kPaths[] = {
-    name("hamming", PathWindow::hamming), name("hann", PathWindow::hann),
-    name("rectangular", PathWindow::rectangular), name("none", PathWindow::none)};
+
+std::span<const ChoiceName> path_names() {
+    static const std::vector<ChoiceName> names = [] {
+        std::vector<ChoiceName> all;
+        for (const signals::PathWindow& window : signals::path_windows()) {
+            all.push_back({window.name, static_cast<int>(all.size()) + 1});
+        }
+        all.push_back({"none", 0});
+        return all;
+    }();
+    return names;
+}
 
 using F = Fluctuations;
 // A speed that comes near zero is no speed to march in mesh phase; noise reaches six times its rms.
@@ -63,7 +75,7 @@ const Key kKeys[] = {
     {"effects", "mesh_damping", choice<&Effects::mesh_damping>(kDampings), kNone, kAny, may, kShared, "law of mesh damping"},
     {"effects", "gravity", boolean<&Effects::gravity>, kNone, kAny, may, kShared, "weight of all bodies; it turns in the frame of a turning carrier"},
     {"effects", "gravity_direction_deg", number<&Effects::gravity_direction_rad>, kDeg, from_to(-360, 360), gravity, kShared, "where it pulls, from the x axis: -90 along -y, away from the sensor of a planetary gearbox; y is the line of action of a fixed-shaft one"},
-    {"effects", "path", choice<&Effects::path>(kPaths), kNone, kAny, may, kShared, "window of the transmission path"},
+    {"effects", "path", listed<&Effects::path, signals::path_windows>(path_names()), kNone, kAny, may, kShared, "window of the transmission path"},
 };
 // clang-format on
 

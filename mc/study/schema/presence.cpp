@@ -1,12 +1,12 @@
 #include "mc/study/schema/presence.hpp"
 
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
-#include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-constexpr Presence kOptional{Need::optional, "", {}};
+const Presence kOptional{Need::optional, "", {}};
 constexpr std::string_view kProfile = "gearbox.tooth_profile";
 constexpr std::string_view kMotion = "effects.motion";
 
@@ -14,11 +14,7 @@ bool is(const Study& s, ToothProfile profile) {
     return s.gearbox.tooth_profile == profile;
 }
 
-bool planet_fault(const Study& s) {
-    return s.fault.kind != FaultKind::none && s.fault.member == Member::planet;
-}
-
-Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
+Presence damping(const Study& s, MeshDamping kind, const std::string& why) {
     if (s.effects.quasi_static()) {
         return kOptional;
     }
@@ -27,33 +23,10 @@ Presence damping(const Study& s, MeshDamping kind, std::string_view why) {
 }
 
 // Required with that key, and else forbidden.
-Presence with(const std::optional<double>& given, std::string_view because, std::string_view only,
-              std::string_view governor) {
+Presence with(const std::optional<double>& given, const std::string& because,
+              const std::string& only, std::string_view governor) {
     return given ? Presence{Need::required, because, {governor}}
                  : Presence{Need::forbidden, only, {governor}};
-}
-
-struct FaultWords {
-    FaultKind kind;
-    std::string_view only, because;
-};
-constexpr FaultWords kFaultWords[] = {
-    {FaultKind::crack, "only for fault.kind = \"crack\"", "fault.kind is \"crack\""},
-    {FaultKind::spatial_crack, "only for fault.kind = \"spatial-crack\"",
-     "fault.kind is \"spatial-crack\""},
-    {FaultKind::chip, "only for fault.kind = \"chip\"", "fault.kind is \"chip\""},
-    {FaultKind::pitting, "only for fault.kind = \"pitting\"", "fault.kind is \"pitting\""},
-    {FaultKind::broken, "only for fault.kind = \"broken\"", "fault.kind is \"broken\""},
-    {FaultKind::reduction, "only for fault.kind = \"reduction\"", "fault.kind is \"reduction\""},
-};
-
-const FaultWords& words_of(FaultKind kind) {
-    for (const FaultWords& words : kFaultWords) {
-        if (words.kind == kind) {
-            return words;
-        }
-    }
-    return kFaultWords[0];
 }
 
 }  // namespace
@@ -65,7 +38,7 @@ Presence may(const Study&) {
     return kOptional;
 }
 
-Presence of_kind(const Study& s, GearboxKind kind, PresenceRule rule) {
+Presence of_kind(const Study& s, GearboxKind kind, Presence (*rule)(const Study&)) {
     if (s.gearbox.kind != kind) {
         return {Need::forbidden,
                 kind == GearboxKind::planetary ? "only for gearbox.kind = \"planetary\""
@@ -232,9 +205,11 @@ Presence bearing(const Study& s) {
             return {Need::required, "effects.motion is \"translational-torsional\"", {kMotion}};
         case Motion::quasi_static:
             return {Need::required, "effects.motion is \"quasi-static\"", {kMotion}};
-        default:
+        case Motion::torsional:
+        case Motion::quasi_static_torsional:
             return kOptional;
     }
+    return kOptional;
 }
 
 Presence damping_ratio(const Study& s) {
@@ -269,45 +244,8 @@ Presence integration(const Study& s) {
                : kOptional;
 }
 
-Presence faulty_member(const Study& s) {
-    return s.fault.kind == FaultKind::none
-               ? kOptional
-               : Presence{Need::required, words_of(s.fault.kind).because, {"fault.kind"}};
-}
-
-Presence planet_side(const Study& s) {
-    return planet_fault(s)
-               ? Presence{Need::required, "fault.member is \"planet\"", {"fault.member"}}
-               : planet_number(s);
-}
-
-Presence planet_number(const Study& s) {
-    return s.fault.kind == FaultKind::none || planet_fault(s)
-               ? kOptional
-               : Presence{Need::forbidden, "only for fault.member = \"planet\"", {"fault.member"}};
-}
-
-Presence crack_angle(const Study& s) {
-    const FaultKind kind = s.fault.kind;
-    return kind == FaultKind::none || kind == FaultKind::crack || kind == FaultKind::spatial_crack
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only for fault.kind = \"crack\" or \"spatial-crack\"",
-                          {"fault.kind"}};
-}
-
-Presence of_fault(const Study& s, FaultKind kind, Need need) {
-    if (s.fault.kind == FaultKind::none) {
-        return kOptional;
-    }
-    if (s.fault.kind != kind) {
-        return {Need::forbidden, words_of(kind).only, {"fault.kind"}};
-    }
-    return {need, words_of(kind).because, {"fault.kind"}};
-}
-
 Presence length_edges(const Study& s) {
-    return s.fault.kind == FaultKind::none || !fault_size_key(s).unit.suffix.empty()
+    return s.fault.kind == nullptr || !s.fault.kind->size().unit.suffix.empty()
                ? kOptional
                : Presence{Need::forbidden,
                           "the fault's size is a pure number: size_edges groups it",
@@ -315,7 +253,7 @@ Presence length_edges(const Study& s) {
 }
 
 Presence number_edges(const Study& s) {
-    return s.fault.kind == FaultKind::none || fault_size_key(s).unit.suffix.empty()
+    return s.fault.kind == nullptr || s.fault.kind->size().unit.suffix.empty()
                ? kOptional
                : Presence{Need::forbidden,
                           "the fault's size is a length: size_edges_mm groups it",

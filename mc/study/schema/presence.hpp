@@ -1,7 +1,7 @@
 // Which keys must, may or must not be given, depending on the choices of a study.
 #pragma once
 
-#include "mc/study/schema/schema.hpp"
+#include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
 
@@ -9,12 +9,12 @@ Presence always(const Study&);
 Presence may(const Study&);
 
 // A key of one kind of gearbox only; there Rule decides.
-Presence of_kind(const Study&, GearboxKind kind, PresenceRule rule);
-template <PresenceRule Rule>
+Presence of_kind(const Study&, GearboxKind kind, Presence (*rule)(const Study&));
+template <Presence (*Rule)(const Study&)>
 Presence planetary(const Study& s) {
     return of_kind(s, GearboxKind::planetary, Rule);
 }
-template <PresenceRule Rule>
+template <Presence (*Rule)(const Study&)>
 Presence fixed_shaft(const Study& s) {
     return of_kind(s, GearboxKind::fixed_shaft, Rule);
 }
@@ -50,23 +50,8 @@ Presence acceleration(const Study&);         // required unless the motion is qu
 Presence acceleration_detail(const Study&);  // has no place where it is
 Presence integration(const Study&);          // has no place where nothing is integrated
 
-Presence faulty_member(const Study&);  // required for a fault
-Presence planet_side(const Study&);    // required for a fault in a planet
-Presence planet_number(const Study&);  // only for a fault in a planet
-Presence crack_angle(const Study&);    // only for the two kinds of crack
-Presence length_edges(const Study&);   // only if the fault's size is a length
-Presence number_edges(const Study&);   // only if it is none
-
-// A key of one kind of fault, which must or may be given with it. Without a fault all may.
-Presence of_fault(const Study&, FaultKind kind, Need need);
-template <FaultKind Kind>
-Presence fault_needs(const Study& s) {
-    return of_fault(s, Kind, Need::required);
-}
-template <FaultKind Kind>
-Presence fault_may(const Study& s) {
-    return of_fault(s, Kind, Need::optional);
-}
+Presence length_edges(const Study&);  // only if the fault's size is a length
+Presence number_edges(const Study&);  // only if it is none
 
 Presence until_part(const Study&);   // only with until.half_width, and then required
 Presence until_level(const Study&);  // only with until.half_width

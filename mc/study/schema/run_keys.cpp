@@ -1,26 +1,34 @@
 // Keys of [sensor], [features], [detection], [numerics] and [ensemble].
 #include "features/feature.hpp"
+#include "lockstep/integrators/facts.hpp"
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+#include "mc/study/schema/presence.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 constexpr ChoiceName kPositions[] = {name("pinion", Member::pinion), name("gear", Member::gear)};
-constexpr ChoiceName kIntegrators[] = {name("auto", Integrator::automatic),
-                                       name("rk4", Integrator::rk4),
-                                       name("newmark", Integrator::newmark),
-                                       name("sdirk3", Integrator::sdirk3),
-                                       name("generalized-alpha", Integrator::generalized_alpha),
-                                       name("bs3", Integrator::bs3),
-                                       name("central-difference", Integrator::central_difference)};
 constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
                                      name("graded", StepGrid::graded)};
 constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
                                       name("single", Precision::single_precision)};
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
-constexpr ChoiceName kInstructionSets[] = {
-    name("auto", InstructionSet::automatic), name("baseline", InstructionSet::baseline),
-    name("x86-64-v3", InstructionSet::x86_64_v3), name("x86-64-v4", InstructionSet::x86_64_v4)};
+// "auto", and all of them by their own names.
+template <class Enum>
+std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {
+    std::vector<ChoiceName> all{kAutomatic};
+    for (const Enum value : values) {
+        all.push_back({name(value), static_cast<int>(value)});
+    }
+    return all;
+}
+const std::vector<ChoiceName> kIntegrators = names_or_auto(lockstep::all_integrators());
+constexpr machine::InstructionSet kSets[] = {machine::InstructionSet::baseline,
+                                             machine::InstructionSet::x86_64_v3,
+                                             machine::InstructionSet::x86_64_v4};
+const std::vector<ChoiceName> kInstructionSets = names_or_auto(std::span(kSets));
 
 constexpr Range kTolerance = {0.0, 1.0, false, true};
 
@@ -58,7 +66,7 @@ const Key kKeys[] = {
 
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},
-    {"numerics", "integrator", choice<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
+    {"numerics", "integrator", choice_or_auto<&Numerics::integrator>(kIntegrators), kNone, kAny, integration, kShared, "time integration; auto: rk4, or sdirk3 where that would need too many steps"},
     {"numerics", "precision", choice<&Numerics::precision>(kPrecisions), kNone, kAny, integration, kShared, "numbers that the motion is marched in; single: with rk4 and central-difference, and orbits settle to 1e-5 at best"},
     {"numerics", "grid", choice<&Numerics::grid>(kStepGrids), kNone, kAny, integration, kShared, "uniform steps, or graded ones: fine after each contact transition, coarse where the response is quiet"},
     {"numerics", "step_tolerance", number<&Numerics::step_tolerance>, kNone, inside(0, 1), integration, kShared, "estimated error of a step over the largest motion, by which a pilot chooses the steps of bs3"},
@@ -70,7 +78,7 @@ const Key kKeys[] = {
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for what OMP_NUM_THREADS says, else for all"},
-    {"numerics", "instruction_set", choice<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
+    {"numerics", "instruction_set", choice_or_auto<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},
 
     {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "gearboxes over all fault sizes"},
     {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "further healthy gearboxes that set the thresholds"},

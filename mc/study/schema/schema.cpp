@@ -9,14 +9,6 @@
 
 namespace gearpod::mc {
 
-std::string Key::path() const {
-    return fmt::format("{}.{}", section, name);
-}
-
-std::string_view Key::stem() const {
-    return unit.suffix.empty() ? name : name.substr(0, name.size() - unit.suffix.size() - 1);
-}
-
 std::span<const Key> schema() {
     static const std::vector<Key> keys = [] {
         std::vector<Key> all;

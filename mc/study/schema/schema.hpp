@@ -1,88 +1,15 @@
-// The keys of a study file as data: one line a key in schema_keys.cpp. Reading, ranges, units,
-// spelling, help and the resolved text all come from it.
+// The keys of a study file as data: one line a key in *_keys.cpp, those of a fault in its kind's
+// file. Reading, ranges, units, spelling, help and the resolved text all come from it.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <variant>
-#include <vector>
 
-#include "mc/study/distributions/range.hpp"
+#include "mc/study/keys/key.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
-
-// The unit of a key in the file and in the code. `suffix` ends the key's name ("" for pure
-// numbers).
-struct Unit {
-    std::string_view suffix;     // "mm"
-    std::string_view name;       // "mm", "N/m"; "1" for a pure number
-    std::string_view si_suffix;  // "m"
-    std::string_view si_name;    // "m"
-    double to_si = 1.0;
-};
-
-struct ChoiceName {
-    std::string_view text;
-    int value;
-};
-
-// How a key's value is stored in a Study; numbers in SI. get() of a value not given is empty.
-template <class Type, class Stored = std::optional<Type>>
-struct Access {
-    Stored (*get)(const Study&);
-    void (*set)(Study&, Type);
-};
-using NumberAccess = Access<double>;
-using IntegerAccess = Access<std::int64_t>;
-using BooleanAccess = Access<bool>;
-struct ChoiceAccess {
-    std::optional<int> (*get)(const Study&);
-    void (*set)(Study&, int);
-    std::span<const ChoiceName> names;
-};
-struct NumbersAccess {
-    std::vector<double> (*get)(const Study&);
-    void (*set)(Study&, std::vector<double>);
-    bool ascending = false;  // whether each must be above the one before it
-};
-using TextsAccess = Access<std::vector<std::string>, std::vector<std::string>>;
-using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
-using AnyAccess = std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess,
-                               NumbersAccess, TextsAccess, TonesAccess>;
-
-// Whether a key must, may or must not be given, and why; decided by the keys `governors` ("" for
-// none).
-enum class Need { required, optional, forbidden };
-struct Presence {
-    Need need;
-    std::string_view why;
-    std::array<std::string_view, 2> governors{};
-};
-using PresenceRule = Presence (*)(const Study&);
-
-struct Key {
-    std::string_view section;
-    std::string_view name;
-    AnyAccess access;
-    Unit unit;
-    Range range;
-    PresenceRule presence;
-    std::string_view fixed_because;  // why [random] may not name it; "" if it may
-    std::string_view doc;
-
-    std::string path() const;       // "gearbox.module_mm"
-    std::string_view stem() const;  // "module"
-    bool may_be_random() const {
-        return std::holds_alternative<NumberAccess>(access) && fixed_because.empty();
-    }
-};
 
 // All keys in the order in which they are shown.
 std::span<const Key> schema();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mc/study/faults/all_faults.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -13,7 +15,7 @@ void sort_distinct(std::vector<double>& values) {
 }
 
 std::vector<double> single_sizes(const Study& study) {
-    if (study.fault.kind == FaultKind::none) {
+    if (study.fault.kind == nullptr) {
         return {0.0};
     }
     const RandomInput* random = study.find_random(fault_size_key(study).path());
@@ -30,33 +32,17 @@ std::vector<double> single_sizes(const Study& study) {
 
 }  // namespace
 
-const Key& fault_size_key(FaultKind kind) {
-    switch (kind) {
-        case FaultKind::spatial_crack:
-            return *find_key("fault", "stage");
-        case FaultKind::chip:
-            return *find_key("fault", "chip_mm");
-        case FaultKind::pitting:
-            return *find_key("fault", "pit_width_mm");
-        case FaultKind::broken:
-            return *find_key("fault", "broken");
-        case FaultKind::reduction:
-            return *find_key("fault", "reduction");
-        case FaultKind::none:
-        case FaultKind::crack:
-            break;
-    }
-    return *find_key("fault", "depth_mm");
-}
-
 const Key& fault_size_key(const Study& study) {
-    return fault_size_key(study.fault.kind);
+    return *find_key("fault", sized_as(study).size().name);
 }
 
 double fault_size(const Study& study) {
-    return study.fault.kind == FaultKind::none
-               ? 0.0
-               : std::get<NumberAccess>(fault_size_key(study).access).get(study).value_or(0.0);
+    return study.fault.kind == nullptr ? 0.0
+                                       : study.fault.kind->size().access.get(study).value_or(0.0);
+}
+
+void set_fault_size(Study& study, double size) {
+    sized_as(study).size().access.set(study, size);
 }
 
 std::string fault_size_column(const Study& study) {
@@ -78,7 +64,7 @@ std::string size_edges_key(const Study& study) {
 std::vector<analysis::SizeGroup> size_groups(const Study& study) {
     std::vector<analysis::SizeGroup> groups;
     const std::vector<double>& edges = size_edges(study);
-    if (!edges.empty() && study.fault.kind != FaultKind::none) {
+    if (!edges.empty() && study.fault.kind != nullptr) {
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             groups.push_back({edges[i], edges[i + 1]});
         }

@@ -10,13 +10,13 @@
 
 namespace gearpod::mc {
 
-// The key that holds the size of that kind of fault: depth, stage, chip, ... Without a fault the
-// crack depth, which is then 0.
-const Key& fault_size_key(FaultKind kind);
+// The key that holds the size of the study's kind of fault: depth, stage, chip, ... Without a fault
+// the crack depth, which is then 0.
 const Key& fault_size_key(const Study& study);
 
 // The nominal size, SI; 0 without a fault or where only [random] says it.
 double fault_size(const Study& study);
+void set_fault_size(Study& study, double size);
 
 // The column of the sizes in the results, "fault_depth_m".
 std::string fault_size_column(const Study& study);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "machine/dispatch.hpp"
+#include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -109,7 +110,7 @@ TEST_CASE("Reused mesh periods and the full march agree to 1e-6 in every noise-f
     sun.fault.member = mc::Member::sun;
     sun.fault.side.reset();
     sun.random.clear();
-    sun.fault.depth_m = 2.34e-3;
+    mc::set_fault_size(sun, 2.34e-3);
     for (mc::Study study : {planet, sun}) {
         const auto reuse = test::run(study);
         study.numerics.horizon = mc::Horizon::march;

@@ -1,4 +1,5 @@
 // Liang's planetary gearbox (2016): what its published figures show.
+#include "mc/study/schema/sizes.hpp"
 #include "tests/mc/liang_signals.hpp"
 
 using namespace gearpod;
@@ -20,7 +21,7 @@ mc::Study with_crack(mc::Member member, double depth_m,
     if (member != mc::Member::planet) {
         study.fault.side.reset();
     }
-    study.fault.depth_m = depth_m;
+    mc::set_fault_size(study, depth_m);
     return study;
 }
 
@@ -141,7 +142,7 @@ TEST_CASE("With the sun held the carrier's turn repeats after each planet as wel
 
     study.fault.member = mc::Member::sun;
     study.fault.side.reset();
-    study.fault.depth_m = 3.9e-3;
+    mc::set_fault_size(study, 3.9e-3);
     const auto cracked = spectrum(mc::Scene(study), 19 * 19);
     CHECK(largest_off_multiples_of_4(cracked) <
           kNothing * *std::max_element(cracked.begin(), cracked.end()));

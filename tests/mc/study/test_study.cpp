@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mc/input/spelling.hpp"
+#include "mc/study/faults/all_faults.hpp"
+#include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "mc/study/study.hpp"
@@ -73,7 +75,7 @@ TEST_CASE("Values of a study file are in SI units and radians") {
     CHECK(study.gearbox.pressure_angle_rad == Approx(M_PI / 9).epsilon(1e-15));
     CHECK(*study.operation.carrier_speed_rad_s == Approx(8.87 * 2 * M_PI / 60).epsilon(1e-15));
     CHECK(study.sensor.encoder_noise_rad == Approx(1.5 / 3600 * M_PI / 180).epsilon(1e-15));
-    CHECK(study.fault.angle_rad == M_PI / 4);
+    CHECK(crack_angle_rad(study) == M_PI / 4);
     CHECK(study.sensor.noise_levels == std::vector<double>{0.0, 0.5, 1.0});
     CHECK(study.features.use.size() == 7);
 }
@@ -81,7 +83,7 @@ TEST_CASE("Values of a study file are in SI units and radians") {
 TEST_CASE("The nominal value of a random input is the one given, else the median") {
     const Study study = study_of(kExampleStudy);
     CHECK(*study.gearbox.planet_bearing_stiffness_N_m == 1e8);
-    CHECK(*study.fault.depth_m == Approx(0.002));
+    CHECK(fault_size(study) == Approx(0.002));
     const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
     CHECK(*without.gearbox.planet_bearing_stiffness_N_m == 1.1e8);
     CHECK(study.find_random("fault.depth_mm")->to_si == 1e-3);
@@ -248,14 +250,15 @@ TEST_CASE("Size groups are the levels in ascending order, or lie between the edg
 }
 
 TEST_CASE("Each kind of fault has one size, with its unit") {
-    const std::pair<FaultKind, const char*> columns[] = {
-        {FaultKind::none, "fault_depth_m"},        {FaultKind::crack, "fault_depth_m"},
-        {FaultKind::spatial_crack, "fault_stage"}, {FaultKind::chip, "fault_chip_m"},
-        {FaultKind::pitting, "fault_pit_width_m"}, {FaultKind::broken, "fault_broken"},
-        {FaultKind::reduction, "fault_reduction"}};
+    const std::pair<const char*, const char*> columns[] = {
+        {"none", "fault_depth_m"},        {"crack", "fault_depth_m"},
+        {"spatial-crack", "fault_stage"}, {"chip", "fault_chip_m"},
+        {"pitting", "fault_pit_width_m"}, {"broken", "fault_broken"},
+        {"reduction", "fault_reduction"}};
+    CHECK(std::size(columns) == all_faults().size() + 1);
     for (const auto& [kind, column] : columns) {
         Study study;
-        study.fault.kind = kind;
+        study.fault.kind = find_fault(kind);
         CHECK(fault_size_column(study) == column);
         CHECK(fault_size_key(study).may_be_random());
         CHECK(detection_request(study).size.name == column);
@@ -273,14 +276,24 @@ TEST_CASE("Each kind of fault has one size, with its unit") {
 
 TEST_CASE("What a motion and a gearbox leave no room for is off by default") {
     const Study quasi = study_of(kQuasiStaticStudy), shaft = study_of(kFixedShaftStudy);
-    CHECK(quasi.effects.path == PathWindow::none);
-    CHECK(shaft.effects.path == PathWindow::none);
-    CHECK(study_of(kExampleStudy).effects.path == PathWindow::hamming);
+    CHECK(quasi.effects.path == nullptr);
+    CHECK(shaft.effects.path == nullptr);
+    CHECK(study_of(kExampleStudy).effects.path->name == "hamming");
     CHECK(quasi.features.use ==
           std::vector<std::string>{"te_rms", "te_kurtosis", "te_fc", "te_fm0"});
     CHECK(shaft.features.use.size() == 7);
     CHECK(quasi.operation.torque_on == Member::carrier);
     CHECK(study_of(kExampleStudy, {"operation.input=carrier"}).operation.torque_on == Member::sun);
+}
+
+TEST_CASE("A study can name every path window, and none") {
+    for (const gearpod::signals::PathWindow& window : gearpod::signals::path_windows()) {
+        const Study study = study_of(kExampleStudy, {"effects.path=" + std::string(window.name)});
+        CHECK(study.effects.path == &window);
+        CHECK(choice_text(study, "effects", "path") == window.name);
+        CHECK(study_of(resolved_text(study)) == study);
+    }
+    CHECK(choice_text(study_of(kQuasiStaticStudy), "effects", "path") == "none");
 }
 
 TEST_CASE("Lists of errors keep their order and come in SI units") {

@@ -93,6 +93,23 @@ TEST_CASE("The path grid holds the angles of planets at given places, whichever 
     }
 }
 
+TEST_CASE("Every path window is found by its name and hears a planet best at the sensor") {
+    const double pi = std::numbers::pi;
+    for (const PathWindow& window : path_windows()) {
+        INFO(window.name);
+        CHECK(&path_window(window.name) == &window);
+        CHECK_FALSE(window.doc.empty());
+        CHECK(window.weight(pi) == Approx(1.0).epsilon(1e-15));
+        for (int i = 0; i < 100; ++i) {
+            const double x = 2.0 * pi * i / 100;
+            CHECK(window.weight(x) >= 0.0);
+            CHECK(window.weight(x) <= window.weight(pi));
+            // The path in front of the sensor and behind it are alike.
+            CHECK(window.weight(x) == Approx(window.weight(2.0 * pi - x)).margin(1e-15));
+        }
+    }
+}
+
 TEST_CASE("An unknown path window is refused by naming the known ones") {
     CHECK_THROWS_WITH(path_window("hanning"), Catch::Contains("hamming, hann, rectangular"));
 }

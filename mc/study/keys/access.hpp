@@ -1,8 +1,13 @@
 // Turns a member of one of Study's parts into the access that a schema line holds:
-// number<&Gearbox::module_m>.
+// number<&Gearbox::module_m>. The shape of a fault is such a part, too.
 #pragma once
 
-#include "mc/study/schema/schema.hpp"
+#include <concepts>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "mc/study/keys/key.hpp"
 
 namespace gearpod::mc {
 
@@ -19,6 +24,14 @@ Part& part_of(Study& s) {
 template <class Part>
 const Part& part_of(const Study& s) {
     return std::get<const Part&>(parts(s));
+}
+template <std::derived_from<FaultShape> Part>
+Part& part_of(Study& s) {
+    return s.fault.shapes.edit<Part>();
+}
+template <std::derived_from<FaultShape> Part>
+const Part& part_of(const Study& s) {
+    return s.fault.shapes.get<Part>();
 }
 
 template <class Part, class Type>
@@ -40,6 +53,11 @@ template <auto Member>
 using MemberType =
     typename Inner<std::remove_cvref_t<decltype(std::declval<PartOf<Member>>().*Member)>>::type;
 
+template <class Enum>
+constexpr ChoiceName name(std::string_view text, Enum value) {
+    return {text, static_cast<int>(value)};
+}
+
 // `Shown` is the schema's type for the member's: int64 for an int, int for an enumeration.
 template <auto Member, class Shown>
 std::optional<Shown> get_member(const Study& s) {
@@ -60,6 +78,56 @@ constexpr BooleanAccess boolean{get_member<Member, bool>, set_member<Member, boo
 template <auto Member>
 constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
     return {get_member<Member, int>, set_member<Member, int>, names};
+}
+
+// One that the program may choose: what is not given then reads "auto".
+inline constexpr ChoiceName kAutomatic{"auto", -1};
+template <auto Member>
+std::optional<int> get_or_auto(const Study& s) {
+    return get_member<Member, int>(s).value_or(kAutomatic.value);
+}
+template <auto Member>
+void set_or_auto(Study& s, int value) {
+    if (value == kAutomatic.value) {
+        (part_of<PartOf<Member>>(s).*Member).reset();
+    } else {
+        set_member<Member, int>(s, value);
+    }
+}
+template <auto Member>
+constexpr ChoiceAccess choice_or_auto(std::span<const ChoiceName> names) {
+    return {get_or_auto<Member>, set_or_auto<Member>, names};
+}
+
+// One of a list, to which the member points; null stands for none of them. Shown as its place in
+// the list, counted from 1, and 0 for none.
+template <class Entry>
+const Entry* address(const Entry& entry) {
+    return &entry;
+}
+template <class Entry>
+const Entry* address(const Entry* entry) {
+    return entry;
+}
+template <auto Member, auto List>
+std::optional<int> get_listed(const Study& s) {
+    int place = 0;
+    for (const auto& entry : List()) {
+        ++place;
+        if (address(entry) == part_of<PartOf<Member>>(s).*Member) {
+            return place;
+        }
+    }
+    return 0;
+}
+template <auto Member, auto List>
+void set_listed(Study& s, int place) {
+    part_of<PartOf<Member>>(s).*Member =
+        place > 0 ? address(List()[static_cast<std::size_t>(place - 1)]) : nullptr;
+}
+template <auto Member, auto List>
+constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {
+    return {get_listed<Member, List>, set_listed<Member, List>, names};
 }
 
 template <auto Member>

@@ -1,0 +1,28 @@
+#include "mc/study/faults/all_faults.hpp"
+
+namespace gearpod::mc {
+
+// Each in the file of its name.
+const FaultKind &crack(), &spatial_crack(), &chip(), &pitting(), &broken(), &reduction();
+
+std::span<const FaultKind* const> all_faults() {
+    static const FaultKind* const kinds[] = {
+        &crack(), &spatial_crack(), &chip(), &pitting(), &broken(), &reduction(),
+    };
+    return kinds;
+}
+
+const FaultKind* find_fault(std::string_view name) {
+    for (const FaultKind* kind : all_faults()) {
+        if (kind->name() == name) {
+            return kind;
+        }
+    }
+    return nullptr;
+}
+
+const FaultKind& sized_as(const Study& study) {
+    return study.fault.kind != nullptr ? *study.fault.kind : crack();
+}
+
+}  // namespace gearpod::mc

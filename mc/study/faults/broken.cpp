@@ -1,0 +1,44 @@
+// A tooth of which a share has broken off: stiffness/faults/broken.hpp.
+#include "stiffness/faults/broken.hpp"
+
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct LostTooth : FaultShape {
+    std::optional<double> lost;  // share, 0..1
+
+    bool operator==(const LostTooth&) const = default;
+};
+
+// clang-format off
+constexpr FaultSize kSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "share of the tooth that has broken off: 1 carries nothing"};
+// clang-format on
+
+class BrokenKind final : public FaultKind {
+  public:
+    std::string_view name() const override { return "broken"; }
+    std::string_view words() const override { return "a broken tooth"; }
+    const FaultSize& size() const override { return kSize; }
+    std::span<const FaultKey> other_keys() const override { return {}; }
+    bool shapes_tooth() const override { return false; }
+    // Any tooth can lose any share.
+    void check(StudyDraft&) const override {}
+
+    std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,
+                                                              const FaultyTooth&) const override {
+        return std::make_unique<const stiffness::BrokenTooth>();
+    }
+};
+
+}  // namespace
+
+const FaultKind& broken() {
+    static const BrokenKind kind{};
+    return kind;
+}
+
+}  // namespace gearpod::mc

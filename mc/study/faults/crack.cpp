@@ -1,0 +1,52 @@
+// A crack straight through the width of a tooth, from its root: stiffness/faults/tooth_crack.hpp.
+#include "mc/study/faults/crack_angle.hpp"
+#include "mc/study/faults/limits.hpp"
+#include "mc/study/gears.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct Crack : FaultShape {
+    std::optional<double> depth_m;  // along it
+
+    bool operator==(const Crack&) const = default;
+};
+
+// clang-format off
+constexpr FaultSize kSize{"depth_mm", number<&Crack::depth_m>, kMm, kNotNegative, "depth along the crack"};
+constexpr FaultKey kOthers[] = {kCrackAngle};
+// clang-format on
+
+class CrackKind final : public FaultKind {
+  public:
+    std::string_view name() const override { return "crack"; }
+    std::string_view words() const override { return "a crack"; }
+    std::string_view title() const override { return "tooth crack"; }
+    const FaultSize& size() const override { return kSize; }
+    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    bool shapes_tooth() const override { return true; }
+
+    void check(StudyDraft& draft) const override {
+        if (crack_angle_usable(draft)) {
+            check_size(draft, {max_crack_depth_m(draft.study) * kMmPerM,
+                               "longer " + than_the_tooth(draft.study)});
+        }
+    }
+
+    std::unique_ptr<const stiffness::ToothFaultFamily> family(
+        const Study& study, const FaultyTooth& tooth) const override {
+        return std::make_unique<const stiffness::ToothCrack>(tooth.geometry.value(),
+                                                             material_of(study), profile_of(study),
+                                                             tooth.gear, crack_angle_rad(study));
+    }
+};
+
+}  // namespace
+
+const FaultKind& crack() {
+    static const CrackKind kind{};
+    return kind;
+}
+
+}  // namespace gearpod::mc

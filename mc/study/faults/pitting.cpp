@@ -1,0 +1,137 @@
+// Pits on the flanks of one or several neighbouring teeth: stiffness/faults/pitting.hpp.
+#include "stiffness/faults/pitting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/faults/limits.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct Pits : FaultShape {
+    std::optional<double> width_m;                      // along the face width
+    std::optional<double> length_m, radius_m, depth_m;  // along the profile; centre of the band
+    int teeth = 1;                                      // neighbouring pitted teeth
+
+    bool operator==(const Pits&) const = default;
+};
+
+// clang-format off
+constexpr FaultSize kSize{"pit_width_mm", number<&Pits::width_m>, kMm, kNotNegative, "width of the pitted band along the face width"};
+constexpr FaultKey kOthers[] = {
+    {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the band along the tooth height"},
+    {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
+    {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
+    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "neighbouring pitted teeth"},
+};
+// clang-format on
+
+// The mate against which the faulty flank works.
+Member mate_of(const Fault& fault) {
+    switch (*fault.member) {
+        case Member::planet:
+            return fault.side == FaultSide::sun ? Member::sun : Member::ring;
+        case Member::pinion:
+            return Member::gear;
+        case Member::gear:
+            return Member::pinion;
+        case Member::sun:
+        case Member::ring:
+        case Member::carrier:
+            return Member::planet;
+    }
+    return Member::planet;
+}
+
+// Distance along the line of action from the base circle to the contact at radius r.
+double along_line_of_action(const gears::Gear& gear, double radius_m) {
+    const double base = gear.base_radius();
+    return std::sqrt(std::max(0.0, radius_m * radius_m - base * base));
+}
+
+// Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
+// on the faulty side.
+struct ActiveFlank {
+    double low_m, high_m;
+};
+ActiveFlank active_flank(const Study& study) {
+    const gears::Gear gear = gear_of(study, *study.fault.member);
+    const gears::Gear mate = gear_of(study, mate_of(study.fault));
+    const double sine = std::sin(gear.pressure_angle_rad);
+    const double reach = along_line_of_action(mate, mate.tip_radius());
+    // The flank is touched between its own tip and where the mate's tip touches it.
+    const double other = gear.internal || mate.internal
+                             ? reach + (gear.pitch_radius() - mate.pitch_radius()) * sine
+                             : (gear.pitch_radius() + mate.pitch_radius()) * sine - reach;
+    const double end = std::hypot(gear.base_radius(), other);
+    return {std::min(end, gear.tip_radius()), std::max(end, gear.tip_radius())};
+}
+
+void check_teeth(StudyDraft& draft, const Pits& pits) {
+    const Member member = *draft.study.fault.member;
+    const int teeth = *teeth_of(draft.study, member);
+    if (draft.all_usable({"fault.teeth"}) && pits.teeth > teeth) {
+        draft.reject(
+            "fault.teeth",
+            fmt::format("is {}, but the {} has {} teeth", pits.teeth, member_name(member), teeth),
+            "");
+    }
+}
+
+void check_band(StudyDraft& draft, const Pits& pits) {
+    if (!pits.radius_m || !pits.length_m ||
+        !draft.all_usable({"fault.pit_radius_mm", "fault.pit_length_mm", "fault.side"})) {
+        return;
+    }
+    const ActiveFlank flank = active_flank(draft.study);
+    const double low_m = *pits.radius_m - 0.5 * *pits.length_m,
+                 high_m = *pits.radius_m + 0.5 * *pits.length_m;
+    if (low_m < flank.low_m / kMargin || high_m > flank.high_m * kMargin) {
+        draft.reject("fault.pit_radius_mm",
+                     fmt::format("the pitted band from {:.6g} to {:.6g} mm leaves the flank that "
+                                 "is touched, {:.6g} to {:.6g} mm",
+                                 low_m * kMmPerM, high_m * kMmPerM, flank.low_m * kMmPerM,
+                                 flank.high_m * kMmPerM),
+                     "move the band or shorten it");
+    }
+}
+
+class PittingKind final : public FaultKind {
+  public:
+    std::string_view name() const override { return "pitting"; }
+    std::string_view words() const override { return "pitting"; }
+    const FaultSize& size() const override { return kSize; }
+    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    bool shapes_tooth() const override { return true; }
+
+    void check(StudyDraft& draft) const override {
+        const Pits& pits = draft.study.fault.shapes.get<Pits>();
+        check_on_face(draft);
+        check_teeth(draft, pits);
+        check_band(draft, pits);
+    }
+
+    std::unique_ptr<const stiffness::ToothFaultFamily> family(
+        const Study& study, const FaultyTooth& tooth) const override {
+        const Pits& pits = study.fault.shapes.get<Pits>();
+        return std::make_unique<const stiffness::ToothPitting>(
+            tooth.geometry.value(), material_of(study), profile_of(study), tooth.gear,
+            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth});
+    }
+};
+
+}  // namespace
+
+const FaultKind& pitting() {
+    static const PittingKind kind{};
+    return kind;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,44 @@
+// A tooth known by what it takes from the mesh's stiffness alone: stiffness/faults/reduction.hpp.
+#include "stiffness/faults/reduction.hpp"
+
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/keys/access.hpp"
+#include "mc/study/keys/units.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+struct LostStiffness : FaultShape {
+    std::optional<double> lost;  // share, 0..1
+
+    bool operator==(const LostStiffness&) const = default;
+};
+
+// clang-format off
+constexpr FaultSize kSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "share of the tooth pair's stiffness that is lost"};
+// clang-format on
+
+class ReductionKind final : public FaultKind {
+  public:
+    std::string_view name() const override { return "reduction"; }
+    std::string_view words() const override { return "a reduction"; }
+    const FaultSize& size() const override { return kSize; }
+    std::span<const FaultKey> other_keys() const override { return {}; }
+    bool shapes_tooth() const override { return false; }
+    // Any tooth can lose any share.
+    void check(StudyDraft&) const override {}
+
+    std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,
+                                                              const FaultyTooth&) const override {
+        return std::make_unique<const stiffness::Reduction>();
+    }
+};
+
+}  // namespace
+
+const FaultKind& reduction() {
+    static const ReductionKind kind{};
+    return kind;
+}
+
+}  // namespace gearpod::mc

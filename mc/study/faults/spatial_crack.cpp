@@ -1,0 +1,171 @@
+// A crack whose depth, height and angle change along the width and as it grows:
+// stiffness/faults/spatial_crack.hpp.
+#include "stiffness/faults/spatial_crack.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "mc/study/faults/crack_angle.hpp"
+#include "mc/study/faults/limits.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
+struct Growth : FaultShape {
+    std::optional<double> stage;  // 0: healthy; between entries linear
+    std::vector<double> depth_m, end_depth_m, length_m, height_m, end_height_m;
+    std::optional<double> end_angle_rad;  // by default the angle where it begins
+    double height_wave = 0.0;
+    double height_waves = 0.0;
+    int slices = 16;
+
+    bool operator==(const Growth&) const = default;
+};
+
+// clang-format off
+constexpr FaultSize kSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
+constexpr FaultKey kOthers[] = {
+    kCrackAngle,
+    {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 where it begins"},
+    {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until it gets there"},
+    {"growth_length_mm", numbers<&Growth::length_m>, kMm, kPositive, Need::required, kFaultShape, "lengths L_c along the face width"},
+    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 over the root where it begins"},
+    {"growth_end_height_mm", numbers<&Growth::end_height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l2 at the other end face"},
+    {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
+    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "wave on the height, a of Yang (2022), Eq. 65; 0 for none"},
+    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "half waves along the face width, b of that equation"},
+    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "slices along the face width"},
+};
+// clang-format on
+
+// Every entry of a growth list stays at or below the limit.
+void check_entries(StudyDraft& draft, const std::string& key, const std::vector<double>& list_m,
+                   double limit_m, const std::string& why) {
+    for (std::size_t k = 0; k < list_m.size() && draft.all_usable({key}); ++k) {
+        if (list_m[k] > limit_m * kMargin) {
+            draft.reject(key,
+                         fmt::format("stage {}: {:.6g} mm is {}", k + 1, list_m[k] * kMmPerM, why),
+                         fmt::format("stay at or below {} mm", shown(limit_m * kMmPerM)));
+        }
+    }
+}
+
+void check_grows(StudyDraft& draft, const std::string& key, const std::vector<double>& list_m) {
+    for (std::size_t k = 1; k < list_m.size() && draft.all_usable({key}); ++k) {
+        if (list_m[k] < list_m[k - 1]) {
+            draft.reject(key,
+                         fmt::format("stage {}: {:.6g} mm is below the stage before it (a crack "
+                                     "does not shrink)",
+                                     k + 1, list_m[k] * kMmPerM),
+                         "let the list grow or stay");
+        }
+    }
+}
+
+// An end depth belongs to a crack that has reached the other end face.
+void check_end_depths(StudyDraft& draft, const Growth& g, double face_m) {
+    const std::string key = "fault.growth_end_depth_mm";
+    for (std::size_t k = 0; k < g.end_depth_m.size() && draft.all_usable({key}); ++k) {
+        if (g.end_depth_m[k] > 0.0 && g.length_m[k] * kMargin < face_m) {
+            draft.reject(key,
+                         fmt::format("stage {} has an end depth, but its length of {:.6g} mm does "
+                                     "not reach the other end face at {:.6g} mm",
+                                     k + 1, g.length_m[k] * kMmPerM, face_m * kMmPerM),
+                         "make it 0, or the length the face width");
+        }
+    }
+}
+
+void check_growth(StudyDraft& draft, const Growth& g) {
+    const double face_m = *draft.study.gearbox.face_width_m;
+    const double deepest_m = max_crack_depth_m(draft.study);
+    const double height_m = tooth_height_m(draft.study);
+    const std::string deep = "deeper " + than_the_tooth(draft.study);
+    const std::string high =
+        fmt::format("above the tip (the tooth is {:.6g} mm high)", height_m * kMmPerM);
+    const std::string wide = fmt::format("longer than the face width, {:.6g} mm", face_m * kMmPerM);
+    check_entries(draft, "fault.growth_depth_mm", g.depth_m, deepest_m, deep);
+    check_entries(draft, "fault.growth_end_depth_mm", g.end_depth_m, deepest_m, deep);
+    check_entries(draft, "fault.growth_length_mm", g.length_m, face_m, wide);
+    check_entries(draft, "fault.growth_height_mm", g.height_m, height_m, high);
+    check_entries(draft, "fault.growth_end_height_mm", g.end_height_m, height_m, high);
+    check_grows(draft, "fault.growth_depth_mm", g.depth_m);
+    check_grows(draft, "fault.growth_end_depth_mm", g.end_depth_m);
+    check_grows(draft, "fault.growth_length_mm", g.length_m);
+    check_end_depths(draft, g, face_m);
+}
+
+// Whether all lists are usable and have an entry for every stage.
+bool check_stages(StudyDraft& draft, const Growth& g) {
+    const std::size_t stages = g.depth_m.size();
+    const std::pair<const char*, std::size_t> lists[] = {
+        {"fault.growth_end_depth_mm", g.end_depth_m.size()},
+        {"fault.growth_length_mm", g.length_m.size()},
+        {"fault.growth_height_mm", g.height_m.size()},
+        {"fault.growth_end_height_mm", g.end_height_m.size()}};
+    bool same = draft.all_usable({"fault.growth_depth_mm"}) && stages > 0;
+    for (const auto& [key, size] : lists) {
+        if (!draft.all_usable({key, "fault.growth_depth_mm"})) {
+            same = false;
+        } else if (size != stages) {
+            same = false;
+            draft.reject(key,
+                         fmt::format("has {} entries, but growth_depth_mm has {} (one a stage)",
+                                     size, stages),
+                         "give all growth lists the same length");
+        }
+    }
+    return same;
+}
+
+class SpatialCrackKind final : public FaultKind {
+  public:
+    std::string_view name() const override { return "spatial-crack"; }
+    std::string_view words() const override { return "a spatial crack"; }
+    const FaultSize& size() const override { return kSize; }
+    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    bool shapes_tooth() const override { return true; }
+
+    void check(StudyDraft& draft) const override {
+        const Growth& g = draft.study.fault.shapes.get<Growth>();
+        if (crack_angle_usable(draft) && check_stages(draft, g)) {
+            check_growth(draft, g);
+            check_size(draft, {static_cast<double>(g.depth_m.size()),
+                               fmt::format("beyond the last of the {} stages of growth",
+                                           g.depth_m.size())});
+        }
+    }
+
+    std::unique_ptr<const stiffness::ToothFaultFamily> family(
+        const Study& study, const FaultyTooth& tooth) const override {
+        const Growth& g = study.fault.shapes.get<Growth>();
+        const double angle_rad = crack_angle_rad(study);
+        stiffness::CrackGrowth growth;
+        growth.depth_m = g.depth_m;
+        growth.end_depth_m = g.end_depth_m;
+        growth.length_m = g.length_m;
+        growth.height_m = g.height_m;
+        growth.end_height_m = g.end_height_m;
+        growth.angle_rad = angle_rad;
+        growth.end_angle_rad = g.end_angle_rad.value_or(angle_rad);
+        growth.height_wave = g.height_wave;
+        growth.height_waves = g.height_waves;
+        growth.slices = g.slices;
+        return std::make_unique<const stiffness::SpatialCrack>(
+            tooth.geometry.value(), material_of(study), profile_of(study), tooth.gear, growth,
+            tooth.foundation);
+    }
+};
+
+}  // namespace
+
+const FaultKind& spatial_crack() {
+    static const SpatialCrackKind kind{};
+    return kind;
+}
+
+}  // namespace gearpod::mc

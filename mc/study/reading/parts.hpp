@@ -1,0 +1,33 @@
+// The parts of reading a study, in turn; each adds what it finds wrong to the draft.
+#pragma once
+
+#include "mc/study/draft.hpp"
+#include "mc/study/keys/key.hpp"
+
+namespace gearpod::mc {
+
+// values.cpp: one value of a section into the study, type and range checked.
+void read_value(StudyDraft& draft, const Key& key, const Entry& entry);
+
+// random_inputs.cpp: the section [random].
+void read_random(StudyDraft& draft, const Value& section);
+
+// presence_checks.cpp: what is missing, or given where it has no place.
+void check_presence(StudyDraft& draft);
+
+// gear_checks.cpp: the gears among themselves.
+void check_gears(StudyDraft& draft);
+
+// checks.cpp: what else no key can know alone.
+void check_consistency(StudyDraft& draft);
+
+// fluctuation_checks.cpp: what drives the gearbox unevenly, and whether its meshes repeat.
+void check_fluctuations(StudyDraft& draft);
+
+// fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
+void check_fault(StudyDraft& draft);
+
+// until_checks.cpp: whether the study has the rate that ensemble.until speaks of.
+void check_until(StudyDraft& draft);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,178 @@
+// What every kind of fault has: names that a user meets, keys, and a law that its study builds.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "mc/scene/scene.hpp"
+#include "mc/study/faults/all_faults.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "mc/study/schema/sizes.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_example.hpp"
+
+using namespace gearpod::mc;
+using namespace gearpod::tests;
+using gearpod::test::Folder;
+using gearpod::test::Outcome;
+using gearpod::test::program;
+
+namespace {
+
+// The keys that each kind needs on a tooth of the example's sun, its size as large as can be
+// described.
+struct Example {
+    const char *kind, *keys;
+};
+const Example kExamples[] = {
+    {"crack", "depth_mm = 3"},
+    {"spatial-crack",
+     "stage = 2\ngrowth_depth_mm = [1, 2]\ngrowth_end_depth_mm = [0, 1]\n"
+     "growth_length_mm = [20, 38.1]\ngrowth_height_mm = [0.5, 0.5]\n"
+     "growth_end_height_mm = [1, 1]"},
+    {"chip", "chip_mm = 8"},
+    {"pitting",
+     "pit_width_mm = 10\npit_length_mm = 1\npit_radius_mm = 30.5\npit_depth_mm = 0.2\nteeth = 2"},
+    {"broken", "broken = 0.5"},
+    {"reduction", "reduction = 0.3"},
+};
+
+const char* keys_of(const FaultKind& kind) {
+    const auto* found = std::find_if(std::begin(kExamples), std::end(kExamples),
+                                     [&](const Example& e) { return e.kind == kind.name(); });
+    INFO(kind.name() << " has no example");
+    REQUIRE(found != std::end(kExamples));
+    return found->keys;
+}
+
+std::string text_with(const FaultKind& kind) {
+    const std::string fault = "[fault]\nkind = \"" + std::string(kind.name()) +
+                              "\"\nmember = \"sun\"\n" + keys_of(kind) + "\n";
+    const std::string text = replaced(
+        kExampleStudy, "[fault]\nkind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\n", fault);
+    return replaced(
+        text, "fault.depth_mm = { distribution = \"levels\", values = [0, 1, 2, 3, 4.3] }\n", "");
+}
+
+Study study_with(const FaultKind& kind) {
+    const StudyReading reading = read_study_text(text_with(kind), "fault.toml");
+    INFO(format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+// What is wrong with the text once `from` is `to`.
+std::string problems_of(const std::string& text, const std::string& from, const std::string& to) {
+    return format(read_study_text(replaced(text, from, to), "fault.toml").problems);
+}
+
+bool holds(const std::string& text, std::string_view words) {
+    return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("Every kind of fault has a name, words and a size of its own") {
+    std::set<std::string_view> names{"none"}, words, sizes;
+    for (const FaultKind* kind : all_faults()) {
+        INFO(kind->name());
+        CHECK(find_fault(kind->name()) == kind);
+        CHECK(names.insert(kind->name()).second);
+        CHECK(words.insert(kind->words()).second);
+        CHECK(sizes.insert(kind->size().name).second);
+        CHECK_FALSE(kind->words().empty());
+        CHECK_FALSE(kind->title().empty());
+    }
+    CHECK(find_fault("none") == nullptr);
+    CHECK(std::size(kExamples) == all_faults().size());
+}
+
+TEST_CASE("Every key of a kind of fault is one of the schema, its size the only random one") {
+    for (const FaultKind* kind : all_faults()) {
+        const Study study = study_with(*kind);
+        for (const FaultKey& fault_key : kind->keys()) {
+            INFO(kind->name() << " " << fault_key.name);
+            const Key* const key = find_key("fault", fault_key.name);
+            REQUIRE(key != nullptr);
+            CHECK(key->doc == fault_key.doc);
+            CHECK(key->presence(study).need == fault_key.need);
+            CHECK((key->unit.suffix.empty() || key->name.ends_with(key->unit.suffix)));
+            CHECK(key->may_be_random() == (fault_key.name == kind->size().name));
+            const std::string owner = "\"" + std::string(kind->name()) + "\"";
+            for (const FaultKind* other : all_faults()) {
+                const Presence presence = key->presence(study_with(*other));
+                CHECK((presence.need != Need::forbidden || holds(presence.why, owner)));
+            }
+        }
+    }
+}
+
+TEST_CASE("The size of every kind of fault is one key, one unit and one column") {
+    for (const FaultKind* kind : all_faults()) {
+        INFO(kind->name());
+        Study study = study_with(*kind);
+        CHECK(fault_size_key(study).name == kind->size().name);
+        CHECK(fault_size_key(study).unit.si_name == detection_request(study).size.unit);
+        CHECK(fault_size_column(study) ==
+              "fault_" + std::string(fault_size_key(study).stem()) +
+                  (fault_size_key(study).unit.si_suffix.empty() ? "" : "_m"));
+        const double size = fault_size(study);
+        CHECK(size > 0.0);
+        CHECK(size_groups(study).front().high == size);
+        const Study same = study;
+        set_fault_size(study, 0.5 * size);
+        CHECK(fault_size(study) == 0.5 * size);
+        CHECK(fault_size(same) == size);
+        CHECK_FALSE(study == same);
+        CHECK(*read_study_text(resolved_text(same), "resolved.toml").study == same);
+    }
+}
+
+TEST_CASE("Every kind of fault weakens the tooth of a study's gearbox") {
+    for (const FaultKind* kind : all_faults()) {
+        INFO(kind->name());
+        const Study study = study_with(*kind);
+        const Scene scene(study);
+        CHECK(scene.fault().curves() == 1);
+        CHECK(scene.fault().largest_size() >= fault_size(study));
+        const auto faulty = scene.faulty_mesh(fault_size(study));
+        REQUIRE(faulty != nullptr);
+        const auto& healthy = *scene.meshes()[0].stiffness;
+        double least = 1.0;
+        for (int i = 0; i < 100; ++i) {
+            const double tau = healthy.contact_ratio() * i / 100;
+            least = std::min(
+                least, total_at(*faulty, healthy.transitions(), tau) / total_at(healthy, tau));
+        }
+        CHECK(least < 1.0);
+        CHECK(scene.faulty_mesh(0.0) == nullptr);
+    }
+}
+
+TEST_CASE("What a user reads of a fault names its kind and its size") {
+    const Folder folder;
+    for (const FaultKind* kind : all_faults()) {
+        const std::string text = text_with(*kind), words(kind->words());
+        const std::string path = folder.file(std::string(kind->name()) + ".toml");
+        gearpod::test::write_bytes(path, text);
+        const Outcome described = program("describe " + path);
+        INFO(described.output);
+        CHECK(described.code == 0);
+        CHECK(described.mentions(std::string(kind->title()) + " on the sun"));
+
+        const std::string name = "fault.kind = \"" + std::string(kind->name()) + "\"",
+                          size = std::string(kind->size().name);
+        const FaultKind& other = *find_fault(kind->name() == "broken" ? "reduction" : "broken");
+        const std::string misplaced =
+            problems_of(text_with(other), "[fault]\n", "[fault]\n" + size + " = 0\n");
+        CHECK(holds(misplaced, "fault." + size + ": has no place"));
+        CHECK(holds(misplaced, "only for " + name));
+        const std::string without_member = problems_of(text, "member = \"sun\"\n", "");
+        CHECK(
+            holds(without_member, "missing (fault.kind is \"" + std::string(kind->name()) + "\")"));
+
+        const std::string both =
+            problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
+        CHECK(holds(both, "(" + words + " lies on one flank") == kind->shapes_tooth());
+    }
+}
