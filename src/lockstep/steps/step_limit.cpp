@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::lockstep {
 namespace {
 
