@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/pod/pod_bounds.hpp"
+
 namespace gearpod::analysis {
 namespace {
 

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "analysis/pod/goodness_of_fit.hpp"
-#include "analysis/pod/pod_bounds.hpp"
+#include "analysis/pod/hit_miss_table.hpp"
+#include "analysis/pod/pod_curve.hpp"
+#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

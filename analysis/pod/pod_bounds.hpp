@@ -8,21 +8,9 @@
 #include <vector>
 
 #include "analysis/pod/pod_likelihood.hpp"
+#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
-
-// A size read off the curve. Curves are not continued beyond the sizes tested.
-struct SizeEstimate {
-    enum class Where { reached, below_tested, not_reached };
-    Where where = Where::not_reached;
-    double size = 0.0;  // if reached; else NaN
-};
-
-struct SizeBounds {
-    SizeEstimate estimate;
-    SizeEstimate lower;  // one-sided
-    SizeEstimate upper;  // one-sided: a90/95 for a90 at 95 %
-};
 
 // Sizes at which POD is `pod`.
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
@@ -30,13 +18,6 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
 
 // a's estimate, between the lower of the lower bounds and the upper of the upper ones.
 SizeBounds widest(const SizeBounds& a, const SizeBounds& b);
-
-struct PodPoint {
-    double size = 0.0;
-    double pod = 0.0;
-    double lower = 0.0;  // one-sided each
-    double upper = 0.0;
-};
 
 // The curve with its bounds at `sizes`.
 std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,

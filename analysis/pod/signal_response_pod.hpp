@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/pod/pod_bounds.hpp"
+#include "analysis/pod/size_estimate.hpp"
 #include "analysis/statistics/regression_line.hpp"
 
 namespace gearpod::analysis {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "analysis/pod/pod_bounds.hpp"
+#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "analysis/detection/detection.hpp"
-#include "analysis/pod/pod_bounds.hpp"
+#include "analysis/pod/size_estimate.hpp"
 
 namespace gearpod::analysis {
 

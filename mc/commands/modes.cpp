@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/scene/body.hpp"
 #include "mc/scene/meshes.hpp"

@@ -1,5 +1,7 @@
 #include "dynamics/fixed_shaft.hpp"
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::dynamics {
 
 Eigen::VectorXd mesh_row(const FixedShaftLayout&) {

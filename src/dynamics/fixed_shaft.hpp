@@ -13,9 +13,12 @@
 
 #include "dynamics/effects/mesh_damping.hpp"
 #include "dynamics/effects/mesh_law.hpp"
-#include "dynamics/gearbox_matrices.hpp"
+#include "dynamics/eigen_forward.hpp"
 
 namespace gearpod::dynamics {
+
+struct GearboxMatrices;
+struct SpringDamper;
 
 enum FixedShaftGear { pinion, gear, fixed_shaft_gear_count };
 

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::dynamics {
 
 template <int W, class Real>

@@ -1,5 +1,7 @@
 #include "dynamics/gearbox.hpp"
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::dynamics {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/helical_pair.hpp"
 
 namespace gearpod::dynamics {

@@ -11,10 +11,13 @@
 
 #include "dynamics/effects/mesh_damping.hpp"
 #include "dynamics/effects/mesh_law.hpp"
-#include "dynamics/gearbox_matrices.hpp"
+#include "dynamics/eigen_forward.hpp"
 #include "gears/planetary.hpp"
 
 namespace gearpod::dynamics {
+
+struct GearboxMatrices;
+struct SpringDamper;
 
 inline constexpr int kMaxPlanets = 8;
 inline constexpr int kMaxPairs = 2 * kMaxPlanets;

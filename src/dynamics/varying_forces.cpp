@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::dynamics {
 namespace {
 

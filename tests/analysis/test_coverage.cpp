@@ -5,6 +5,7 @@
 #include <random>
 
 #include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 
 namespace gearpod::analysis {

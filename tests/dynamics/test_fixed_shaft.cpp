@@ -6,6 +6,7 @@
 
 #include "dynamics/fixed_shaft_motion.hpp"
 #include "dynamics/gearbox.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 
 using namespace gearpod::dynamics;
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "lin_parker.hpp"
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
 

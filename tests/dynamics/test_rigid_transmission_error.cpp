@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
 #include "gears/power_flow.hpp"
 

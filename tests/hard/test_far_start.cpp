@@ -3,6 +3,7 @@
 
 #include "../lockstep/liang_train.hpp"
 #include "../lockstep/tian_gearbox.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"

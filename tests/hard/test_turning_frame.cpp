@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "../lockstep/liang_train.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/instability.hpp"
 
 using namespace gearpod;

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/varying_forces.hpp"
 
 namespace gearpod::lockstep {

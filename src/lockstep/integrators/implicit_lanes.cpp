@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::lockstep {
 namespace {
 

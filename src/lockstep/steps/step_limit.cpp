@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 
 namespace gearpod::lockstep {

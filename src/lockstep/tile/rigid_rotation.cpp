@@ -1,5 +1,6 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 
 namespace gearpod::lockstep {

@@ -2,6 +2,7 @@
 // rounding and says nothing about vibration.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 

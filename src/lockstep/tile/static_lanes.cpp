@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "dynamics/gearbox_matrices.hpp"
+
 namespace gearpod::lockstep {
 namespace {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/pod/pod_bounds.hpp"
 #include "tests/analysis/reference_data.hpp"
 
 namespace gearpod::analysis {

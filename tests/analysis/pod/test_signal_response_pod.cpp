@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "analysis/pod/signal_response_pod.hpp"
+#include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
 
 namespace gearpod::analysis {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"

@@ -2,6 +2,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <catch2/catch.hpp>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "tests/lockstep/liang_train.hpp"

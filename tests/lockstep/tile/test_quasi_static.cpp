@@ -1,6 +1,7 @@
 // Quasi-static tiles against closed forms of the planets' load paths and a dense solver.
 #include <catch2/catch.hpp>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/tile/quasi_static.hpp"
 #include "tests/lockstep/liang_train.hpp"
 

@@ -1,6 +1,7 @@
 // More scenes after Yang et al. (2022): tooth separation where it happens, his test rig, and pitch
 // errors; and the tones of Liang's test rig.
 #include "dynamics/gearbox.hpp"
+#include "dynamics/gearbox_matrices.hpp"
 #include "tests/mc/liang_signals.hpp"
 
 using namespace gearpod;

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/steps/step_pilot.hpp"
 #include "mc/numerics/pilot.hpp"

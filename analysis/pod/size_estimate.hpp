@@ -1,0 +1,26 @@
+// What is read off a POD curve: sizes and probabilities, each with its one-sided bounds.
+#pragma once
+
+namespace gearpod::analysis {
+
+// A size read off the curve. Curves are not continued beyond the sizes tested.
+struct SizeEstimate {
+    enum class Where { reached, below_tested, not_reached };
+    Where where = Where::not_reached;
+    double size = 0.0;  // if reached; else NaN
+};
+
+struct SizeBounds {
+    SizeEstimate estimate;
+    SizeEstimate lower;  // one-sided
+    SizeEstimate upper;  // one-sided: a90/95 for a90 at 95 %
+};
+
+struct PodPoint {
+    double size = 0.0;
+    double pod = 0.0;
+    double lower = 0.0;  // one-sided each
+    double upper = 0.0;
+};
+
+}  // namespace gearpod::analysis
