@@ -36,7 +36,7 @@ set(GEARPOD_GENERATED_DIR ${CMAKE_BINARY_DIR}/generated)
 gearpod_read_table(${GEARPOD_LOCKSTEP_DIR}/plan/integrators.def GEARPOD_INTEGRATOR gearpod_integrators)
 gearpod_read_table(${GEARPOD_LOCKSTEP_DIR}/../dynamics/effects/mesh_laws.def GEARPOD_MESH_LAW gearpod_mesh_laws)
 
-# all_integrators.hpp: every integrator's header.
+# A header that includes every integrator's.
 set(includes "#pragma once\n")
 foreach(row ${gearpod_integrators})
   string(REPLACE "|" ";" row "${row}")
