@@ -28,10 +28,8 @@ class CrackKind final : public FaultKind {
     bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {
-        if (crack_angle_usable(draft)) {
-            check_size(draft, {max_crack_depth_m(draft.study) * kMmPerM,
-                               "longer " + than_the_tooth(draft.study)});
-        }
+        check_size(draft, {max_crack_depth_m(draft.study) * kMmPerM,
+                           "longer " + than_the_tooth(draft.study)});
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(

@@ -13,10 +13,6 @@ double crack_angle_rad(const Study& study) {
     return study.fault.shapes.get<CrackAngle>().angle_rad;
 }
 
-bool crack_angle_usable(const StudyDraft& draft) {
-    return draft.all_usable({"fault." + std::string(kCrackAngle.name)});
-}
-
 double max_crack_depth_m(const Study& study) {
     const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()),
                                         profile_of(study));

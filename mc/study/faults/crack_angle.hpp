@@ -20,7 +20,6 @@ inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackAngle::angle_rad
 // clang-format on
 
 double crack_angle_rad(const Study& study);
-bool crack_angle_usable(const StudyDraft& draft);
 
 // Length of the longest crack that the faulty member's tooth holds, m: there it breaks. The study
 // must have the tooth geometry.

@@ -132,7 +132,7 @@ class SpatialCrackKind final : public FaultKind {
 
     void check(StudyDraft& draft) const override {
         const Growth& g = draft.study.fault.shapes.get<Growth>();
-        if (crack_angle_usable(draft) && check_stages(draft, g)) {
+        if (check_stages(draft, g)) {
             check_growth(draft, g);
             check_size(draft, {static_cast<double>(g.depth_m.size()),
                                fmt::format("beyond the last of the {} stages of growth",

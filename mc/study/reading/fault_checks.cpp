@@ -79,7 +79,8 @@ void check_shape(StudyDraft& draft) {
     const Study& s = draft.study;
     if (!draft.all_usable({"gearbox.kind", "gearbox.module_mm", "gearbox.pressure_angle_deg",
                            "gearbox.addendum_coefficient", "gearbox.dedendum_coefficient",
-                           "gearbox.face_width_mm", "gearbox.tooth_profile", "fault.member"}) ||
+                           "gearbox.face_width_mm", "gearbox.tooth_profile", "fault.member",
+                           "fault.angle_deg"}) ||
         !s.fault.member || !has_gears(s) || !s.gearbox.face_width_m) {
         return;
     }
