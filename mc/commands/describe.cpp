@@ -40,11 +40,10 @@ void print_planetary(const PlanetaryDrive& drive) {
 }
 
 void print_fixed_shaft(const Study& study) {
-    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", *study.fixed_shaft.pinion_teeth,
-                                                   *study.fixed_shaft.gear_teeth));
+    const int pinion = *teeth_of(study, Member::pinion), gear = *teeth_of(study, Member::gear);
+    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", pinion, gear));
     const InstanceInputs nominal = Sampler(study).nominal();
-    const double balanced =
-        nominal.torque_N_m * *study.fixed_shaft.gear_teeth / *study.fixed_shaft.pinion_teeth;
+    const double balanced = nominal.torque_N_m * gear / pinion;
     const double load = nominal.fixed_shaft.load_torque_N_m;
     if (std::abs(load - balanced) > 1e-6 * balanced) {
         print_entry("torques out of balance",

@@ -33,10 +33,11 @@ dynamics::GearboxLayout layout_at_rest(const Study& study) {
 bool has_masses(const Study& study) {
     const Gearbox& g = study.gearbox;
     const FixedShaft& f = study.fixed_shaft;
-    return g.kind == GearboxKind::planetary
-               ? g.sun_mass_kg && g.planet_mass_kg && g.ring_mass_kg && g.carrier_mass_kg
-               : f.pinion_mass_kg && f.gear_mass_kg && f.motor_inertia_kg_m2 &&
-                     f.load_inertia_kg_m2;
+    const auto has = [&](Member member) { return g.bodies[member].mass_kg.has_value(); };
+    return g.kind == GearboxKind::planetary ? has(Member::sun) && has(Member::planet) &&
+                                                  has(Member::ring) && has(Member::carrier)
+                                            : has(Member::pinion) && has(Member::gear) &&
+                                                  f.motor_inertia_kg_m2 && f.load_inertia_kg_m2;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/gears.hpp"
 #include "signals/spectra/synchronous_average.hpp"
 
 namespace gearpod::mc {
@@ -83,11 +84,11 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_offset,
         input.planet = views(planet_);
     }
     if ((needs_ & features::kSun) != 0) {
-        input.sun = central_teeth(samples, *scene_.study().gearbox.sun_teeth,
+        input.sun = central_teeth(samples, *teeth_of(scene_.study(), Member::sun),
                                   (needs_ & features::kSunMoments) != 0, sun_);
     }
     if ((needs_ & features::kRing) != 0) {
-        input.ring = central_teeth(samples, *scene_.study().gearbox.ring_teeth,
+        input.ring = central_teeth(samples, *teeth_of(scene_.study(), Member::ring),
                                    (needs_ & features::kRingMoments) != 0, ring_);
     }
 }

@@ -22,11 +22,12 @@ Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t
 // Teeth of the gears in the order of lockstep::planetary_teeth and fixed_shaft_teeth.
 std::vector<int> flanks(const Study& study) {
     if (study.gearbox.kind == GearboxKind::fixed_shaft) {
-        return {*study.fixed_shaft.pinion_teeth, *study.fixed_shaft.gear_teeth};
+        return {*teeth_of(study, Member::pinion), *teeth_of(study, Member::gear)};
     }
     const Gearbox& g = study.gearbox;
-    std::vector<int> teeth{*g.sun_teeth, *g.ring_teeth};
-    teeth.resize(teeth.size() + 2 * static_cast<std::size_t>(g.planets), *g.planet_teeth);
+    std::vector<int> teeth{*teeth_of(study, Member::sun), *teeth_of(study, Member::ring)};
+    teeth.resize(teeth.size() + 2 * static_cast<std::size_t>(g.planets),
+                 *teeth_of(study, Member::planet));
     return teeth;
 }
 

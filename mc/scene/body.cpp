@@ -1,5 +1,7 @@
 #include "mc/scene/body.hpp"
 
+#include <utility>
+
 #include "mc/scene/drive.hpp"
 #include "mc/study/gears.hpp"
 
@@ -19,7 +21,7 @@ dynamics::PlanetaryLayout planetary_layout(const Study& study) {
     result.inertial_terms = study.effects.inertial_terms;
     result.mesh_damping = study.effects.mesh_damping;
     if (has_gears(study)) {
-        result.carrier_radius_m = 0.5 * *g.module_m * (*g.sun_teeth + *g.planet_teeth);
+        result.carrier_radius_m = centre_distance_m(study);
     }
     return result;
 }
@@ -34,44 +36,41 @@ dynamics::FixedShaftLayout fixed_shaft_layout(const Study& study) {
 }
 
 dynamics::PlanetaryInputs planetary_inputs(const InstanceInputs& in) {
-    using namespace dynamics;
-    PlanetaryInputs out;
-    const auto set = [&](Body body, double mass, double inertia, double k, double c) {
-        out.mass_kg[body] = mass;
-        out.inertia_over_r2_kg[body] = inertia;
-        out.bearing_stiffness_N_m[body] = k;
-        out.bearing_damping_N_s_m[body] = c;
-    };
-    set(sun, in.sun_mass_kg, in.sun_inertia_over_r2_kg, in.sun_bearing_stiffness_N_m,
-        in.sun_bearing_damping_N_s_m);
-    set(planet, in.planet_mass_kg, in.planet_inertia_over_r2_kg, in.planet_bearing_stiffness_N_m,
-        in.planet_bearing_damping_N_s_m);
-    set(ring, in.ring_mass_kg, in.ring_inertia_over_r2_kg, in.ring_bearing_stiffness_N_m,
-        in.ring_bearing_damping_N_s_m);
-    set(carrier, in.carrier_mass_kg, in.carrier_inertia_over_r2_kg,
-        in.carrier_bearing_stiffness_N_m, in.carrier_bearing_damping_N_s_m);
+    constexpr std::pair<dynamics::Body, Member> kBodies[] = {{dynamics::sun, Member::sun},
+                                                             {dynamics::planet, Member::planet},
+                                                             {dynamics::ring, Member::ring},
+                                                             {dynamics::carrier, Member::carrier}};
+    dynamics::PlanetaryInputs out;
+    for (const auto& [body, member] : kBodies) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[body] = b.mass_kg;
+        out.inertia_over_r2_kg[body] = b.inertia_over_r2_kg;
+        out.bearing_stiffness_N_m[body] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[body] = b.bearing_damping_N_s_m;
+    }
     out.support_stiffness_N_m = in.support_stiffness_N_m;
     out.support_damping_N_s_m = in.support_damping_N_s_m;
     return out;
 }
 
-dynamics::FixedShaftInputs fixed_shaft_inputs(const FixedShaftInstance& in) {
+dynamics::FixedShaftInputs fixed_shaft_inputs(const InstanceInputs& in) {
     using namespace dynamics;
     FixedShaftInputs out;
-    out.mass_kg[pinion] = in.pinion_mass_kg;
-    out.mass_kg[gear] = in.gear_mass_kg;
-    out.inertia_kg_m2[pinion] = in.pinion_inertia_kg_m2;
-    out.inertia_kg_m2[gear] = in.gear_inertia_kg_m2;
-    out.bearing_stiffness_N_m[pinion] = in.pinion_bearing_stiffness_N_m;
-    out.bearing_stiffness_N_m[gear] = in.gear_bearing_stiffness_N_m;
-    out.bearing_damping_N_s_m[pinion] = in.pinion_bearing_damping_N_s_m;
-    out.bearing_damping_N_s_m[gear] = in.gear_bearing_damping_N_s_m;
-    out.coupling_stiffness_N_m_rad[pinion] = in.motor_coupling_stiffness_N_m_rad;
-    out.coupling_stiffness_N_m_rad[gear] = in.load_coupling_stiffness_N_m_rad;
-    out.coupling_damping_N_m_s_rad[pinion] = in.motor_coupling_damping_N_m_s_rad;
-    out.coupling_damping_N_m_s_rad[gear] = in.load_coupling_damping_N_m_s_rad;
-    out.motor_inertia_kg_m2 = in.motor_inertia_kg_m2;
-    out.load_inertia_kg_m2 = in.load_inertia_kg_m2;
+    for (const auto& [which, member] :
+         {std::pair{pinion, Member::pinion}, std::pair{gear, Member::gear}}) {
+        const BodyInstance& b = in.bodies[member];
+        out.mass_kg[which] = b.mass_kg;
+        out.inertia_kg_m2[which] = b.inertia_kg_m2;
+        out.bearing_stiffness_N_m[which] = b.bearing_stiffness_N_m;
+        out.bearing_damping_N_s_m[which] = b.bearing_damping_N_s_m;
+    }
+    const FixedShaftInstance& f = in.fixed_shaft;
+    out.coupling_stiffness_N_m_rad[pinion] = f.motor_coupling_stiffness_N_m_rad;
+    out.coupling_stiffness_N_m_rad[gear] = f.load_coupling_stiffness_N_m_rad;
+    out.coupling_damping_N_m_s_rad[pinion] = f.motor_coupling_damping_N_m_s_rad;
+    out.coupling_damping_N_m_s_rad[gear] = f.load_coupling_damping_N_m_s_rad;
+    out.motor_inertia_kg_m2 = f.motor_inertia_kg_m2;
+    out.load_inertia_kg_m2 = f.load_inertia_kg_m2;
     return out;
 }
 
@@ -97,7 +96,7 @@ dynamics::GearboxLayout gearbox_layout(const Study& study) {
 
 dynamics::GearboxInputs body_inputs(const Study& study, const InstanceInputs& instance) {
     return study.gearbox.kind == GearboxKind::fixed_shaft
-               ? with_mesh(study, instance, fixed_shaft_inputs(instance.fixed_shaft))
+               ? with_mesh(study, instance, fixed_shaft_inputs(instance))
                : with_mesh(study, instance, planetary_inputs(instance));
 }
 

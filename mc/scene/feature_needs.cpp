@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mc/study/gears.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -38,10 +40,10 @@ bool needs_samples(unsigned needs) {
 int meshes_needed(const Study& study, const signals::SpanLayout& span, unsigned needs) {
     int meshes = span.meshes();
     if ((needs & features::kSun) != 0) {
-        meshes = std::max(meshes, central_turns(span, *study.gearbox.sun_teeth).meshes());
+        meshes = std::max(meshes, central_turns(span, *teeth_of(study, Member::sun)).meshes());
     }
     if ((needs & features::kRing) != 0) {
-        meshes = std::max(meshes, central_turns(span, *study.gearbox.ring_teeth).meshes());
+        meshes = std::max(meshes, central_turns(span, *teeth_of(study, Member::ring)).meshes());
     }
     return meshes;
 }

@@ -9,8 +9,8 @@ using std::numbers::pi;
 
 // The gear with the fault is monitored, else the pinion.
 FixedShaftDrive::FixedShaftDrive(const Study& study)
-    : pinion_teeth_(study.fixed_shaft.pinion_teeth.value()),
-      gear_teeth_(study.fixed_shaft.gear_teeth.value()),
+    : pinion_teeth_(teeth_of(study, Member::pinion).value()),
+      gear_teeth_(teeth_of(study, Member::gear).value()),
       pinion_radius_m_(gear_of(study, Member::pinion).base_radius()),
       gear_radius_m_(gear_of(study, Member::gear).base_radius()),
       gear_monitored_(study.fault.member == Member::gear) {}
@@ -37,9 +37,10 @@ double FixedShaftDrive::mesh_force_N(const InstanceInputs& instance) const {
     const double motor_N = instance.torque_N_m / pinion_radius_m_;
     const double surplus_N = motor_N - f.load_torque_N_m / gear_radius_m_;
     const double driving_kg =
-        (f.motor_inertia_kg_m2 + f.pinion_inertia_kg_m2) / (pinion_radius_m_ * pinion_radius_m_);
-    const double driven_kg =
-        (f.load_inertia_kg_m2 + f.gear_inertia_kg_m2) / (gear_radius_m_ * gear_radius_m_);
+        (f.motor_inertia_kg_m2 + instance.bodies[Member::pinion].inertia_kg_m2) /
+        (pinion_radius_m_ * pinion_radius_m_);
+    const double driven_kg = (f.load_inertia_kg_m2 + instance.bodies[Member::gear].inertia_kg_m2) /
+                             (gear_radius_m_ * gear_radius_m_);
     const double all_kg = driving_kg + driven_kg;
     return all_kg > 0.0 ? motor_N - surplus_N * driving_kg / all_kg : motor_N;
 }

@@ -14,27 +14,13 @@ struct Levels {
     double low_N_m, high_N_m, contact_ratio;
 };
 
-Levels levels_of(const Study& study, Member driven) {
-    const Gearbox& g = study.gearbox;
-    const FixedShaft& f = study.fixed_shaft;
-    const auto constant = [](double stiffness) { return Levels{stiffness, stiffness, 1.0}; };
-    const bool square = g.tooth_profile == ToothProfile::square_wave;
-    switch (driven) {
-        case Member::gear:
-            return square ? Levels{f.mesh_low_stiffness_N_m.value(),
-                                   f.mesh_high_stiffness_N_m.value(), f.mesh_contact_ratio.value()}
-                          : constant(f.mesh_stiffness_N_m.value());
-        case Member::ring:
-            return square ? Levels{g.ring_planet_low_stiffness_N_m.value(),
-                                   g.ring_planet_high_stiffness_N_m.value(),
-                                   g.ring_planet_contact_ratio.value()}
-                          : constant(g.ring_planet_stiffness_N_m.value());
-        default:
-            return square ? Levels{g.sun_planet_low_stiffness_N_m.value(),
-                                   g.sun_planet_high_stiffness_N_m.value(),
-                                   g.sun_planet_contact_ratio.value()}
-                          : constant(g.sun_planet_stiffness_N_m.value());
+Levels levels_of(const Study& study, MeshKind mesh) {
+    const MeshValues& given = study.gearbox.meshes[mesh];
+    if (study.gearbox.tooth_profile == ToothProfile::square_wave) {
+        return {given.low_stiffness_N_m.value(), given.high_stiffness_N_m.value(),
+                given.contact_ratio.value()};
     }
+    return {given.stiffness_N_m.value(), given.stiffness_N_m.value(), 1.0};
 }
 
 // In the transverse plane, in which the gears move.
@@ -44,8 +30,8 @@ double transverse_factor(const Gearbox& g) {
                : dynamics::transverse_stiffness_factor(g.pressure_angle_rad, g.helix_angle_rad);
 }
 
-std::unique_ptr<const stiffness::MeshStiffness> given_mesh(const Study& study, Member driven) {
-    const Levels levels = levels_of(study, driven);
+std::unique_ptr<const stiffness::MeshStiffness> given_mesh(const Study& study, MeshKind mesh) {
+    const Levels levels = levels_of(study, mesh);
     const double factor = transverse_factor(study.gearbox);
     return std::make_unique<const stiffness::SquareWaveMesh>(
         factor * levels.low_N_m, factor * levels.high_N_m, levels.contact_ratio);
@@ -75,21 +61,7 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
 }  // namespace
 
 double body_radius_m(const Study& study, Member member) {
-    const auto diameter = [&] {
-        switch (member) {
-            case Member::sun:
-                return study.gearbox.sun_bore_m;
-            case Member::planet:
-                return study.gearbox.planet_bore_m;
-            case Member::ring:
-                return study.gearbox.ring_outer_m;
-            case Member::pinion:
-                return study.fixed_shaft.pinion_bore_m;
-            default:
-                return study.fixed_shaft.gear_bore_m;
-        }
-    }();
-    return 0.5 * diameter.value_or(0.0);
+    return 0.5 * study.gearbox.bodies[member].held_diameter_m.value_or(0.0);
 }
 
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
@@ -100,7 +72,7 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
         SceneMesh mesh;
         mesh.members = members;
         if (stiffness_given(study)) {
-            mesh.stiffness = given_mesh(study, members.driven);
+            mesh.stiffness = given_mesh(study, members.kind);
         } else {
             mesh.geometry.emplace(gear_of(study, members.driver), gear_of(study, members.driven));
             if (coupled) {
@@ -138,7 +110,7 @@ std::vector<double> constant_pairs(const Study& study) {
     std::vector<double> k;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
         k.insert(k.end(), static_cast<std::size_t>(planetary ? study.gearbox.planets : 1),
-                 transverse_factor(study.gearbox) * levels_of(study, mesh.driven).low_N_m);
+                 transverse_factor(study.gearbox) * levels_of(study, mesh.kind).low_N_m);
     }
     return k;
 }

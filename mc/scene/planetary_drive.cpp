@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "mc/scene/drive.hpp"
 #include "mc/study/gears.hpp"
@@ -16,9 +17,14 @@ gears::FixedMember fixed_member(Member member) {
             return gears::FixedMember::sun;
         case Member::carrier:
             return gears::FixedMember::carrier;
-        default:
+        case Member::ring:
             return gears::FixedMember::ring;
+        case Member::planet:
+        case Member::pinion:
+        case Member::gear:
+            break;
     }
+    throw std::logic_error("no central member");
 }
 
 gears::Member central_member(Member member) {
@@ -27,15 +33,20 @@ gears::Member central_member(Member member) {
             return gears::Member::sun;
         case Member::carrier:
             return gears::Member::carrier;
-        default:
+        case Member::ring:
             return gears::Member::ring;
+        case Member::planet:
+        case Member::pinion:
+        case Member::gear:
+            break;
     }
+    throw std::logic_error("no central member");
 }
 
 gears::PlanetaryTrain planetary_train(const Study& study) {
     const Gearbox& g = study.gearbox;
-    return {g.sun_teeth.value(), g.planet_teeth.value(), g.ring_teeth.value(), g.planets,
-            g.planet_positions_rad};
+    return {teeth_of(study, Member::sun).value(), teeth_of(study, Member::planet).value(),
+            teeth_of(study, Member::ring).value(), g.planets, g.planet_positions_rad};
 }
 
 PlanetaryDrive::PlanetaryDrive(const Study& study)
@@ -46,8 +57,7 @@ PlanetaryDrive::PlanetaryDrive(const Study& study)
       sense_(gears::planet_sense(speeds(1.0))),
       ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
                                                          : gears::ring_to_sun_phase(train_)),
-      radius_m_{0.5 * study.gearbox.module_m.value() * (train_.sun_teeth + train_.planet_teeth),
-                gear_of(study, Member::ring).base_radius(),
+      radius_m_{centre_distance_m(study), gear_of(study, Member::ring).base_radius(),
                 gear_of(study, Member::sun).base_radius()} {}
 
 double PlanetaryDrive::mesh_frequency_rad_s(double speed_rad_s) const {

@@ -30,31 +30,19 @@ double over_r2(const std::optional<double>& inertia_over_r2, const std::optional
     return inertia ? *inertia / (radius_m * radius_m) : disc_over_r2;
 }
 
-void resolve_masses(const Study& study, InstanceInputs& inputs) {
-    const Gearbox& g = study.gearbox;
-    // A quasi-static gearbox may leave the masses out.
-    inputs.sun_mass_kg = g.sun_mass_kg.value_or(0.0);
-    inputs.planet_mass_kg = g.planet_mass_kg.value_or(0.0);
-    inputs.ring_mass_kg = g.ring_mass_kg.value_or(0.0);
-    inputs.carrier_mass_kg = g.carrier_mass_kg.value_or(0.0);
-    double sun_m = 0.0, planet_m = 0.0, ring_m = 0.0, centre_m = 0.0;
-    if (has_gears(study)) {
-        sun_m = gear_of(study, Member::sun).base_radius();
-        planet_m = gear_of(study, Member::planet).base_radius();
-        ring_m = gear_of(study, Member::ring).base_radius();
-        centre_m = 0.5 * *g.module_m * (*g.sun_teeth + *g.planet_teeth);
+void resolve_inertias(const Study& study, EachMember<BodyInstance>& bodies) {
+    const bool gears = has_gears(study);
+    const double cosine = std::cos(transverse_pressure_angle_rad(study.gearbox));
+    const auto resolve = [&](Member member, double radius_m, double disc) {
+        const MemberValues& given = study.gearbox.bodies[member];
+        bodies[member].inertia_over_r2_kg = over_r2(given.inertia_over_r2_kg, given.inertia_kg_m2,
+                                                    radius_m, disc * bodies[member].mass_kg);
+    };
+    for (const Member member : {Member::sun, Member::planet, Member::ring}) {
+        resolve(member, gears ? gear_of(study, member).base_radius() : 0.0,
+                0.5 / (cosine * cosine));
     }
-    const double cosine = std::cos(transverse_pressure_angle_rad(g));
-    const double disc = 0.5 / (cosine * cosine);
-    inputs.sun_inertia_over_r2_kg =
-        over_r2(g.sun_inertia_over_r2_kg, g.sun_inertia_kg_m2, sun_m, disc * inputs.sun_mass_kg);
-    inputs.planet_inertia_over_r2_kg = over_r2(g.planet_inertia_over_r2_kg, g.planet_inertia_kg_m2,
-                                               planet_m, disc * inputs.planet_mass_kg);
-    inputs.ring_inertia_over_r2_kg = over_r2(g.ring_inertia_over_r2_kg, g.ring_inertia_kg_m2,
-                                             ring_m, disc * inputs.ring_mass_kg);
-    inputs.carrier_inertia_over_r2_kg =
-        over_r2(g.carrier_inertia_over_r2_kg, g.carrier_inertia_kg_m2, centre_m,
-                0.5 * inputs.carrier_mass_kg);
+    resolve(Member::carrier, gears ? centre_distance_m(study) : 0.0, 0.5);
 }
 
 // A disc of the pitch radius: I = m R_p^2 / 2 (Tian, Table 4.1).
@@ -62,25 +50,22 @@ double inertia_or_disc(const std::optional<double>& inertia, double mass_kg, dou
     return inertia.value_or(0.5 * mass_kg * radius_m * radius_m);
 }
 
-void resolve_fixed_shaft(const Study& study, FixedShaftInstance& out) {
+void resolve_fixed_shaft(const Study& study, InstanceInputs& inputs) {
+    for (const Member member : {Member::pinion, Member::gear}) {
+        BodyInstance& body = inputs.bodies[member];
+        body.inertia_kg_m2 = inertia_or_disc(study.gearbox.bodies[member].inertia_kg_m2,
+                                             body.mass_kg, gear_of(study, member).pitch_radius());
+    }
     const FixedShaft& f = study.fixed_shaft;
-    out.pinion_mass_kg = f.pinion_mass_kg.value_or(0.0);
-    out.gear_mass_kg = f.gear_mass_kg.value_or(0.0);
-    out.pinion_inertia_kg_m2 = inertia_or_disc(f.pinion_inertia_kg_m2, out.pinion_mass_kg,
-                                               gear_of(study, Member::pinion).pitch_radius());
-    out.gear_inertia_kg_m2 = inertia_or_disc(f.gear_inertia_kg_m2, out.gear_mass_kg,
-                                             gear_of(study, Member::gear).pitch_radius());
+    FixedShaftInstance& out = inputs.fixed_shaft;
     out.motor_inertia_kg_m2 = f.motor_inertia_kg_m2.value_or(0.0);
     out.load_inertia_kg_m2 = f.load_inertia_kg_m2.value_or(0.0);
-    out.pinion_bearing_stiffness_N_m = f.pinion_bearing_stiffness_N_m.value_or(0.0);
-    out.gear_bearing_stiffness_N_m = f.gear_bearing_stiffness_N_m.value_or(0.0);
-    out.pinion_bearing_damping_N_s_m = f.pinion_bearing_damping_N_s_m;
-    out.gear_bearing_damping_N_s_m = f.gear_bearing_damping_N_s_m;
     out.motor_coupling_stiffness_N_m_rad = f.motor_coupling_stiffness_N_m_rad;
     out.load_coupling_stiffness_N_m_rad = f.load_coupling_stiffness_N_m_rad;
     out.motor_coupling_damping_N_m_s_rad = f.motor_coupling_damping_N_m_s_rad;
     out.load_coupling_damping_N_m_s_rad = f.load_coupling_damping_N_m_s_rad;
-    const double ratio = static_cast<double>(*f.gear_teeth) / *f.pinion_teeth;
+    const double ratio =
+        static_cast<double>(*teeth_of(study, Member::gear)) / *teeth_of(study, Member::pinion);
     out.load_torque_N_m =
         study.operation.load_torque_N_m.value_or(study.operation.torque_N_m * ratio);
 }
@@ -138,21 +123,20 @@ std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) 
 InstanceInputs resolve_inputs(const Study& study) {
     const Gearbox& g = study.gearbox;
     InstanceInputs inputs{};
+    for (const Member member : kAllMembers) {
+        const MemberValues& given = g.bodies[member];
+        // A quasi-static gearbox may leave the masses out, a torsional one the bearings.
+        inputs.bodies[member] = {given.mass_kg.value_or(0.0), 0.0, 0.0,
+                                 given.bearing_stiffness_N_m.value_or(0.0),
+                                 given.bearing_damping_N_s_m};
+    }
     if (g.kind == GearboxKind::fixed_shaft) {
-        resolve_fixed_shaft(study, inputs.fixed_shaft);
+        resolve_fixed_shaft(study, inputs);
     } else {
-        resolve_masses(study, inputs);
+        resolve_inertias(study, inputs.bodies);
     }
     inputs.backlash_m = g.backlash_m.value_or(0.0);
     inputs.pitch_error_m = study.errors.pitch_error_m;
-    inputs.sun_bearing_stiffness_N_m = g.sun_bearing_stiffness_N_m.value_or(0.0);
-    inputs.planet_bearing_stiffness_N_m = g.planet_bearing_stiffness_N_m.value_or(0.0);
-    inputs.ring_bearing_stiffness_N_m = g.ring_bearing_stiffness_N_m.value_or(0.0);
-    inputs.carrier_bearing_stiffness_N_m = g.carrier_bearing_stiffness_N_m.value_or(0.0);
-    inputs.sun_bearing_damping_N_s_m = g.sun_bearing_damping_N_s_m;
-    inputs.planet_bearing_damping_N_s_m = g.planet_bearing_damping_N_s_m;
-    inputs.ring_bearing_damping_N_s_m = g.ring_bearing_damping_N_s_m;
-    inputs.carrier_bearing_damping_N_s_m = g.carrier_bearing_damping_N_s_m;
     inputs.support_stiffness_N_m = g.support_stiffness_N_m;
     inputs.support_damping_N_s_m = g.support_damping_N_s_m;
     inputs.mesh_damping = mesh_damping(study);

@@ -10,13 +10,19 @@
 
 namespace gearpod::mc {
 
+// Of one body; all 0 of one that the gearbox has not.
+struct BodyInstance {
+    double mass_kg;
+    // Resolved whichever way the study gives them: of a planetary gearbox J / r^2 (r: base radius,
+    // carrier: centre distance), of a fixed-shaft one J.
+    double inertia_over_r2_kg, inertia_kg_m2;
+    double bearing_stiffness_N_m;  // 0 where a torsional study leaves it out
+    double bearing_damping_N_s_m;
+};
+
 // Of a fixed-shaft gearbox; all 0 in a planetary one.
 struct FixedShaftInstance {
-    double pinion_mass_kg, gear_mass_kg;
-    double pinion_inertia_kg_m2, gear_inertia_kg_m2;  // resolved
     double motor_inertia_kg_m2, load_inertia_kg_m2;
-    double pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;  // 0 if left out
-    double pinion_bearing_damping_N_s_m, gear_bearing_damping_N_s_m;
     double motor_coupling_stiffness_N_m_rad, load_coupling_stiffness_N_m_rad;
     double motor_coupling_damping_N_m_s_rad, load_coupling_damping_N_m_s_rad;
     double load_torque_N_m;  // resolved
@@ -32,15 +38,7 @@ struct FluctuationInstance {
 
 // All inputs that may differ between gearboxes, SI. Names as in Study.
 struct InstanceInputs {
-    double sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
-    // J / r^2, r: base radius, carrier: centre distance; resolved whichever way the study gives it.
-    double sun_inertia_over_r2_kg, planet_inertia_over_r2_kg, ring_inertia_over_r2_kg,
-        carrier_inertia_over_r2_kg;
-    // 0 where a torsional study leaves them out.
-    double sun_bearing_stiffness_N_m, planet_bearing_stiffness_N_m, ring_bearing_stiffness_N_m,
-        carrier_bearing_stiffness_N_m;
-    double sun_bearing_damping_N_s_m, planet_bearing_damping_N_s_m, ring_bearing_damping_N_s_m,
-        carrier_bearing_damping_N_s_m;
+    EachMember<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
     double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
     FixedShaftInstance fixed_shaft;

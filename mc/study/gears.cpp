@@ -8,15 +8,30 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::array kPlanetaryMeshes{MeshMembers{Member::sun, Member::planet},
-                                      MeshMembers{Member::planet, Member::ring}};
-constexpr std::array kFixedShaftMeshes{MeshMembers{Member::pinion, Member::gear}};
+constexpr std::array kPlanetaryMeshes{
+    MeshMembers{MeshKind::sun_planet, Member::sun, Member::planet},
+    MeshMembers{MeshKind::ring_planet, Member::planet, Member::ring}};
+constexpr std::array kFixedShaftMeshes{
+    MeshMembers{MeshKind::pinion_gear, Member::pinion, Member::gear}};
 
 }  // namespace
 
 std::string_view member_name(Member member) {
-    constexpr std::string_view kNames[] = {"sun", "planet", "ring", "carrier", "pinion", "gear"};
-    return kNames[static_cast<int>(member)];
+    switch (member) {
+        case Member::sun:
+            return "sun";
+        case Member::planet:
+            return "planet";
+        case Member::ring:
+            return "ring";
+        case Member::carrier:
+            return "carrier";
+        case Member::pinion:
+            return "pinion";
+        case Member::gear:
+            return "gear";
+    }
+    return "";
 }
 
 std::span<const MeshMembers> meshes_of(GearboxKind kind) {
@@ -40,21 +55,12 @@ bool has_toothed_member(GearboxKind kind, Member member) {
 }
 
 std::optional<int> teeth_of(const Study& study, Member member) {
-    switch (member) {
-        case Member::sun:
-            return study.gearbox.sun_teeth;
-        case Member::planet:
-            return study.gearbox.planet_teeth;
-        case Member::ring:
-            return study.gearbox.ring_teeth;
-        case Member::pinion:
-            return study.fixed_shaft.pinion_teeth;
-        case Member::gear:
-            return study.fixed_shaft.gear_teeth;
-        case Member::carrier:
-            break;
-    }
-    return std::nullopt;
+    return study.gearbox.bodies[member].teeth;
+}
+
+double centre_distance_m(const Study& study) {
+    return 0.5 * study.gearbox.module_m.value() *
+           (teeth_of(study, Member::sun).value() + teeth_of(study, Member::planet).value());
 }
 
 bool has_static_errors(const Study& study) {

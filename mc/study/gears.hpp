@@ -17,6 +17,7 @@ std::string_view member_name(Member member);
 
 // Two meshing members; the first drives and is external.
 struct MeshMembers {
+    MeshKind kind;
     Member driver, driven;
 };
 
@@ -31,6 +32,9 @@ bool has_toothed_member(GearboxKind kind, Member member);
 
 // Its tooth number, if given.
 std::optional<int> teeth_of(const Study& study, Member member);
+
+// Of sun and planets. The study must have gears.
+double centre_distance_m(const Study& study);
 
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);

@@ -2,6 +2,8 @@
 // The keys, their units, defaults and ranges are the table in schema/*_keys.cpp.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +27,10 @@ class FaultKind;  // mc/study/faults/fault_kind.hpp
 enum class GearboxKind { planetary, fixed_shaft };
 enum class ToothProfile { root_circle, base_circle, fillet, constant, square_wave };
 enum class Member { sun, planet, ring, carrier, pinion, gear };
+inline constexpr std::array kAllMembers{Member::sun,     Member::planet, Member::ring,
+                                        Member::carrier, Member::pinion, Member::gear};
+enum class MeshKind { sun_planet, ring_planet, pinion_gear };
+inline constexpr std::size_t kMeshKinds = 3;
 enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
 enum class Separation { none, one_sided, two_sided };
 using Foundation = stiffness::FoundationModel;
@@ -35,15 +41,51 @@ using FaultSide = lockstep::PlanetSide;
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
 
+// A value for each of `kCount` enumerators.
+template <class Enum, std::size_t kCount, class Value>
+struct Each {
+    std::array<Value, kCount> values{};
+
+    Value& operator[](Enum which) { return values.at(static_cast<std::size_t>(which)); }
+    const Value& operator[](Enum which) const { return values.at(static_cast<std::size_t>(which)); }
+    bool operator==(const Each&) const = default;
+};
+template <class Value>
+using EachMember = Each<Member, kAllMembers.size(), Value>;
+template <class Value>
+using EachMesh = Each<MeshKind, kMeshKinds, Value>;
+
 // Inputs that may be random hold their nominal value: the value in its section, else the
 // distribution's median. An empty optional means "not given".
+
+// What a body of a gearbox has of its own.
+struct MemberValues {
+    std::optional<int> teeth;
+    // Of the foundation: diameter of the bore, of a ring the outer one.
+    std::optional<double> held_diameter_m;
+    std::optional<double> mass_kg;
+    // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
+    std::optional<double> inertia_kg_m2, inertia_over_r2_kg;
+    std::optional<double> bearing_stiffness_N_m;
+    double bearing_damping_N_s_m = 0.0;
+
+    bool operator==(const MemberValues&) const = default;
+};
+
+// What the meshes of one kind have where their stiffness is given.
+struct MeshValues {
+    std::optional<double> stiffness_N_m;                                         // constant
+    std::optional<double> low_stiffness_N_m, high_stiffness_N_m, contact_ratio;  // square wave
+
+    bool operator==(const MeshValues&) const = default;
+};
+
 // What both kinds of gearbox have, and the planetary one's own.
 struct Gearbox {
     GearboxKind kind = GearboxKind::planetary;
     int planets = 0;
-    // Planetary: all three or none; without them only the modes of a constant-stiffness gearbox are
-    // defined.
-    std::optional<int> sun_teeth, planet_teeth, ring_teeth;
+    EachMember<MemberValues> bodies;
+    EachMesh<MeshValues> meshes;
     std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
     std::optional<double> module_m;
     double pressure_angle_rad = 0.0;
@@ -53,45 +95,24 @@ struct Gearbox {
     double dedendum_coefficient = 1.25;
     ToothProfile tooth_profile = ToothProfile::root_circle;
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
-    std::optional<double> sun_planet_stiffness_N_m, ring_planet_stiffness_N_m;  // constant profile
-    // Square-wave profile.
-    std::optional<double> sun_planet_low_stiffness_N_m, sun_planet_high_stiffness_N_m,
-        ring_planet_low_stiffness_N_m, ring_planet_high_stiffness_N_m, sun_planet_contact_ratio,
-        ring_planet_contact_ratio;
-    // Of the foundations: diameters of the bores, and of the ring's outer rim.
-    std::optional<double> sun_bore_m, planet_bore_m, ring_outer_m;
-    std::optional<double> sun_mass_kg, planet_mass_kg, ring_mass_kg, carrier_mass_kg;
-    // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
-    std::optional<double> sun_inertia_kg_m2, planet_inertia_kg_m2, ring_inertia_kg_m2,
-        carrier_inertia_kg_m2;
-    std::optional<double> sun_inertia_over_r2_kg, planet_inertia_over_r2_kg,
-        ring_inertia_over_r2_kg, carrier_inertia_over_r2_kg;
-    std::optional<double> sun_bearing_stiffness_N_m, planet_bearing_stiffness_N_m,
-        ring_bearing_stiffness_N_m, carrier_bearing_stiffness_N_m;
-    double sun_bearing_damping_N_s_m = 0.0, planet_bearing_damping_N_s_m = 0.0,
-           ring_bearing_damping_N_s_m = 0.0, carrier_bearing_damping_N_s_m = 0.0;
-    double support_stiffness_N_m = 0.0;  // tangential, holds the fixed member
+    double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;
     std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
     std::optional<double> backlash_m;  // 2b along the line of action
 
-    bool has_teeth() const { return sun_teeth && planet_teeth && ring_teeth; }
+    // Planetary: of all three or of none; without them only the modes of a constant-stiffness
+    // gearbox are defined.
+    bool has_teeth() const {
+        return bodies[Member::sun].teeth && bodies[Member::planet].teeth &&
+               bodies[Member::ring].teeth;
+    }
     bool operator==(const Gearbox&) const = default;
 };
 
 // A fixed-shaft gearbox's own: motor, coupling, pinion, gear, coupling, load. Tian (2004), Table
 // 4.1.
 struct FixedShaft {
-    std::optional<int> pinion_teeth, gear_teeth;
-    std::optional<double> mesh_stiffness_N_m;  // constant profile
-    std::optional<double> mesh_low_stiffness_N_m, mesh_high_stiffness_N_m,
-        mesh_contact_ratio;                            // square-wave profile
-    std::optional<double> pinion_bore_m, gear_bore_m;  // diameters
-    std::optional<double> pinion_mass_kg, gear_mass_kg;
-    std::optional<double> pinion_inertia_kg_m2, gear_inertia_kg_m2;  // by default solid discs
     std::optional<double> motor_inertia_kg_m2, load_inertia_kg_m2;
-    std::optional<double> pinion_bearing_stiffness_N_m, gear_bearing_stiffness_N_m;
-    double pinion_bearing_damping_N_s_m = 0.0, gear_bearing_damping_N_s_m = 0.0;
     double motor_coupling_stiffness_N_m_rad = 0.0, load_coupling_stiffness_N_m_rad = 0.0;
     double motor_coupling_damping_N_m_s_rad = 0.0, load_coupling_damping_N_m_s_rad = 0.0;
 

@@ -1,5 +1,6 @@
 // Turns a member of one of Study's parts into the access that a schema line holds:
-// number<&Gearbox::module_m>. The shape of a fault is such a part, too.
+// number<&Gearbox::module_m>, and likewise of one body or mesh: number<Member::sun,
+// &MemberValues::mass_kg>. The shape of a fault is such a part, too.
 #pragma once
 
 #include <concepts>
@@ -40,6 +41,20 @@ Part part_type(Type Part::*);
 template <auto Member>
 using PartOf = decltype(part_type(Member));
 
+// What a line names: a member of a part, or of the values of one body or mesh.
+template <auto Member, class AnyStudy>
+auto& stored(AnyStudy& s) {
+    return part_of<PartOf<Member>>(s).*Member;
+}
+template <mc::Member kBody, auto Value, class AnyStudy>
+auto& stored(AnyStudy& s) {
+    return s.gearbox.bodies[kBody].*Value;
+}
+template <MeshKind kMesh, auto Value, class AnyStudy>
+auto& stored(AnyStudy& s) {
+    return s.gearbox.meshes[kMesh].*Value;
+}
+
 template <class Type>
 struct Inner {
     using type = Type;
@@ -48,10 +63,10 @@ template <class Type>
 struct Inner<std::optional<Type>> {
     using type = Type;
 };
-// The type of a member, without its std::optional.
-template <auto Member>
-using MemberType =
-    typename Inner<std::remove_cvref_t<decltype(std::declval<PartOf<Member>>().*Member)>>::type;
+// Its type, without its std::optional.
+template <auto... Named>
+using TypeOf =
+    typename Inner<std::remove_cvref_t<decltype(stored<Named...>(std::declval<Study&>()))>>::type;
 
 template <class Enum>
 constexpr ChoiceName name(std::string_view text, Enum value) {
@@ -59,39 +74,39 @@ constexpr ChoiceName name(std::string_view text, Enum value) {
 }
 
 // `Shown` is the schema's type for the member's: int64 for an int, int for an enumeration.
-template <auto Member, class Shown>
-std::optional<Shown> get_member(const Study& s) {
-    const std::optional<MemberType<Member>> stored = part_of<PartOf<Member>>(s).*Member;
-    return stored ? std::optional<Shown>(static_cast<Shown>(*stored)) : std::nullopt;
+template <class Shown, auto... Named>
+std::optional<Shown> get(const Study& s) {
+    const std::optional<TypeOf<Named...>> value = stored<Named...>(s);
+    return value ? std::optional<Shown>(static_cast<Shown>(*value)) : std::nullopt;
 }
-template <auto Member, class Shown>
-void set_member(Study& s, Shown value) {
-    part_of<PartOf<Member>>(s).*Member = static_cast<MemberType<Member>>(value);
+template <class Shown, auto... Named>
+void set(Study& s, Shown value) {
+    stored<Named...>(s) = static_cast<TypeOf<Named...>>(value);
 }
 
-template <auto Member>
-constexpr NumberAccess number{get_member<Member, double>, set_member<Member, double>};
-template <auto Member>
-constexpr IntegerAccess integer{get_member<Member, std::int64_t>, set_member<Member, std::int64_t>};
-template <auto Member>
-constexpr BooleanAccess boolean{get_member<Member, bool>, set_member<Member, bool>};
+template <auto... Named>
+constexpr NumberAccess number{get<double, Named...>, set<double, Named...>};
+template <auto... Named>
+constexpr IntegerAccess integer{get<std::int64_t, Named...>, set<std::int64_t, Named...>};
+template <auto... Named>
+constexpr BooleanAccess boolean{get<bool, Named...>, set<bool, Named...>};
 template <auto Member>
 constexpr ChoiceAccess choice(std::span<const ChoiceName> names) {
-    return {get_member<Member, int>, set_member<Member, int>, names};
+    return {get<int, Member>, set<int, Member>, names};
 }
 
 // One that the program may choose: what is not given then reads "auto".
 inline constexpr ChoiceName kAutomatic{"auto", -1};
 template <auto Member>
 std::optional<int> get_or_auto(const Study& s) {
-    return get_member<Member, int>(s).value_or(kAutomatic.value);
+    return get<int, Member>(s).value_or(kAutomatic.value);
 }
 template <auto Member>
 void set_or_auto(Study& s, int value) {
     if (value == kAutomatic.value) {
-        (part_of<PartOf<Member>>(s).*Member).reset();
+        stored<Member>(s).reset();
     } else {
-        set_member<Member, int>(s, value);
+        set<int, Member>(s, value);
     }
 }
 template <auto Member>
@@ -114,7 +129,7 @@ std::optional<int> get_listed(const Study& s) {
     int place = 0;
     for (const auto& entry : List()) {
         ++place;
-        if (address(entry) == part_of<PartOf<Member>>(s).*Member) {
+        if (address(entry) == stored<Member>(s)) {
             return place;
         }
     }
@@ -122,8 +137,7 @@ std::optional<int> get_listed(const Study& s) {
 }
 template <auto Member, auto List>
 void set_listed(Study& s, int place) {
-    part_of<PartOf<Member>>(s).*Member =
-        place > 0 ? address(List()[static_cast<std::size_t>(place - 1)]) : nullptr;
+    stored<Member>(s) = place > 0 ? address(List()[static_cast<std::size_t>(place - 1)]) : nullptr;
 }
 template <auto Member, auto List>
 constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {
@@ -131,16 +145,16 @@ constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {
 }
 
 template <auto Member>
-MemberType<Member> get_list(const Study& s) {
-    return part_of<PartOf<Member>>(s).*Member;
+TypeOf<Member> get_list(const Study& s) {
+    return stored<Member>(s);
 }
 template <auto Member>
-void set_list(Study& s, MemberType<Member> value) {
-    part_of<PartOf<Member>>(s).*Member = std::move(value);
+void set_list(Study& s, TypeOf<Member> value) {
+    stored<Member>(s) = std::move(value);
 }
 // Strings or tones.
 template <auto Member>
-constexpr Access<MemberType<Member>, MemberType<Member>> list{get_list<Member>, set_list<Member>};
+constexpr Access<TypeOf<Member>, TypeOf<Member>> list{get_list<Member>, set_list<Member>};
 template <auto Member>
 constexpr NumbersAccess numbers{get_list<Member>, set_list<Member>, false};
 template <auto Member>

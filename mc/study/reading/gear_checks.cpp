@@ -83,8 +83,9 @@ void check_train(StudyDraft& draft) {
     if (placed) {
         check_positions(draft, g.planets);
     }
-    const int given = int{g.sun_teeth.has_value()} + int{g.planet_teeth.has_value()} +
-                      int{g.ring_teeth.has_value()};
+    const auto teeth = [&](Member member) { return g.bodies[member].teeth; };
+    const int given = int{teeth(Member::sun).has_value()} + int{teeth(Member::planet).has_value()} +
+                      int{teeth(Member::ring).has_value()};
     if (given == 1 || given == 2) {
         draft.reject("gearbox", "some tooth numbers are missing",
                      "give sun_teeth, planet_teeth and ring_teeth, or none of them");
@@ -93,7 +94,8 @@ void check_train(StudyDraft& draft) {
         return;
     }
     // Planets of given positions are checked one by one, not as equally spaced.
-    const gears::PlanetaryTrain train{*g.sun_teeth, *g.planet_teeth, *g.ring_teeth,
+    const gears::PlanetaryTrain train{*teeth(Member::sun), *teeth(Member::planet),
+                                      *teeth(Member::ring),
                                       g.planet_positions_rad.empty() ? g.planets : 1};
     const auto problems = gears::assembly_problems(train, g.addendum_coefficient);
     for (const std::string& what : problems) {
@@ -167,18 +169,13 @@ void check_bodies(StudyDraft& draft) {
         !draft.all_usable({"gearbox.module_mm", "gearbox.dedendum_coefficient"})) {
         return;
     }
-    if (s.gearbox.kind == GearboxKind::planetary) {
-        check_body(draft, Member::sun, s.gearbox.sun_bore_m);
-        check_body(draft, Member::planet, s.gearbox.planet_bore_m);
-        check_body(draft, Member::ring, s.gearbox.ring_outer_m);
-    } else {
-        check_body(draft, Member::pinion, s.fixed_shaft.pinion_bore_m);
-        check_body(draft, Member::gear, s.fixed_shaft.gear_bore_m);
+    for (const Member member : toothed_members(s)) {
+        check_body(draft, member, s.gearbox.bodies[member].held_diameter_m);
     }
 }
 
-void check_levels(StudyDraft& draft, const std::string& mesh, const std::optional<double>& low,
-                  const std::optional<double>& high) {
+void check_levels(StudyDraft& draft, const std::string& mesh, const MeshValues& given) {
+    const auto &low = given.low_stiffness_N_m, &high = given.high_stiffness_N_m;
     const std::string low_key = fmt::format("gearbox.{}_low_stiffness_N_m", mesh),
                       high_key = fmt::format("gearbox.{}_high_stiffness_N_m", mesh);
     if (low && high && draft.all_usable({low_key, high_key}) && *low > *high) {
@@ -189,13 +186,10 @@ void check_levels(StudyDraft& draft, const std::string& mesh, const std::optiona
 }
 
 void check_square_waves(StudyDraft& draft) {
-    const Gearbox& g = draft.study.gearbox;
-    const FixedShaft& f = draft.study.fixed_shaft;
-    check_levels(draft, "sun_planet", g.sun_planet_low_stiffness_N_m,
-                 g.sun_planet_high_stiffness_N_m);
-    check_levels(draft, "ring_planet", g.ring_planet_low_stiffness_N_m,
-                 g.ring_planet_high_stiffness_N_m);
-    check_levels(draft, "mesh", f.mesh_low_stiffness_N_m, f.mesh_high_stiffness_N_m);
+    const EachMesh<MeshValues>& meshes = draft.study.gearbox.meshes;
+    check_levels(draft, "sun_planet", meshes[MeshKind::sun_planet]);
+    check_levels(draft, "ring_planet", meshes[MeshKind::ring_planet]);
+    check_levels(draft, "mesh", meshes[MeshKind::pinion_gear]);
 }
 
 void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<double>& error,

@@ -70,7 +70,8 @@ double mean_of(const std::vector<double>& values) {
 }
 
 bool same(const InstanceInputs& a, const InstanceInputs& b) {
-    return a.planet_bearing_stiffness_N_m == b.planet_bearing_stiffness_N_m &&
+    return a.bodies[Member::planet].bearing_stiffness_N_m ==
+               b.bodies[Member::planet].bearing_stiffness_N_m &&
            a.path_exponent == b.path_exponent && a.fault_size == b.fault_size;
 }
 
@@ -246,20 +247,20 @@ TEST_CASE("Levels and grids of several inputs take all combinations, each equall
         std::set<std::tuple<double, double, double>> combinations;
         for (std::uint64_t i = 0; i < 64; ++i) {
             const InstanceInputs x = sampler.sample(group, i);
-            combinations.insert({x.fault_size, x.sun_mass_kg, x.noise_m_s2});
+            combinations.insert({x.fault_size, x.bodies[Member::sun].mass_kg, x.noise_m_s2});
             if (group == Group::graded) {
                 CHECK(x.fault_size == Approx(1e-3 * static_cast<double>(i % 4)));
             }
             const InstanceInputs y = more.sample(group, i);
-            CHECK(y.ring_mass_kg == 3.0);
+            CHECK(y.bodies[Member::ring].mass_kg == 3.0);
             CHECK(same(x, y));
-            CHECK(x.sun_mass_kg == y.sun_mass_kg);
+            CHECK(x.bodies[Member::sun].mass_kg == y.bodies[Member::sun].mass_kg);
             CHECK(x.noise_m_s2 == y.noise_m_s2);
         }
         CHECK(combinations.size() == (group == Group::graded ? 64 : 16));
     }
     // In the order of the schema: the mass turns before the noise.
-    CHECK(sampler.sample(Group::graded, 4).sun_mass_kg == 2.0);
+    CHECK(sampler.sample(Group::graded, 4).bodies[Member::sun].mass_kg == 2.0);
     CHECK(sampler.sample(Group::graded, 4).noise_m_s2 == 0.0);
     CHECK(sampler.sample(Group::graded, 16).noise_m_s2 == 1.0);
 
@@ -270,9 +271,9 @@ TEST_CASE("Levels and grids of several inputs take all combinations, each equall
                             "={distribution='grid', low=1, high=2, count=100000}");
     }
     const InstanceInputs last = Sampler(study_with(overrides)).sample(Group::graded, 999999999);
-    CHECK(last.sun_mass_kg == Approx(1 + 99999 / 99999.0));
-    CHECK(last.ring_mass_kg == 1.0);
-    CHECK(last.carrier_mass_kg == 1.0);
+    CHECK(last.bodies[Member::sun].mass_kg == Approx(1 + 99999 / 99999.0));
+    CHECK(last.bodies[Member::ring].mass_kg == 1.0);
+    CHECK(last.bodies[Member::carrier].mass_kg == 1.0);
 }
 
 TEST_CASE("An instance is the same whatever was sampled before and however often") {
@@ -306,7 +307,8 @@ TEST_CASE("Different inputs of one distribution are drawn independently") {
     double products = 0.0;
     for (std::uint64_t i = 0; i < kDraws; ++i) {
         const InstanceInputs inputs = sampler.sample(Group::graded, i);
-        products += 12 * (inputs.sun_mass_kg - 1.5) * (inputs.ring_mass_kg - 1.5);
+        products += 12 * (inputs.bodies[Member::sun].mass_kg - 1.5) *
+                    (inputs.bodies[Member::ring].mass_kg - 1.5);
     }
     CHECK(std::abs(products / kDraws) < 5 / std::sqrt(1.0 * kDraws));  // correlation
 }
@@ -314,18 +316,18 @@ TEST_CASE("Different inputs of one distribution are drawn independently") {
 TEST_CASE("Inertias come from J / r^2, J, or a solid disc on the pitch radius") {
     const InstanceInputs disc = Sampler(study_with({})).nominal();
     const double cosine = std::cos(M_PI / 9);
-    CHECK(disc.sun_inertia_over_r2_kg == Approx(0.7 / (2 * cosine * cosine)));
-    CHECK(disc.ring_inertia_over_r2_kg == Approx(5.982 / (2 * cosine * cosine)));
-    CHECK(disc.carrier_inertia_over_r2_kg == Approx(5.0));
+    CHECK(disc.bodies[Member::sun].inertia_over_r2_kg == Approx(0.7 / (2 * cosine * cosine)));
+    CHECK(disc.bodies[Member::ring].inertia_over_r2_kg == Approx(5.982 / (2 * cosine * cosine)));
+    CHECK(disc.bodies[Member::carrier].inertia_over_r2_kg == Approx(5.0));
 
     const InstanceInputs given = Sampler(study_with({"gearbox.planet_inertia_kg_m2=2e-3",
                                                      "gearbox.carrier_inertia_kg_m2=0.1",
                                                      "gearbox.sun_inertia_over_r2_kg=0.39"}))
                                      .nominal();
     const double base_m = 0.5 * 3.175e-3 * 31 * cosine, centre_m = 0.5 * 3.175e-3 * (19 + 31);
-    CHECK(given.planet_inertia_over_r2_kg == Approx(2e-3 / (base_m * base_m)));
-    CHECK(given.carrier_inertia_over_r2_kg == Approx(0.1 / (centre_m * centre_m)));
-    CHECK(given.sun_inertia_over_r2_kg == 0.39);
+    CHECK(given.bodies[Member::planet].inertia_over_r2_kg == Approx(2e-3 / (base_m * base_m)));
+    CHECK(given.bodies[Member::carrier].inertia_over_r2_kg == Approx(0.1 / (centre_m * centre_m)));
+    CHECK(given.bodies[Member::sun].inertia_over_r2_kg == 0.39);
 }
 
 TEST_CASE("A fixed-shaft gearbox's inputs are drawn like any other's") {
@@ -368,10 +370,10 @@ TEST_CASE("A fixed-shaft gearbox's discs and balanced load follow from its gears
                     "load_torque_N_m = 48.8\n", "");
     const auto reading = read_study_text(text, "study.toml");
     REQUIRE(reading.study);
-    const FixedShaftInstance shaft = Sampler(*reading.study).nominal().fixed_shaft;
-    CHECK(shaft.pinion_inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
-    CHECK(shaft.gear_inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
-    CHECK(shaft.load_torque_N_m == Approx(11.9 * 48 / 19));
+    const InstanceInputs inputs = Sampler(*reading.study).nominal();
+    CHECK(inputs.bodies[Member::pinion].inertia_kg_m2 == Approx(4.3659e-4).epsilon(5e-4));
+    CHECK(inputs.bodies[Member::gear].inertia_kg_m2 == Approx(8.3602e-3).epsilon(5e-4));
+    CHECK(inputs.fixed_shaft.load_torque_N_m == Approx(11.9 * 48 / 19));
 }
 
 TEST_CASE("Rows of the results hold the sampled values in SI under their names") {
@@ -390,7 +392,8 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     for (const Group group : {Group::graded, Group::threshold}) {
         const auto row = sampler.row(group, 3);
         const InstanceInputs inputs = sampler.sample(group, 3);
-        CHECK(row == std::vector<double>{inputs.planet_bearing_stiffness_N_m, inputs.speed_rad_s,
-                                         inputs.path_exponent, inputs.fault_size});
+        CHECK(row == std::vector<double>{inputs.bodies[Member::planet].bearing_stiffness_N_m,
+                                         inputs.speed_rad_s, inputs.path_exponent,
+                                         inputs.fault_size});
     }
 }

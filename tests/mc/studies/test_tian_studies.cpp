@@ -61,12 +61,13 @@ double peak(const std::vector<double>& signal) {
 
 // Pinion with motor against gear with load, couplings and bearings held by their dampers.
 double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
-    const auto& g = study.fixed_shaft;
+    const auto& bodies = study.gearbox.bodies;
+    const mc::FixedShaft& shaft = study.fixed_shaft;
     const double module = study.gearbox.module_m.value();
     double sum = 0.0;
     for (const auto& [teeth, mass, rotor] :
-         {std::tuple{19, *g.pinion_mass_kg, *g.motor_inertia_kg_m2},
-          std::tuple{48, *g.gear_mass_kg, *g.load_inertia_kg_m2}}) {
+         {std::tuple{19, *bodies[mc::Member::pinion].mass_kg, *shaft.motor_inertia_kg_m2},
+          std::tuple{48, *bodies[mc::Member::gear].mass_kg, *shaft.load_inertia_kg_m2}}) {
         const double pitch = 0.5 * module * teeth;
         const double base = pitch * std::cos(study.gearbox.pressure_angle_rad);
         sum += base * base / (0.5 * mass * pitch * pitch + rotor);
@@ -91,10 +92,7 @@ TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's f
     for (const double stiffness : {6e8, 9e8, 1.1e9}) {
         mc::Study study = shipped_study("tian-fig-4-3.toml");
         study.gearbox.tooth_profile = mc::ToothProfile::square_wave;
-        auto& gears = study.fixed_shaft;
-        gears.mesh_low_stiffness_N_m = 0.9999 * stiffness;
-        gears.mesh_high_stiffness_N_m = stiffness;
-        gears.mesh_contact_ratio = 1.9;
+        study.gearbox.meshes[mc::MeshKind::pinion_gear] = {{}, 0.9999 * stiffness, stiffness, 1.9};
         const mc::Scene scene(study);
         const double two = 1.0 + scene.pairs().start[0];
         CHECK(ringing_Hz(sensor_signal(scene, 3), scene.samples_per_mesh(), two + 0.05,

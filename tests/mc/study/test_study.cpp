@@ -82,10 +82,10 @@ TEST_CASE("Values of a study file are in SI units and radians") {
 
 TEST_CASE("The nominal value of a random input is the one given, else the median") {
     const Study study = study_of(kExampleStudy);
-    CHECK(*study.gearbox.planet_bearing_stiffness_N_m == 1e8);
+    CHECK(*study.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1e8);
     CHECK(fault_size(study) == Approx(0.002));
     const Study without = study_of(example_with("planet_bearing_stiffness_N_m = 1e8\n", ""));
-    CHECK(*without.gearbox.planet_bearing_stiffness_N_m == 1.1e8);
+    CHECK(*without.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 1.1e8);
     CHECK(study.find_random("fault.depth_mm")->to_si == 1e-3);
     CHECK(study.find_random("sensor.noise_m_s2") == nullptr);
 }
@@ -111,7 +111,7 @@ TEST_CASE("An override of a key takes it out of [random], in whatever order both
     const Study fixed = study_of(kExampleStudy, {stiffness + "=3e8"});
     CHECK(fixed.find_random(stiffness) == nullptr);
     CHECK(fixed.random.size() == 2);
-    CHECK(*fixed.gearbox.planet_bearing_stiffness_N_m == 3e8);
+    CHECK(*fixed.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 3e8);
     CHECK(study_of(resolved_text(fixed)) == fixed);
     CHECK(study_of(kExampleStudy, {"sensor={sampling_Hz=5000, low_pass_Hz=800, "
                                    "encoder_sampling_Hz=5000, path_exponent=0.2}"})
@@ -120,14 +120,15 @@ TEST_CASE("An override of a key takes it out of [random], in whatever order both
     // An override of [random] leaves the section's value, which is nominal, and the other way
     // round.
     CHECK(study_of(kExampleStudy, {"random." + stiffness + ".cv=0.5"})
-              .gearbox.planet_bearing_stiffness_N_m == 1e8);
+              .gearbox.bodies[Member::planet]
+              .bearing_stiffness_N_m == 1e8);
     const std::string plain = stiffness + "=3e8",
                       whole = "random." + stiffness + "={distribution='uniform', low=1, high=2}",
                       part = "random." + stiffness + ".cv=0.5";
     for (const std::string& random : {whole, part}) {
         const Study both = study_of(kExampleStudy, {plain, random});
         CHECK(both == study_of(kExampleStudy, {random, plain}));
-        CHECK(*both.gearbox.planet_bearing_stiffness_N_m == 3e8);
+        CHECK(*both.gearbox.bodies[Member::planet].bearing_stiffness_N_m == 3e8);
         REQUIRE(both.find_random(stiffness) != nullptr);
         CHECK(both.find_random(stiffness)->distribution ==
               study_of(kExampleStudy, {random}).find_random(stiffness)->distribution);
@@ -227,7 +228,7 @@ TEST_CASE("A gearbox of constant stiffness may have teeth or none") {
         kExampleStudy, {"gearbox.tooth_profile='constant'", "gearbox.sun_planet_stiffness_N_m=1e8",
                         "gearbox.ring_planet_stiffness_N_m=1e8", "fault.kind='none'"});
     CHECK(study.gearbox.has_teeth());
-    CHECK(*study.gearbox.sun_planet_stiffness_N_m == 1e8);
+    CHECK(*study.gearbox.meshes[MeshKind::sun_planet].stiffness_N_m == 1e8);
 }
 
 TEST_CASE("Size groups are the levels in ascending order, or lie between the edges") {
