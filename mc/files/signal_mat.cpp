@@ -18,36 +18,31 @@ std::vector<double> values_of(const matvar_t& matrix, std::size_t count) {
     return {first, first + count};
 }
 
+// The classes of numbers, among matio's others.
+struct NumberClass {
+    matio_classes type;
+    std::vector<double> (*values)(const matvar_t&, std::size_t);
+};
+constexpr NumberClass kNumberClasses[] = {
+    {MAT_C_DOUBLE, values_of<double>},      {MAT_C_SINGLE, values_of<float>},
+    {MAT_C_INT64, values_of<std::int64_t>}, {MAT_C_UINT64, values_of<std::uint64_t>},
+    {MAT_C_INT32, values_of<std::int32_t>}, {MAT_C_UINT32, values_of<std::uint32_t>},
+    {MAT_C_INT16, values_of<std::int16_t>}, {MAT_C_UINT16, values_of<std::uint16_t>},
+    {MAT_C_INT8, values_of<std::int8_t>},   {MAT_C_UINT8, values_of<std::uint8_t>},
+};
+
 // Empty unless the matrix holds real numbers.
 std::vector<double> numbers(const matvar_t& matrix, std::size_t count) {
     if (matrix.data == nullptr || matrix.isComplex != 0 ||
         matrix.nbytes != count * static_cast<std::size_t>(matrix.data_size)) {
         return {};
     }
-    switch (matrix.class_type) {
-        case MAT_C_DOUBLE:
-            return values_of<double>(matrix, count);
-        case MAT_C_SINGLE:
-            return values_of<float>(matrix, count);
-        case MAT_C_INT64:
-            return values_of<std::int64_t>(matrix, count);
-        case MAT_C_UINT64:
-            return values_of<std::uint64_t>(matrix, count);
-        case MAT_C_INT32:
-            return values_of<std::int32_t>(matrix, count);
-        case MAT_C_UINT32:
-            return values_of<std::uint32_t>(matrix, count);
-        case MAT_C_INT16:
-            return values_of<std::int16_t>(matrix, count);
-        case MAT_C_UINT16:
-            return values_of<std::uint16_t>(matrix, count);
-        case MAT_C_INT8:
-            return values_of<std::int8_t>(matrix, count);
-        case MAT_C_UINT8:
-            return values_of<std::uint8_t>(matrix, count);
-        default:
-            return {};
+    for (const NumberClass& known : kNumberClasses) {
+        if (known.type == matrix.class_type) {
+            return known.values(matrix, count);
+        }
     }
+    return {};
 }
 
 bool is_real_vector(const matvar_t& matrix) {

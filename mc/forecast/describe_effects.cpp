@@ -24,6 +24,18 @@ bool random(const Study& study, const char* key) {
     return study.find_random(key) != nullptr;
 }
 
+const char* damping_text(MeshDamping kind) {
+    switch (kind) {
+        case MeshDamping::ratio:
+            return "ratio of critical";
+        case MeshDamping::proportional:
+            return "proportional to stiffness";
+        case MeshDamping::constant:
+            return "constant";
+    }
+    return "";
+}
+
 void print_motion(const Study& study) {
     const Effects& e = study.effects;
     std::string text = e.torsional() ? "rotations only (rigid bearings)" : "x, y and rotation";
@@ -32,9 +44,7 @@ void print_motion(const Study& study) {
     }
     print_entry("motion", text);
     if (!e.quasi_static()) {
-        constexpr const char* kDamping[] = {"ratio of critical", "proportional to stiffness",
-                                            "constant"};
-        print_entry("mesh damping", kDamping[static_cast<int>(e.mesh_damping)]);
+        print_entry("mesh damping", damping_text(e.mesh_damping));
     }
     if (study.gearbox.kind == GearboxKind::planetary && e.inertial_terms && !e.torsional()) {
         print_entry("inertial terms", e.quasi_static()
