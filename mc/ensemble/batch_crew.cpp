@@ -66,12 +66,13 @@ CrewTimes BatchCrew::close() {
     return times_;
 }
 
+// The first one to come says it; from then on all may read it.
 void BatchCrew::note_size(int threads) {
-    {
-        const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(mutex_);
+    if (times_.threads == 0) {
         times_.threads = threads;
+        begun_news_.notify_one();
     }
-    begun_news_.notify_one();
 }
 
 std::optional<std::size_t> BatchCrew::next_batch() {
