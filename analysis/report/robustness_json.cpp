@@ -124,10 +124,11 @@ Json noise_json(const Reliability& reliability, double confidence) {
 nlohmann::json robustness_json(const Reliability& reliability, const DetectionRequest& request) {
     Json json = Json::object();
     for (const auto& [name, unit] : inputs_of(reliability)) {
-        json[name] = {{"unit", unit},
-                      {"features", by_feature(reliability, [&](const LevelReliability& level) {
-                           return effect_json(level, name);
-                       })}};
+        json[name] = {
+            {"unit", unit},
+            {"features", by_feature(reliability, [&, &input = name](const LevelReliability& level) {
+                 return effect_json(level, input);
+             })}};
     }
     json["noise_level"] = noise_json(reliability, request.confidence);
     return json;
@@ -136,11 +137,12 @@ nlohmann::json robustness_json(const Reliability& reliability, const DetectionRe
 nlohmann::json a90_maps_json(const Reliability& reliability, const DetectionRequest& request) {
     Json json = Json::object();
     for (const auto& [name, unit] : inputs_of(reliability)) {
-        json[name] = {{"unit", unit},
-                      {"noise_levels", request.noise_levels},
-                      {"features", by_feature(reliability, [&](const LevelReliability& level) {
-                           return a90_json(level, name);
-                       })}};
+        json[name] = {
+            {"unit", unit},
+            {"noise_levels", request.noise_levels},
+            {"features", by_feature(reliability, [&, &input = name](const LevelReliability& level) {
+                 return a90_json(level, input);
+             })}};
     }
     return json;
 }
