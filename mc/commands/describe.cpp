@@ -7,6 +7,7 @@
 
 #include "machine/wall_clock.hpp"
 #include "mc/commands/support.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/describe_forecast.hpp"
 #include "mc/forecast/effect_costs.hpp"
@@ -155,6 +156,9 @@ void print_cost(const Scene& scene) {
                                        "share one march",
                                        *distinct)
                          : "every gearbox moves differently");
+    if (!Ranks::of_mpi()) {
+        print_entry("processes", "built without MPI: one process");
+    }
 }
 
 }  // namespace
