@@ -8,6 +8,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/support.hpp"
+#include "mc/ensemble/ranks.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/describe_forecast.hpp"
 #include "mc/forecast/effect_costs.hpp"
@@ -154,6 +155,9 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                                        "share one march",
                                        *distinct)
                          : "every gearbox moves differently");
+    if (!Ranks::of_mpi()) {
+        print_entry("processes", "built without MPI: one process");
+    }
 }
 
 }  // namespace

@@ -8,11 +8,16 @@
 
 namespace gearpod::mc {
 
-// MPI is started only where a launcher is at work, so that the program runs alone without it. All
+// MPI is started only where a launcher is at work, so that the program runs alone without it, and
+// may be missing when the program is built (ranks_of_mpi.cpp or rank_alone.cpp): then there is one
+// rank, and a launcher that starts several copies is an error. All
 // calls come from the thread that made the object, of which there is one in a process; failures of
 // MPI end all ranks.
 class Ranks {
   public:
+    // Whether the program was built with MPI.
+    static bool of_mpi();
+
     Ranks();
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;

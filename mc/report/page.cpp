@@ -21,9 +21,20 @@ namespace {
     throw std::runtime_error("the page cannot be made: " + what);
 }
 
-std::string from_environment(const char* name, const char* otherwise) {
+std::string from_environment(const char* name, const std::string& otherwise) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? value : otherwise;
+}
+
+// Of the scripts, seen from the running program, wherever it was installed or moved to; a program
+// in its build's folder has them beside it.
+std::filesystem::path report_folder() {
+    std::error_code none;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+    const auto beside = program / "report";
+    return std::filesystem::exists(beside / "build_page.py", none)
+               ? beside
+               : (program / GEARPOD_REPORT_FROM_PROGRAM).lexically_normal();
 }
 
 // A file without a name, which goes when it is closed.
@@ -80,7 +91,8 @@ int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
 
 std::string report_page(const std::string& json) {
     const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
-    const std::filesystem::path folder = from_environment("GEARPOD_REPORT_DIR", GEARPOD_REPORT_DIR);
+    const std::filesystem::path folder =
+        from_environment("GEARPOD_REPORT_DIR", report_folder().string());
     const std::string program = folder / "build_page.py";
     if (!std::filesystem::exists(program)) {
         fail(program +

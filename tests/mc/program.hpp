@@ -69,8 +69,11 @@ inline Outcome program(const std::string& arguments) {
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments);
 }
 
-// As a container's root may, and with more ranks than processors.
+// As a container's root may, and with more ranks than processors. Nothing in a build without MPI.
 inline std::string mpirun(int ranks) {
+    if (std::string(GEARPOD_MPIEXEC).empty()) {
+        return "";
+    }
     return std::string("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ") +
            GEARPOD_MPIEXEC + " --oversubscribe -n " + std::to_string(ranks) + " ";
 }

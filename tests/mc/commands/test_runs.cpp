@@ -70,7 +70,8 @@ void await_batches(const std::string& part, std::uintmax_t before) {
 
 }  // namespace
 
-TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits") {
+TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the same bits",
+          "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     for (const int ranks : {1, 2, 3, 4}) {
@@ -221,7 +222,7 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
     }
 }
 
-TEST_CASE("Ranks with another study, or without it, end the run with one line") {
+TEST_CASE("Ranks with another study, or without it, end the run with one line", "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5"), other = folder.file("other.toml");
     fs::copy_file(study("planet-crack.toml"), other);
@@ -250,7 +251,7 @@ TEST_CASE("Ranks with another study, or without it, end the run with one line") 
     CHECK_FALSE(fs::exists(out + ".part"));
 }
 
-TEST_CASE("A rank that dies ends the run, and finished batches are kept") {
+TEST_CASE("A rank that dies ends the run, and finished batches are kept", "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     // The second rank kills itself once there are batches.

@@ -1,0 +1,31 @@
+# Where an installed program and what it needs lie; nothing of it knows the prefix, which may move.
+install(TARGETS gearpod RUNTIME)
+set(share ${CMAKE_INSTALL_DATADIR}/gearpod)
+install(DIRECTORY studies/ DESTINATION ${share}/studies
+  FILES_MATCHING PATTERN "*.toml" PATTERN "README.md")
+install(PROGRAMS studies/slurm.sh DESTINATION ${share}/studies)
+install(DIRECTORY analysis/report/ DESTINATION ${share}/report
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "__pycache__" EXCLUDE)
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# cpack -G DEB. A package for any x86-64 processor comes from the preset `portable`; another one's
+# name says that it is not.
+set(CPACK_PACKAGE_NAME gearpod)
+set(CPACK_PACKAGE_VENDOR "the gearpod developers")
+set(CPACK_PACKAGE_CONTACT "the gearpod developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Monte Carlo study of which gear faults a sensor would find")
+set(CPACK_PACKAGE_DESCRIPTION "Simulates thousands of gearboxes that differ the way real ones do, computes features of
+what sensors would measure on each, and reports detection rates per fault size.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-matplotlib")
+if(GEARPOD_WITH_MPI)
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", openmpi-bin")
+endif()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+if(NOT GEARPOD_PORTABLE)
+  set(CPACK_DEBIAN_PACKAGE_RELEASE native)
+endif()
+include(CPack)

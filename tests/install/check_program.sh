@@ -1,0 +1,31 @@
+# shellcheck shell=sh disable=SC2154 # work is the folder of who sources it
+# Sourced by the tests here: an installed program, seen from a folder that is not the sources'.
+#   check_program PREFIX
+unset GEARPOD_REPORT_DIR
+fail() {
+    echo "FAILED: $*" >&2
+    exit 1
+}
+
+# A small study that the installation brings, and its page, which must come from the scripts that
+# were installed with the program: a word is changed in them, and without them there is no page.
+check_program() {
+    prefix=$1
+    mkdir "$work/elsewhere"
+    cd "$work/elsewhere" || fail "no folder"
+    "$prefix/bin/gearpod" run "$prefix/share/gearpod/studies/planet-crack.toml" --quiet \
+        --instances 32 --set ensemble.threshold_instances=32 --out r.h5 || fail "run"
+    "$prefix/bin/gearpod" report r.h5 | grep -q 'alarm if' || fail "report"
+    [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"
+
+    page=$prefix/share/gearpod/report
+    /usr/bin/python3 -c "import matplotlib" 2>/dev/null || return 0
+    sed -i 's/<html/<html data-installed="here"/' "$page"/*.py
+    "$prefix/bin/gearpod" report r.h5 --html r.html >/dev/null || fail "report --html"
+    grep -q 'data-installed="here"' r.html || fail "the page comes from elsewhere"
+    rm -r "$page"
+    if "$prefix/bin/gearpod" report r.h5 --html none.html 2>message; then
+        fail "a page without the installed scripts"
+    fi
+    grep -qF "$page/build_page.py does not exist" message || fail "$(cat message)"
+}

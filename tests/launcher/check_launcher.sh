@@ -1,0 +1,65 @@
+#!/bin/sh
+# The launcher where something is missing, with programs of its own making on the PATH.
+#   check_launcher.sh LAUNCHER
+set -eu
+launcher=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() {
+    echo "FAILED: $*" >&2
+    cat "$work/said" >&2
+    exit 1
+}
+
+# A tree with nothing but the launcher, and a PATH with nothing but what it calls.
+tree=$work/tree bin=$work/bin
+mkdir -p "$tree/cmake" "$bin"
+cp "$launcher" "$tree/gearpod"
+cp "$(dirname -- "$launcher")/cmake/packages.txt" "$tree/cmake"
+for tool in sh readlink dirname mkdir touch mv find head tail id env sed awk cat grep tr; do
+    ln -s "$(command -v $tool)" "$bin/$tool"
+done
+fake() {
+    printf '#!/bin/sh\n%s\n' "$2" >"$bin/$1"
+    chmod +x "$bin/$1"
+}
+# expect CODE WORD...: the launcher's exit code, and what it says.
+expect() {
+    code=0
+    PATH=$bin "$tree/gearpod" --version >"$work/said" 2>&1 || code=$?
+    [ "$code" -eq "$1" ] || fail "exit code $code instead of $1"
+    shift
+    for word in "$@"; do
+        grep -qF -- "$word" "$work/said" || fail "it does not say: $word"
+    done
+}
+
+# Not Debian, no compiler and no cmake.
+expect 2 compiler gcc-c++ gxx ninja-build
+fake c++ ''
+fake ninja ''
+expect 2 cmake
+grep -q gcc-c++ "$work/said" && fail "it names a compiler that is there"
+
+# CMake misses two libraries, and says so.
+fake cmake 'echo "CMake Error: gearpod is missing: fmt toml++"; exit 1'
+expect 2 "missing: fmt toml++" fmt-devel libfmt-dev tomlplusplus-devel
+grep -q eigen3-devel "$work/said" && fail "it names what is there"
+
+# It fails for another reason: that is shown.
+fake cmake 'echo "CMake Error: of another kind"; exit 1'
+expect 1 "of another kind" "the build failed"
+
+# All is there: the program is started.
+fake cmake "mkdir -p '$tree/build'; printf '#!/bin/sh\necho started\n' >'$tree/build/gearpod'; chmod +x '$tree/build/gearpod'"
+ln -s "$(command -v chmod)" "$bin/chmod"
+expect 0 started
+
+# Debian: what is not installed is asked of apt-get, or named to who is not root.
+fake dpkg-query 'case $* in *libfmt-dev*) exit 1;; esac; printf "install ok installed"'
+fake id 'echo 1000'
+rm -r "$tree/build"
+expect 2 "apt-get install libfmt-dev"
+fake id 'echo 0'
+fake apt-get 'echo "apt-get $*"'
+expect 0 "installing with apt-get: libfmt-dev" "install -q -y --no-install-recommends libfmt-dev"
