@@ -1,8 +1,6 @@
 #include "mc/ensemble/ranks.hpp"
 
 #include <fmt/format.h>
-#include <sched.h>
-#include <unistd.h>
 
 #include "mc/results/provenance.hpp"
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "lockstep/integrators/facts.hpp"
+#include "lockstep/plan/transmission_error.hpp"
 #include "lockstep/steps/step_pilot.hpp"
 #include "lockstep/tile/driven_march.hpp"
 #include "lockstep/tile/mesh_march.hpp"
