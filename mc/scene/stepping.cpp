@@ -53,8 +53,7 @@ class StepNeeds {
   public:
     StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
               const std::vector<double>& stiffest_N_m)
-        : study_(study),
-          layout_(layout),
+        : layout_(layout),
           stiffest_(stiffest_N_m),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
         const Sampler sampler(study);
@@ -103,7 +102,6 @@ class StepNeeds {
     }
     double period(std::size_t i) const { return dynamics::mesh_period_s(gearboxes_[i]); }
 
-    const Study& study_;
     const dynamics::GearboxLayout& layout_;
     const std::vector<double>& stiffest_;
     double low_pass_rad_s_;

@@ -31,8 +31,7 @@ machine::AlignedVector with_margins(const Fluctuation& f, std::size_t lanes) {
 
 ExcitationRows::ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
                                std::span<const dynamics::GearboxInputs> inputs, bool with_time)
-    : plan_(plan),
-      excitation_(excitation),
+    : excitation_(excitation),
       lanes_(static_cast<int>(inputs.size())),
       nodes_per_step_(distinct_nodes_per_step(plan.grid)),
       values_(values_in_row(excitation)),

@@ -12,7 +12,7 @@ namespace gearpod::lockstep {
 
 class ExcitationRows {
   public:
-    // `inputs`: one gearbox a lane (8, 4 or 1). Plan and excitation must outlive the rows.
+    // `inputs`: one gearbox a lane (8, 4 or 1). The excitation must outlive the rows.
     // `with_time`: time is kept even where no torque depends on it.
     ExcitationRows(const MarchPlan& plan, const Excitation& excitation,
                    std::span<const dynamics::GearboxInputs> inputs, bool with_time = false);
@@ -47,7 +47,6 @@ class ExcitationRows {
     void steady_time(int mesh);
     void integrate_time(int mesh);
 
-    const MarchPlan& plan_;
     const Excitation& excitation_;
     const int lanes_, nodes_per_step_, values_;
     const bool with_time_;
