@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "gearpod_version.hpp"
+#include "lockstep/kernels/kernel_table.hpp"
 #include "machine/dispatch.hpp"
 
 namespace gearpod::mc {
@@ -32,6 +33,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const Study& study, 
             {"git_hash", GEARPOD_GIT_HASH},
             {"compiler", "gcc " __VERSION__},
             {"instruction_set", std::string(machine::name(machine::active_instruction_set()))},
+            {"kernels", lockstep::built_kernels()},
             {"study", resolved_text(study)},
             {"seed", std::to_string(study.ensemble.seed)},
             {"ranks", std::to_string(ranks)},

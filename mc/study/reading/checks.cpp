@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "features/feature.hpp"
+#include "lockstep/integrators/facts.hpp"
 #include "machine/lanes.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/gears.hpp"

@@ -28,7 +28,7 @@ const std::vector<ChoiceName> kIntegrators = names_or_auto(lockstep::all_integra
 constexpr machine::InstructionSet kSets[] = {machine::InstructionSet::baseline,
                                              machine::InstructionSet::x86_64_v3,
                                              machine::InstructionSet::x86_64_v4};
-const std::vector<ChoiceName> kInstructionSets = names_or_auto(std::span(kSets));
+const std::vector<ChoiceName> kInstructionSets = names_or_auto<machine::InstructionSet>(kSets);
 
 constexpr Range kTolerance = {0.0, 1.0, false, true};
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -87,7 +88,7 @@ TEST_CASE("One to four ranks, one or two threads, one lane, four or eight: the s
     for (const char* change :
          {" --set numerics.lanes=1", " --set numerics.lanes=4", " --set numerics.threads=2"}) {
         INFO(change);
-        CHECK(test::program(run_of(out) + change).code == 0);
+        CHECK(test::compared_program(run_of(out) + change).code == 0);
         CHECK(bits(out) == reference());
         fs::remove(out);
     }

@@ -1,0 +1,36 @@
+// What a program says that was not built with the kernels that a study asks for.
+#include <catch2/catch.hpp>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::Outcome;
+using test::study;
+
+TEST_CASE("Lanes that the program was not built with are bad input, named with those it has") {
+    for (const int lanes : {1, 4}) {
+        const std::string change = " --set numerics.lanes=" + std::to_string(lanes);
+        const Outcome here = test::program("describe " + study("planet-crack.toml") + change);
+        INFO(here.output);
+        if (GEARPOD_PORTABLE) {
+            CHECK(here.code == 0);
+        } else {
+            CHECK(here.code == 2);
+            CHECK(here.mentions("numerics.lanes: this program was built without " +
+                                std::to_string(lanes) + " lanes"));
+            CHECK(here.mentions("8 doubles or 16 singles abreast"));
+        }
+    }
+}
+
+TEST_CASE("Results say which kernels the program was built with") {
+    const test::Folder folder;
+    const std::string out = folder.file("r.h5");
+    REQUIRE(test::program("run " + study("planet-crack.toml") +
+                          " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " +
+                          out)
+                .code == 0);
+    const std::string kernels = mc::read_frame(out).provenance_value("kernels");
+    CHECK(kernels.find("doubles or") != std::string::npos);
+    CHECK(kernels.find("abreast for") != std::string::npos);
+}
