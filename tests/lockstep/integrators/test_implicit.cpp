@@ -21,7 +21,7 @@ using test::TianGearbox;
 
 namespace {
 
-const std::vector<Integrator> kImplicit = test::integrators(false);
+const std::vector<Integrator> kImplicitOnes = test::integrators(false);
 
 MarchPlan liang_plan(int steps, dynamics::Motion motion, Integrator integrator) {
     const auto& train = LiangTrain::instance();
@@ -78,7 +78,7 @@ TEST_CASE("The implicit integrators keep their order across contact transitions"
         const Eigen::VectorXd rest =
             dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, k));
         const Marched exact = march(fine, in, state_at(fine, rest), 2);
-        for (const Integrator integrator : kImplicit) {
+        for (const Integrator integrator : kImplicitOnes) {
             std::vector<double> motions, sensors;
             for (const int steps : {2400, 4800}) {
                 const MarchPlan plan = liang_plan(steps, motion, integrator);
@@ -133,7 +133,7 @@ TEST_CASE("The implicit integrators keep their order on a smooth stiffness") {
     Eigen::VectorXd away = dynamics::static_equilibrium(dynamics::assemble(fine.layout, in, {8e8}));
     away(dynamics::u_1) += 2e-6;
     const Marched exact = march(fine, in, state_at(fine, away), 3);
-    for (const Integrator integrator : kImplicit) {
+    for (const Integrator integrator : kImplicitOnes) {
         std::vector<double> errors;
         for (const int steps : {200, 400, 800}) {
             const MarchPlan plan = test::smooth_plan(steps, integrator);
@@ -225,7 +225,7 @@ TEST_CASE("Implicit integrators settle on the orbit of Runge-Kutta") {
     for (const double a : exact.records[0].acceleration) {
         largest = std::max(largest, std::abs(a));
     }
-    for (const Integrator integrator : kImplicit) {
+    for (const Integrator integrator : kImplicitOnes) {
         const TileResult tile =
             run_tile<1>(liang_plan(4800, full, integrator), one, train.no_fault(1), {});
         REQUIRE(tile.status[0] == LaneStatus::ok);
@@ -244,7 +244,7 @@ TEST_CASE(
     }
     TileSettings settings;
     settings.max_meshes = 4;
-    for (const Integrator integrator : kImplicit) {
+    for (const Integrator integrator : kImplicitOnes) {
         const MarchPlan plan =
             liang_plan(240, dynamics::Motion::translational_torsional, integrator);
         settings.march_meshes = 6;
@@ -313,7 +313,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
             scale = std::max(scale, std::abs(q));
         }
         CHECK(largest_difference(exact, linear) > 0.1 * scale);  // the teeth did part
-        for (const Integrator integrator : kImplicit) {
+        for (const Integrator integrator : kImplicitOnes) {
             const auto separating =
                 run(plan_of(6400, integrator, 5e-6, MeshLaw::separating), backlash_m, 2);
             CHECK(largest_difference(separating, exact) < 2e-3 * scale);
@@ -324,7 +324,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
     }
     // Under full load and little error the teeth never part: the same motion as the linear mesh's.
     in = gearbox.inputs();
-    for (const Integrator integrator : kImplicit) {
+    for (const Integrator integrator : kImplicitOnes) {
         const auto separating = run(plan_of(400, integrator, 1e-7, MeshLaw::separating), 1e-4, 2);
         const auto linear = run(plan_of(400, integrator, 1e-7, MeshLaw::with_error), 1e-4, 2);
         CHECK(separating == linear);
@@ -341,7 +341,7 @@ TEST_CASE("Separating meshes march implicitly as they do explicitly") {
         in.backlash_m = 1e-6 * (1 + l);
         lanes.push_back(in);
     }
-    for (const Integrator integrator : kImplicit) {
+    for (const Integrator integrator : kImplicitOnes) {
         const MarchPlan plan = plan_of(800, integrator, 5e-6, MeshLaw::separating);
         TileSettings settings;
         settings.max_meshes = 1;
