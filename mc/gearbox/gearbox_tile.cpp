@@ -1,5 +1,6 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
+#include "lockstep/kernels/built_kernels.hpp"
 #include "lockstep/steps/instability.hpp"
 #include "lockstep/tile/quasi_static.hpp"
 #include "machine/thread_clock.hpp"
@@ -166,8 +167,9 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
 }  // namespace
 
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int lanes, bool with_motion,
+                          std::span<const GearboxId> ids, int fewest, bool with_motion,
                           const MarchCache* marches) {
+    const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     GearboxTile tile = sampled_tile(sampler, ids, lanes);
     const MarchCache* const kept = with_motion ? nullptr : marches;
     auto start = WallClock::now();

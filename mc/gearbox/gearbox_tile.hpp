@@ -34,10 +34,11 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// Runs the gearboxes in `ids`, at most as many as there are lanes (16, 8, 4 or 1); missing lanes
-// repeat the last one. With `marches`, what was marched before is not marched again.
+// Runs the gearboxes in `ids`, at most as many as there are lanes: `fewest` (16, 8, 4 or 1) or the
+// next number that the program has kernels for. Missing lanes repeat the last one. With `marches`,
+// what was marched before is not marched again.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int lanes, bool with_motion = false,
+                          std::span<const GearboxId> ids, int fewest, bool with_motion = false,
                           const MarchCache* marches = nullptr);
 
 // The same from a march made elsewhere, of as many lanes as it has a status.

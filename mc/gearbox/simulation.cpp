@@ -17,7 +17,8 @@ namespace {
 
 using Column = SignalColumn;
 
-// Values that repeat with the recorded mesh periods: value(record, sample) over `meshes` meshes.
+// Values of the first lane that repeat with the recorded mesh periods: value(record, sample) over
+// `meshes` meshes.
 template <typename Value>
 std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
     std::vector<double> all;
@@ -35,13 +36,14 @@ std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Va
 void add_motion(const Scene& scene, const GearboxTile& tile, long meshes, Simulation& out) {
     const auto names = dynamics::motion_names(scene.plan().layout);
     const int samples = scene.samples_per_mesh();
-    out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [](const auto& r, auto p) {
-                               return r.te[p];
+    const std::size_t lanes = tile.inputs.size();
+    out.columns.push_back({"te", "rad", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
+                               return r.te[p * lanes];
                            })});
     for (std::size_t d = 0; d < names.size(); ++d) {
         out.columns.push_back(
             {names[d], "m", unroll(tile, samples, meshes, [&](const auto& r, auto p) {
-                 return r.motion[p * names.size() + d];
+                 return r.motion[(p * names.size() + d) * lanes];
              })});
     }
 }

@@ -166,8 +166,8 @@ class Examples {
                                      " failed when computed again");
         }
         std::vector<LevelSignals> levels;
-        const auto values = features_.compute(
-            lane_signals(scene_, path_, tile, 0, features_.meshes()), tile.inputs[0], id, &levels);
+        const LaneSignals own = lane_signals(scene_, path_, tile, 0, features_.meshes());
+        const auto values = features_.compute(own, tile.inputs[0], id, &levels);
         const RowShape shape = row_shape(frame_);
         const std::span<const double> stored(row.values.data() + shape.parameters,
                                              shape.values() - shape.parameters);
@@ -178,7 +178,7 @@ class Examples {
                   {"same_bits", same_bits(values, stored)},
                   {"engagements", engagements(scene_, row.size)},
                   {"te",
-                   {{"clean", time_json(tile.te_turn, scene_.te_samples_per_mesh())},
+                   {{"clean", time_json(own.te_turn, scene_.te_samples_per_mesh())},
                     {"noisy", time_json(levels[level_].te_turn, scene_.te_samples_per_mesh())}}},
                   {"sensor", nullptr},
                   {"spectrum", nullptr},
@@ -193,8 +193,8 @@ class Examples {
             json["features"].push_back({{"name", frame_.features[f].name},
                                         {"value", std::isfinite(value) ? Json(value) : Json()}});
         }
-        if (!tile.folded.empty()) {
-            add_sensor(tile, id, period_s, levels[level_].tooth_rms, json);
+        if (!own.folded.empty()) {
+            add_sensor(tile, own, id, period_s, levels[level_].tooth_rms, json);
         }
         return json;
     }
@@ -202,8 +202,8 @@ class Examples {
     double noise_level() const { return frame_.noise_levels[level_]; }
 
   private:
-    void add_sensor(const GearboxTile& tile, const GearboxId& id, double period_s,
-                    const std::vector<double>& noisy_rms, Json& json) {
+    void add_sensor(const GearboxTile& tile, const LaneSignals& own, const GearboxId& id,
+                    double period_s, const std::vector<double>& noisy_rms, Json& json) {
         const signals::SpanLayout layout = scene_.span();
         const int samples = scene_.samples_per_mesh();
         const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
@@ -218,7 +218,7 @@ class Examples {
             spectrum_json(clean, noisy, static_cast<std::size_t>(scene_.span_meshes()), period_s);
         std::vector<double> clean_rms(noisy_rms.size());
         signals::Windowing windowing(layout, samples, scene_.study().features.tukey_taper);
-        windowing.load(tile.folded);
+        windowing.load(own.folded);
         windowing.search(0.0, clean_rms);
         json["tooth_rms"] = {{"clean", clean_rms}, {"noisy", noisy_rms}};
     }

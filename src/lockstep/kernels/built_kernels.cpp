@@ -25,6 +25,12 @@ void choose_instruction_set(std::optional<machine::InstructionSet> asked_for) {
     machine::use_instruction_set(*(above - 1));
 }
 
+int lanes_for(Precision precision, int gearboxes) {
+    const std::vector<int> built = built_lanes(precision);
+    const auto fewest = std::lower_bound(built.begin(), built.end(), gearboxes);
+    return fewest == built.end() ? built.back() : *fewest;
+}
+
 void check_lanes(Precision precision, int lanes) {
     const std::vector<int> built = built_lanes(precision);
     if (std::find(built.begin(), built.end(), lanes) == built.end()) {

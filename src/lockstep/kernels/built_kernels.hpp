@@ -11,6 +11,9 @@ namespace gearpod::lockstep {
 // program and processor have. Throws std::invalid_argument where either lacks it.
 void choose_instruction_set(std::optional<machine::InstructionSet> asked_for);
 
+// The fewest lanes of the program's kernels that hold so many gearboxes, or the most that it has.
+int lanes_for(Precision precision, int gearboxes);
+
 // Throws NoSuchKernel.
 void check_lanes(Precision precision, int lanes);
 
