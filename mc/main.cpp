@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "lockstep/kernels/built_kernels.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/results/provenance.hpp"
 
@@ -184,6 +185,8 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        // A program that was built for another processor would end in an illegal instruction.
+        gearpod::lockstep::choose_instruction_set({});
         const int code = run_program(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
             fmt::print(stderr, "gearpod: standard output cannot be written\n");

@@ -27,6 +27,9 @@ void use_instruction_set(InstructionSet set);
 // "baseline", "x86-64-v3" or "x86-64-v4".
 std::string_view name(InstructionSet set);
 
+// Throws std::logic_error: a kernel was called whose width the program was built without.
+[[noreturn]] void throw_spare();
+
 }  // namespace gearpod::machine
 
 // GEARPOD_KERNEL(march, (State& s, int n), (s, n), march_steps<8>(s, n))
@@ -34,7 +37,33 @@ std::string_view name(InstructionSet set);
 // set.
 // GEARPOD_NARROW_KERNEL: the same for kernels of one lane, or of four, which fill a 256-bit
 // register: wider registers cannot help either.
-#if defined(__x86_64__) && !defined(GEARPOD_ONE_INSTRUCTION_SET)
+// GEARPOD_SPARE_KERNEL: a narrow one whose width a build for one processor does without
+// (GEARPOD_ONLY_X86_64_V4 and the like, which the build sets): it throws there.
+#if defined(GEARPOD_ONLY_X86_64_V4) || defined(GEARPOD_ONLY_X86_64_V3)
+#    define GEARPOD_KERNEL_OF_SET(SET, TARGET, NAME, PARAMETERS, ARGUMENTS, ...) \
+        namespace {                                                              \
+        __attribute__((target(TARGET))) void NAME##_##SET PARAMETERS {           \
+            __VA_ARGS__;                                                         \
+        }                                                                        \
+        }                                                                        \
+        void NAME PARAMETERS {                                                   \
+            return NAME##_##SET ARGUMENTS;                                       \
+        }
+#    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...) \
+        GEARPOD_KERNEL_OF_SET(x86_64_v3, "arch=x86-64-v3", NAME, PARAMETERS, ARGUMENTS, __VA_ARGS__)
+#    define GEARPOD_SPARE_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...) \
+        void NAME PARAMETERS {                                     \
+            static_cast<void>(noexcept(__VA_ARGS__));              \
+            gearpod::machine::throw_spare();                       \
+        }
+#endif
+#if defined(GEARPOD_ONLY_X86_64_V4)
+#    define GEARPOD_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                             \
+        GEARPOD_KERNEL_OF_SET(x86_64_v4, "arch=x86-64-v4,prefer-vector-width=512", NAME, \
+                              PARAMETERS, ARGUMENTS, __VA_ARGS__)
+#elif defined(GEARPOD_ONLY_X86_64_V3)
+#    define GEARPOD_KERNEL GEARPOD_NARROW_KERNEL
+#elif defined(__x86_64__) && !defined(GEARPOD_ONE_INSTRUCTION_SET)
 #    define GEARPOD_NARROW_KERNEL(NAME, PARAMETERS, ARGUMENTS, ...)                  \
         namespace {                                                                  \
         __attribute__((target("arch=x86-64-v3"))) void NAME##_x86_64_v3 PARAMETERS { \
@@ -79,4 +108,7 @@ std::string_view name(InstructionSet set);
             __VA_ARGS__;                                     \
         }
 #    define GEARPOD_NARROW_KERNEL GEARPOD_KERNEL
+#endif
+#if !defined(GEARPOD_SPARE_KERNEL)
+#    define GEARPOD_SPARE_KERNEL GEARPOD_NARROW_KERNEL
 #endif

@@ -19,8 +19,10 @@ void choose_instruction_set(std::optional<machine::InstructionSet> asked_for) {
     }
     const auto above = std::upper_bound(built.begin(), built.end(), best);
     if (above == built.begin()) {
-        throw NoSuchKernel(fmt::format("this program was built for {}, and this processor has {}",
-                                       machine::name(built.front()), machine::name(best)));
+        throw NoSuchKernel(
+            fmt::format("this program was built for {}, and this processor has {}: build "
+                        "it here, or for all (preset portable)",
+                        machine::name(built.front()), machine::name(best)));
     }
     machine::use_instruction_set(*(above - 1));
 }

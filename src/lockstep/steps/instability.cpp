@@ -1,10 +1,10 @@
 #include "lockstep/steps/instability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
@@ -49,7 +49,7 @@ double growth(const MarchPlan& plan, const Eigen::MatrixXd& mass, const Eigen::M
     Eigen::MatrixXd kept = map;
     kept.topRows(n) -= (turn * (turned * map.topRows(n))).eval();
     kept.bottomRows(n) -= (turn * (turned * map.bottomRows(n))).eval();
-    return Eigen::EigenSolver<Eigen::MatrixXd>(kept, false).eigenvalues().cwiseAbs().maxCoeff();
+    return dynamics::eigenvalues(kept).cwiseAbs().maxCoeff();
 }
 
 // What the displacements are multiplied with to be as large as the velocities: else the map's
@@ -129,7 +129,7 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
     Eigen::MatrixXd held = scale.asDiagonal() * (m.stiffness + m.centrifugal) * scale.asDiagonal();
     const Eigen::VectorXd turn = dynamics::rigid_rotation(layout).cwiseQuotient(scale).normalized();
     held += (1e3 * held.diagonal().cwiseAbs().maxCoeff()) * turn * turn.transpose();
-    return Eigen::LLT<Eigen::MatrixXd>(held).info() != Eigen::Success;
+    return !dynamics::positive_definite(held);
 }
 
 double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {

@@ -1,12 +1,11 @@
 #include "lockstep/steps/step_limit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <limits>
 #include <numbers>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 
@@ -31,7 +30,7 @@ double longest_step(std::complex<double> lambda, const IntegratorFacts& integrat
 }
 
 Eigen::VectorXcd modes(const dynamics::GearboxMatrices& m) {
-    return Eigen::EigenSolver<Eigen::MatrixXd>(state_matrix(m), false).eigenvalues();
+    return dynamics::eigenvalues(state_matrix(m));
 }
 
 // Below this a mode is the rigid rotation: what rounding, and the linearised centrifugal term,
@@ -46,7 +45,7 @@ double rigid_rate(const dynamics::GearboxMatrices& m) {
 
 Eigen::MatrixXd state_matrix(const dynamics::GearboxMatrices& m) {
     const Eigen::Index n = m.mass.rows();
-    const Eigen::MatrixXd inverse_mass = m.mass.inverse();
+    const Eigen::MatrixXd inverse_mass = dynamics::inverse(m.mass);
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     system.topRightCorner(n, n).setIdentity();
     system.bottomLeftCorner(n, n) = -inverse_mass * (m.stiffness + m.centrifugal);
@@ -73,7 +72,7 @@ double central_difference_limit(const dynamics::GearboxMatrices& m) {
     const Eigen::MatrixXd stiffness = m.stiffness + m.centrifugal;
     const auto stands = [&](double h) {
         const Eigen::MatrixXd left = m.mass - h * (m.damping + 0.25 * h * stiffness);
-        return Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success;
+        return dynamics::positive_definite(left);
     };
     // No body alone stands a longer step: m = h c + h^2/4 k.
     double above = std::numeric_limits<double>::infinity();
@@ -103,13 +102,13 @@ StiffPart stiffest_part(const dynamics::GearboxLayout& layout,
                         const dynamics::GearboxInputs& inputs,
                         const std::vector<double>& pair_stiffness_N_m) {
     const dynamics::GearboxMatrices m = dynamics::assemble(layout, inputs, pair_stiffness_N_m);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(state_matrix(m));
+    const dynamics::EigenPairs modes = dynamics::eigen_pairs(state_matrix(m));
     Eigen::Index fastest = 0;
-    solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
-    const double rate = std::abs(solver.eigenvalues()(fastest));
+    modes.values.cwiseAbs().maxCoeff(&fastest);
+    const double rate = std::abs(modes.values(fastest));
     // The half of the eigenvector that holds the velocities; the displacements are far smaller.
     const Eigen::Index n = m.mass.rows();
-    const Eigen::VectorXcd mode = solver.eigenvectors().col(fastest).tail(n);
+    const Eigen::VectorXcd mode = modes.vectors.col(fastest).tail(n);
 
     StiffPart result;
     result.rate_1_s = rate;

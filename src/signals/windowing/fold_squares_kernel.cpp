@@ -70,8 +70,8 @@ GEARPOD_INLINE void fold_all(const FoldArguments& a) {
 
 }  // namespace
 
-GEARPOD_NARROW_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
-GEARPOD_NARROW_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
+GEARPOD_SPARE_KERNEL(fold_squares_1, (const FoldArguments& a), (a), fold_all<1>(a))
+GEARPOD_SPARE_KERNEL(fold_squares_4, (const FoldArguments& a), (a), fold_all<4>(a))
 GEARPOD_KERNEL(fold_squares_8, (const FoldArguments& a), (a), fold_all<8>(a))
 GEARPOD_KERNEL(fold_squares_16, (const FoldArguments& a), (a), fold_all<16>(a))
 
