@@ -1,1 +1,1 @@
-// Compiles the headers that all test programs share (cmake/precompiled.cmake).
+// Compiles the headers that all test programs share (cmake/quick_build.cmake).

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/size_groups.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void check_shapes(const FeatureSample& sample, std::size_t levels, const char* which) {
     if (sample.values.size() != sample.fault_size.size() * levels) {

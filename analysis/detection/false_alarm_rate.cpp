@@ -5,8 +5,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
@@ -15,7 +15,6 @@ namespace {
 using Beta = boost::math::beta_distribution<double, QuietPolicy>;
 // (n+1)(1-rate) is a whole number for the usual rates: keep rounding from adding one to it.
 constexpr double kRounding = 1e-9;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Interval equal_tails(double a, double b, double confidence) {
     const double tail = 0.5 * (1.0 - confidence);

@@ -1,18 +1,14 @@
 #include "analysis/detection/size_groups.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/wilson.hpp"
 
 namespace gearpod::analysis {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<std::size_t> group_of(double size, const std::vector<SizeGroup>& groups) {
     constexpr double kSameSize = 1e-9;

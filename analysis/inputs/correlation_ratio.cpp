@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "analysis/inputs/input_bins.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/noncentral_f.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastUnit = std::numeric_limits<double>::min();
 
 // Analysis of variance of y in bins of x; y has mean 0.

@@ -7,6 +7,7 @@
 #include "analysis/inputs/input_bins.hpp"
 #include "analysis/statistics/binary_regression.hpp"
 #include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/upper_tail.hpp"
 #include "analysis/statistics/wilson.hpp"
 
@@ -14,7 +15,6 @@ namespace gearpod::analysis {
 namespace {
 
 using Where = SizeEstimate::Where;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBins = 5;
 constexpr std::size_t kFewValues = 9;  // an input with no more has an a90 at each of them
 constexpr double kPod = 0.9;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
@@ -15,7 +16,6 @@ using Where = SizeEstimate::Where;
 constexpr double kAtEnd = 1e-12;
 constexpr int kSizeBits = 22;  // of a bound's place: 2e-7
 constexpr int kBandBits = 12;  // 2e-4
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Signed distance to the bound in the root of the deviance, which is nearly linear.
 class Profile {

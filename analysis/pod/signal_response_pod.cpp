@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
 
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
@@ -17,7 +17,6 @@ namespace gearpod::analysis {
 namespace {
 
 using Where = SizeEstimate::Where;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewest = 10;  // points for the checks to mean anything
 
 struct Points {

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "analysis/pod/outcomes.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/statistics/binary_regression.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRidge = 1.0;
-constexpr double kMostMissing = 0.1;
 constexpr long kFewest = 50;
 constexpr int kBandPoints = 5;
 

@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/statistics/holm.hpp"
+#include "analysis/statistics/interval.hpp"
 #include "analysis/statistics/link.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMostMissing = 0.1;
 
 std::vector<std::size_t> complete_rows(const std::vector<const RankedFeature*>& features,
                                        std::span<const double> RankedFeature::*group) {

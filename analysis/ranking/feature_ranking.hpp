@@ -11,6 +11,9 @@
 
 namespace gearpod::analysis {
 
+// A feature that lacks more of its values is not ranked, nor combined with others.
+inline constexpr double kMostMissing = 0.1;
+
 // One feature's values at one noise level; all features over the same gearboxes in the same order.
 struct RankedFeature {
     std::string name;

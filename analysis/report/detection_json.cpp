@@ -1,18 +1,12 @@
 #include "analysis/report/detection_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/detection/reliable_size.hpp"
+#include "analysis/report/json_values.hpp"
 
 namespace gearpod::analysis {
 namespace {
-
-constexpr double kReliablePd = 0.9;
-
-nlohmann::json number(double value) {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
 
 nlohmann::json to_json(const Interval& bounds) {
     return nlohmann::json::array({number(bounds.lower), number(bounds.upper)});

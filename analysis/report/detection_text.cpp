@@ -19,7 +19,6 @@ constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
 constexpr std::size_t kCountWidth = 8;  // gearboxes, failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
 constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
-constexpr double kReliablePd = 0.9;
 
 std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
     const double low = size.low / unit.per_unit(), high = size.high / unit.per_unit();

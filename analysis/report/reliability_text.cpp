@@ -11,8 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kLevel = 0.05;  // of the tests named in the text
-constexpr long kFewest = 10;     // healthy and faulty gearboxes for the text to say anything
+constexpr long kFewest = 10;  // healthy and faulty gearboxes for the text to say anything
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -103,7 +102,7 @@ void add_ranking(std::string& out, const FeatureRanking& ranking) {
     } else if (ranking.ranks.size() > 1) {
         std::string same;
         for (std::size_t i = 1; i < ranking.ranks.size(); ++i) {
-            if (!(ranking.ranks.front().p_values[i] < kLevel)) {
+            if (!(ranking.ranks.front().p_values[i] < kTestLevel)) {
                 same += (same.empty() ? "" : ", ") + ranking.ranks[i].name;
             }
         }
@@ -132,7 +131,7 @@ void add_misses(std::string& out, const FeatureReliability& feature, std::size_t
                     feature.feature, range, misses.misses, misses.misses + misses.hits);
     bool any = false;
     for (const InputInfluence& input : misses.inputs) {
-        if (input.p_value < kLevel) {
+        if (input.p_value < kTestLevel) {
             text += fmt::format("{} {} {:.2f} [{:.2f}, {:.2f}]", any ? "," : "", input.name,
                                 input.larger_in_misses, input.bounds.lower, input.bounds.upper);
             any = true;

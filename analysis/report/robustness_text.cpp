@@ -10,7 +10,6 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kLevel = 0.05;  // of the tests named in the text
 constexpr double kShare = 0.01;  // of the variance, from which on an input is named
 
 std::string a90_text(const HeldOutDetector& detector, const SizeUnit& unit) {
@@ -63,7 +62,7 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
     std::vector<const InputEffect*> mattering;
     std::size_t width = 8;
     for (const InputEffect& effect : effects.inputs) {
-        if (effect.p_value < kLevel && !effect.bins.empty()) {
+        if (effect.p_value < kTestLevel && !effect.bins.empty()) {
             mattering.push_back(&effect);
             width = std::max(width, effect.name.size() + 2);
         }

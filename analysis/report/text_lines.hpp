@@ -9,6 +9,8 @@
 namespace gearpod::analysis {
 
 inline constexpr std::size_t kTextWidth = 120;
+// Of the tests named in the text.
+inline constexpr double kTestLevel = 0.05;
 
 // Adds the text and an end of line. Breaks at spaces before the width; further lines are indented.
 void add_wrapped(std::string& out, const std::string& text, std::size_t indent);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/statistics/clopper_pearson.hpp"
@@ -11,8 +10,6 @@
 
 namespace gearpod::analysis {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double covariance(const std::vector<double>& a, double mean_a, const std::vector<double>& b,
                   double mean_b) {

@@ -1,7 +1,12 @@
 // Bounds of an estimate.
 #pragma once
 
+#include <limits>
+
 namespace gearpod::analysis {
+
+// What could not be estimated.
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {
     double lower = 0.0;

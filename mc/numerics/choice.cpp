@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 // The reference moves this much less than the tolerance when its steps are halved.
 constexpr double kReferenceShare = 0.1;
 
@@ -24,10 +24,10 @@ constexpr double kBeyondOwnRule = 16.0;
 
 // What a rung gives on the pilot.
 struct Trial {
-    double error = kInfinity;  // of the worst feature
-    int worst = 0;             // which that is
-    double cost = kInfinity;   // rk4 steps a gearbox
-    bool marched = false;      // or could not win, or has no place in the study
+    double error = kNever;  // of the worst feature
+    int worst = 0;          // which that is
+    double cost = kNever;   // rk4 steps a gearbox
+    bool marched = false;   // or could not win, or has no place in the study
 };
 
 class Search {
@@ -221,7 +221,7 @@ class Search {
     Trial best_;
     Rung best_rung_;
     Numerics best_numerics_;
-    double least_error_ = kInfinity, least_meshes_ = 0.0;
+    double least_error_ = kNever, least_meshes_ = 0.0;
     int marches_ = 0;
 };
 

@@ -16,9 +16,9 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::string_view kMagic = "gearpod tiles 1\n";
-constexpr std::uint64_t kMark = 0x454c495444504721u;  // in front of a written batch
-constexpr std::size_t kBlock = 4096;                  // batches begin at a multiple of it
-constexpr std::size_t kMostText = 1u << 24;           // longer is damage
+constexpr std::uint64_t kBatchMark = 0x454c495444504721u;  // in front of a written batch
+constexpr std::size_t kBlock = 4096;                       // batches begin at a multiple of it
+constexpr std::size_t kMostText = 1u << 24;                // longer is damage
 
 // A record's numbers, 8 bytes each.
 constexpr std::size_t kStatusAt = 2;
@@ -207,7 +207,7 @@ void Checkpoint::scan() {
         if (all_zero(record)) {
             continue;
         }
-        const bool whole = number_at(record, 0) == kMark &&
+        const bool whole = number_at(record, 0) == kBatchMark &&
                            number_at(record, record.size() - 8) == record_sum(batch, record);
         const std::uint64_t rows = number_at(record, 8);
         if (!whole || rows > plan_.batch(batch).count) {
@@ -256,7 +256,7 @@ void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
     const auto put = [&](std::size_t place, std::uint64_t number) {
         std::memcpy(scratch_.data() + 8 * place, &number, 8);
     };
-    put(0, kMark);
+    put(0, kBatchMark);
     put(1, rows.count());
     for (std::size_t i = 0; i < rows.count(); ++i) {
         put(kStatusAt + i, static_cast<std::uint64_t>(rows.status[i]));

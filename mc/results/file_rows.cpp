@@ -8,7 +8,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kBlockRows = 4096;
+constexpr std::size_t kFileBlockRows = 4096;
 
 Hdf5Handle open_file(const std::string& path) {
     return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening the file"};
@@ -63,9 +63,9 @@ void FileRows::visit(const std::function<void(const RowBlock&)>& use) const {
     const SilentHdf5 silent;
     try {
         const Hdf5Handle file = open_file(path_);
-        for (std::size_t first = 0; first < rows_; first += kBlockRows) {
+        for (std::size_t first = 0; first < rows_; first += kFileBlockRows) {
             use(read_block(file.get(), frame_, rows_,
-                           {first, std::min(kBlockRows, rows_ - first)}));
+                           {first, std::min(kFileBlockRows, rows_ - first)}));
         }
     } catch (const Hdf5Error& error) {
         refuse(path_, error);

@@ -14,11 +14,11 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::string_view kMark = "gearpod\n";
+constexpr std::string_view kSealMark = "gearpod\n";
 constexpr off_t kSealBytes = 16;
 
 std::string seal_of(std::uint64_t sum) {
-    std::string seal(kMark);
+    std::string seal(kSealMark);
     for (int byte = 0; byte < 8; ++byte) {
         seal += static_cast<char>((sum >> (8 * byte)) & 0xff);
     }
@@ -67,7 +67,7 @@ Seal check_seal(const std::string& path) {
     std::string seal(kSealBytes, '\0');
     const off_t end = *size - kSealBytes;
     if (read_at(file.get(), std::as_writable_bytes(std::span(seal)), end) != kSealBytes ||
-        !seal.starts_with(kMark)) {
+        !seal.starts_with(kSealMark)) {
         return Seal::missing;
     }
     const auto sum = sum_of(file.get(), end);

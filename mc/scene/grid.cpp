@@ -11,7 +11,6 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kMostSteps = 1'000'000;
 constexpr int kMostPilotSteps = 50'000;  // in a mesh period that a pilot marches many times
 
 lockstep::PhaseGrid with_nodes(lockstep::PhaseGrid grid, lockstep::Integrator integrator) {
@@ -39,7 +38,7 @@ SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int sampl
         return std::min(stepping.longest_step, profile.longest_step(start, end));
     };
     const double steps = std::ceil(1.0 / longest(0.0, 1.0));
-    if (!(steps <= static_cast<double>(kMostSteps))) {
+    if (!(steps <= kMostSteps)) {
         refuse_tolerance("numerics.step_tolerance", study.numerics.step_tolerance,
                          fmt::format("{:.3g} steps a mesh period would be needed (at most "
                                      "{})",

@@ -17,7 +17,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kMostSteps = 1'000'000;  // and samples, in a mesh period
 constexpr int kFewestSamples = 4;
 
 // The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/position_range.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 
@@ -10,9 +11,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kNodes = 48;
-constexpr double kSeriesTolerance = 1e-13;
-constexpr double kFaultyTolerance = 4e-10;  // of the stiffness of contact and mate
+constexpr double kOfContactAndMate = 4e-10;  // of the stiffness of contact and mate
 
 ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material& material,
                             Profile profile, double tolerance, int which) {
@@ -20,7 +19,8 @@ ChebyshevSeries beam_series(const gears::MeshGeometry& geometry, const Material&
     const auto compliance = [&](double tau) {
         return tooth_compliance(tooth, material, geometry.contact_angle(which, tau)).total();
     };
-    return {compliance, 0, geometry.contact_ratio(), kNodes, std::max(tolerance, kSeriesTolerance)};
+    return {compliance, 0, geometry.contact_ratio(), kSeriesNodes,
+            std::max(tolerance, kSeriesTolerance)};
 }
 
 // Tooth pairs that touch inside a stretch: they stand at tau + age, youngest first.
@@ -99,8 +99,8 @@ AdditiveMesh::AdditiveMesh(const gears::MeshGeometry& geometry, const Material& 
       beams_{beam_series(geometry, material, profile, tolerance, 1),
              beam_series(geometry, material, profile, tolerance, 2)},
       pair_([&](double tau) { return 1 / (contact_ + beams_[0](tau) + beams_[1](tau)); }, 0,
-            contact_ratio_, kNodes, std::max(tolerance, kSeriesTolerance)),
-      fit_(std::max(tolerance, kFaultyTolerance) / (contact_ + beams_[1](contact_ratio_ / 2))),
+            contact_ratio_, kSeriesNodes, std::max(tolerance, kSeriesTolerance)),
+      fit_(std::max(tolerance, kOfContactAndMate) / (contact_ + beams_[1](contact_ratio_ / 2))),
       transitions_(contact_transitions(contact_ratio_)) {}
 
 double AdditiveMesh::tooth_pair(double tau) const {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "stiffness/foundation/foundation_models.hpp"
+#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/stretch.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
 #include "stiffness/tooth_pair_curve.hpp"
@@ -15,9 +16,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kNodes = 48;
-constexpr double kSeriesTolerance = 1e-13;
-constexpr double kFaultyTolerance = 4e-10;  // of the healthy total
+constexpr double kOfHealthyTotal = 4e-10;  // of the healthy total
 
 // Pairs that touch at a phase strictly between transitions.
 int pairs_at(double phase, double contact_ratio) {
@@ -45,7 +44,7 @@ class FaultyCoupledMesh : public FaultyMesh {
         std::sort(breaks.begin(), breaks.end());
         std::sort(jumps_.begin(), jumps_.end());
         const double scale = healthy.stretches_.front().total(0.0);
-        const ToothPairFit fit(std::max(healthy.tolerance_, kFaultyTolerance) * scale);
+        const ToothPairFit fit(std::max(healthy.tolerance_, kOfHealthyTotal) * scale);
         curve_ = fit([&](std::span<const double> tau,
                          std::span<double> total) { solve(healthy, fault, tau, total); },
                      breaks, duration_);
@@ -129,18 +128,18 @@ CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& ma
                 return tooth_compliance(tooth, material, geometry.contact_angle(which, tau))
                     .total();
             },
-            0, contact_ratio(), kNodes, tolerance);
+            0, contact_ratio(), kSeriesNodes, tolerance);
     }
     foundation_ =
         ChebyshevSeries([&](double tau) { return foundation(1, tau) + foundation(2, tau); }, 0,
-                        contact_ratio(), kNodes, tolerance);
+                        contact_ratio(), kSeriesNodes, tolerance);
     for (std::size_t i = 0; i < transitions_.size(); ++i) {
         const double begin = transitions_[i];
         const double end = i + 1 < transitions_.size() ? transitions_[i + 1] : 1;
         const int pairs = pairs_at(0.5 * (begin + end), contact_ratio());
         const auto series = [&](auto&& value) {
             return ChebyshevSeries([&](double phase) { return value(healthy_load(phase, pairs)); },
-                                   begin, end, kNodes, tolerance);
+                                   begin, end, kSeriesNodes, tolerance);
         };
         HealthyStretch stretch{
             begin, end, series([](const SharedLoad& load) { return load.stiffness; }), {}};

@@ -13,7 +13,7 @@ bool touches(double position, double contact_ratio) {
     return position > 0 && position < contact_ratio;
 }
 
-int touching(double inside, double contact_ratio) {
+int touching_pairs(double inside, double contact_ratio) {
     const double youngest = inside - std::floor(inside);
     return 1 + touches(youngest + 1, contact_ratio);
 }
@@ -31,7 +31,7 @@ class FaultySquareWave : public FaultyMesh {
     void total(std::span<const double> /*tau*/, double inside,
                std::span<double> stiffness) const override {
         const double ratio = healthy_.contact_ratio();
-        const int all = touching(inside, ratio);
+        const int all = touching_pairs(inside, ratio);
         int faulty = 0;
         for (int tooth = 0; tooth < teeth_; ++tooth)
             faulty += touches(inside - tooth, ratio);
@@ -62,13 +62,13 @@ SquareWaveMesh::SquareWaveMesh(double low_N_m, double high_N_m, double contact_r
 
 void SquareWaveMesh::total(std::span<const double> /*tau*/, double inside,
                            std::span<double> stiffness) const {
-    std::fill(stiffness.begin(), stiffness.end(), levels_[touching(inside, contact_ratio_)]);
+    std::fill(stiffness.begin(), stiffness.end(), levels_[touching_pairs(inside, contact_ratio_)]);
 }
 
 void SquareWaveMesh::share(std::span<const double> /*tau*/, double inside,
                            std::span<double> share) const {
     std::fill(share.begin(), share.end(),
-              touches(inside, contact_ratio_) ? 1.0 / touching(inside, contact_ratio_) : 0.0);
+              touches(inside, contact_ratio_) ? 1.0 / touching_pairs(inside, contact_ratio_) : 0.0);
 }
 
 std::vector<double> SquareWaveMesh::transitions() const {

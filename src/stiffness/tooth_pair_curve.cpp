@@ -9,7 +9,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kNodes = ToothPairCurve::kMaxTerms;
+constexpr int kCurveNodes = ToothPairCurve::kMaxTerms;
 
 // A series that needs more terms may hide an error in those it lacks: its piece is cut near its
 // softer end, where the stiffness of a tooth cracked past its centre line falls to zero within a
@@ -64,10 +64,10 @@ ToothPairCurve ToothPairFit::operator()(const Stiffness& stiffness, std::span<co
 
 void ToothPairFit::add_piece(ToothPairCurve& curve, const Stiffness& stiffness, double begin,
                              double end, int cuts) const {
-    std::array<double, kNodes> tau, values;
+    std::array<double, kCurveNodes> tau, values;
     const auto& points = transform_.points();  // falling
-    for (int i = 0; i < kNodes; ++i)
-        tau[kNodes - 1 - i] = 0.5 * (begin + end) + 0.5 * (end - begin) * points[i];
+    for (int i = 0; i < kCurveNodes; ++i)
+        tau[kCurveNodes - 1 - i] = 0.5 * (begin + end) + 0.5 * (end - begin) * points[i];
     stiffness(tau, values);
     if (std::all_of(values.begin(), values.end(), [](double k) { return k == 0; }))
         return;

@@ -15,7 +15,7 @@ namespace gearpod::lockstep {
 namespace {
 
 constexpr double kNoGrowth = 1.0 + 1e-5;
-constexpr int kLanes = 8;
+constexpr int kUnitMotions = 8;
 
 std::vector<double> stiffest_nodes(const MarchPlan& plan) {
     const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
@@ -60,17 +60,17 @@ double velocity_scale(const dynamics::GearboxMatrices& m) {
     return rate > 0.0 ? rate : 1.0;
 }
 
-// State of kLanes gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1 and
-// those past the last: not at all.
+// State of kUnitMotions gearboxes, lane l displaced by (first + l) - 1 of the 2n unit motions; -1
+// and those past the last: not at all.
 TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
     const auto degrees = static_cast<std::size_t>(n);
-    TileState state = still_state(degrees, channels, kLanes);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    TileState state = still_state(degrees, channels, kUnitMotions);
+    for (std::size_t lane = 0; lane < kUnitMotions; ++lane) {
         const std::size_t unit = static_cast<std::size_t>(first) + lane;
         if (unit >= 1 && unit <= degrees) {
-            state.q[(unit - 1) * kLanes + lane] = 1.0 / rate;
+            state.q[(unit - 1) * kUnitMotions + lane] = 1.0 / rate;
         } else if (unit > degrees && unit <= 2 * degrees) {
-            state.v[(unit - 1 - degrees) * kLanes + lane] = 1.0;
+            state.v[(unit - 1 - degrees) * kUnitMotions + lane] = 1.0;
         }
     }
     return state;
@@ -80,16 +80,16 @@ TileState unit_states(Eigen::Index n, int channels, int first, double rate) {
 // load, which the others contain as well.
 Eigen::MatrixXd marched_map(const MarchPlan& plan, const dynamics::GearboxInputs& inputs,
                             Eigen::Index n, double rate) {
-    const std::vector<dynamics::GearboxInputs> alike(kLanes, inputs);
-    const auto march = make_mesh_march<kLanes>(plan, alike);
-    MeshRecord record = make_record(plan, kLanes, false);
+    const std::vector<dynamics::GearboxInputs> alike(kUnitMotions, inputs);
+    const auto march = make_mesh_march<kUnitMotions>(plan, alike);
+    MeshRecord record = make_record(plan, kUnitMotions, false);
     Eigen::MatrixXd ends(2 * n, 2 * n + 1);
-    for (int first = 0; first < ends.cols(); first += kLanes) {
+    for (int first = 0; first < ends.cols(); first += kUnitMotions) {
         TileState state = unit_states(n, plan.channels(), first, rate);
         (*march)({}, state, record);
-        for (int lane = 0; lane < kLanes && first + lane < ends.cols(); ++lane) {
+        for (int lane = 0; lane < kUnitMotions && first + lane < ends.cols(); ++lane) {
             for (Eigen::Index d = 0; d < n; ++d) {
-                const auto at = static_cast<std::size_t>(d * kLanes + lane);
+                const auto at = static_cast<std::size_t>(d * kUnitMotions + lane);
                 ends(d, first + lane) = rate * state.q[at];
                 ends(n + d, first + lane) = state.v[at];
             }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stiffness/teeth/chebyshev.hpp"
 #include "stiffness/teeth/panels.hpp"
 #include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
@@ -14,8 +15,6 @@ namespace gearpod::stiffness {
 namespace {
 
 constexpr int kPoints = 12;
-constexpr int kNodes = 48;
-constexpr double kSeriesTolerance = 1e-13;
 
 // The roll angle at a distance along the profile from the base circle, R_b roll^2 / 2.
 double roll_at(double base_radius, double arc) {
@@ -114,7 +113,7 @@ ToothPitting::ToothPitting(const gears::MeshGeometry& geometry, const Material& 
               return tooth_compliance(profile_, material, geometry.contact_angle(which, tau))
                   .total();
           },
-          0, geometry.contact_ratio(), kNodes, kSeriesTolerance) {
+          0, geometry.contact_ratio(), kSeriesNodes, kSeriesTolerance) {
     const double base = gear_.base_radius(), sense = gear_.internal ? 1 : -1;
     const double centre = arc_at(base, band.centre_radius_m);
     const auto angle = [&](double arc) {

@@ -9,26 +9,26 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kPoints = 8;
-using Rule = boost::math::quadrature::gauss<double, kPoints>;
+constexpr int kSlicePoints = 8;
+using Rule = boost::math::quadrature::gauss<double, kSlicePoints>;
 
 // Abscissas on [-1, 1], ascending, and weights.
 struct GaussPoints {
-    std::array<double, kPoints> at, weight;
+    std::array<double, kSlicePoints> at, weight;
     GaussPoints() {
-        for (int i = 0; i < kPoints / 2; ++i) {
-            at[kPoints / 2 + i] = Rule::abscissa()[i];
-            at[kPoints / 2 - 1 - i] = -Rule::abscissa()[i];
-            weight[kPoints / 2 + i] = weight[kPoints / 2 - 1 - i] = Rule::weights()[i];
+        for (int i = 0; i < kSlicePoints / 2; ++i) {
+            at[kSlicePoints / 2 + i] = Rule::abscissa()[i];
+            at[kSlicePoints / 2 - 1 - i] = -Rule::abscissa()[i];
+            weight[kSlicePoints / 2 + i] = weight[kSlicePoints / 2 - 1 - i] = Rule::weights()[i];
         }
     }
 };
 const GaussPoints kGauss;
 
 // Legendre's polynomials P_0 .. P_n at x.
-std::array<double, kPoints + 1> legendre(double x) {
-    std::array<double, kPoints + 1> p{1, x};
-    for (int k = 1; k < kPoints; ++k)
+std::array<double, kSlicePoints + 1> legendre(double x) {
+    std::array<double, kSlicePoints + 1> p{1, x};
+    for (int k = 1; k < kSlicePoints; ++k)
         p[k + 1] = ((2 * k + 1) * x * p[k] - k * p[k - 1]) / (k + 1);
     return p;
 }
@@ -44,7 +44,7 @@ double zero_between(const std::function<double(double)>& f, double low, double h
 
 }  // namespace
 
-SliceRule::SliceRule(int slices) : panels_((slices + kPoints - 1) / kPoints) {
+SliceRule::SliceRule(int slices) : panels_((slices + kSlicePoints - 1) / kSlicePoints) {
     for (std::size_t panel = 0; panel < panels_; ++panel)
         for (const double x : kGauss.at)
             points_.push_back((static_cast<double>(panel) + 0.5 * (1 + x)) /
@@ -53,7 +53,7 @@ SliceRule::SliceRule(int slices) : panels_((slices + kPoints - 1) / kPoints) {
 
 void SliceRule::whole(std::span<double> weights) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
-        weights[i] = 0.5 * kGauss.weight[i % kPoints] / static_cast<double>(panels_);
+        weights[i] = 0.5 * kGauss.weight[i % kSlicePoints] / static_cast<double>(panels_);
 }
 
 void SliceRule::where(const std::function<double(double)>& seen, int samples,
@@ -85,14 +85,14 @@ void SliceRule::add_part(std::size_t panel, double from, double to,
     const double scale = static_cast<double>(panels_), first = static_cast<double>(panel);
     const auto low = legendre(2 * (from * scale - first) - 1);
     const auto high = legendre(2 * (to * scale - first) - 1);
-    for (int i = 0; i < kPoints; ++i) {
+    for (int i = 0; i < kSlicePoints; ++i) {
         // Coefficient k of the interpolant is (2 k + 1) / 2 sum_i weight P_k f; the integral of P_k
         // is (P_(k+1) - P_(k-1)) / (2 k + 1).
         const auto at = legendre(kGauss.at[i]);
         double sum = high[1] - low[1];
-        for (int k = 1; k < kPoints; ++k)
+        for (int k = 1; k < kSlicePoints; ++k)
             sum += at[k] * ((high[k + 1] - high[k - 1]) - (low[k + 1] - low[k - 1]));
-        weights[panel * kPoints + i] += 0.5 * kGauss.weight[i] * sum / (2 * scale);
+        weights[panel * kSlicePoints + i] += 0.5 * kGauss.weight[i] * sum / (2 * scale);
     }
 }
 

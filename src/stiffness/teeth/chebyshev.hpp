@@ -34,6 +34,10 @@ class ChebyshevTransform {
 // How many leading terms keep the sum of the dropped ones below tolerance (absolute).
 int chebyshev_terms(std::span<const double> coefficients, double tolerance);
 
+// With which curves of healthy teeth are interpolated over an engagement.
+inline constexpr int kSeriesNodes = 48;
+inline constexpr double kSeriesTolerance = 1e-13;
+
 class ChebyshevSeries {
   public:
     ChebyshevSeries() = default;

@@ -9,14 +9,14 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kPoints = 20;
+constexpr int kTipPoints = 20;
 
 template <typename Integrand, typename Thickness>
 double integrate(double from, double to, Integrand&& integrand, Thickness&& thickness) {
     double sum = 0;
     if (from < to)
         for_panels(from, to, thickness, [&](double a, double b) {
-            for_gauss_points<kPoints>(
+            for_gauss_points<kTipPoints>(
                 a, b, [&](double weight, double p) { sum += weight * integrand(p); });
         });
     return sum;

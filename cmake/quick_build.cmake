@@ -1,0 +1,51 @@
+# What spares the compiler work that it would do again in every file, for those who build once: the
+# files of a folder are compiled together, and headers that most files read and that never change are
+# read once. In an ordinary file of this project reading std, fmt, json or Eigen and writing out
+# their templates is two thirds of the compiler's work. Every file includes what it uses all the
+# same, and compiles alone: the presets for debugging and sanitizers do without. ccache keeps nothing
+# that was compiled with precompiled headers unless its sloppiness is set.
+set(gearpod_quick ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+  set(gearpod_quick OFF)
+endif()
+option(GEARPOD_QUICK "files of a folder compiled together, with precompiled headers" ${gearpod_quick})
+
+# The target's files, by folder; none of those with options of their own (kernels), nor those that
+# are one of a list and name the same things (faults, tables of keys).
+function(gearpod_unite target)
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(files ${target} SOURCES)
+  list(FILTER files EXCLUDE REGEX "study/faults/|_keys\\.cpp$")
+  foreach(file ${files})
+    file(RELATIVE_PATH name ${folder} ${file})
+    get_filename_component(group ${name} DIRECTORY)
+    string(REPLACE "/" "_" group "in_${group}")
+    set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${group}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
+if(GEARPOD_QUICK)
+  set(headers <algorithm> <cmath> <complex> <functional> <map> <memory> <optional> <span> <string>
+    <string_view> <vector> <fmt/format.h>)
+  target_precompile_headers(gearpod_physics PRIVATE ${headers})
+  # The flags for threads are part of what must agree.
+  target_precompile_headers(gearpod_analysis PRIVATE ${headers} <filesystem>)
+  target_precompile_headers(gearpod_mc REUSE_FROM gearpod_analysis)
+  gearpod_unite(gearpod_physics)
+  gearpod_unite(gearpod_analysis)
+  gearpod_unite(gearpod_mc)
+endif()
+
+# Test programs read Catch2 once; what has a main() of its own sets Catch2 up before it reads it.
+function(gearpod_precompile_tests program)
+  if(NOT GEARPOD_QUICK)
+    return()
+  endif()
+  if(NOT TARGET catch_headers)
+    add_library(catch_headers OBJECT ${CMAKE_SOURCE_DIR}/tests/catch_headers.cpp)
+    target_link_libraries(catch_headers PRIVATE gearpod_options Threads::Threads)
+    target_precompile_headers(catch_headers PRIVATE <catch2/catch.hpp> <cmath> <numbers> <span>)
+  endif()
+  target_precompile_headers(${program} REUSE_FROM catch_headers)
+endfunction()
