@@ -8,18 +8,27 @@
 namespace gearpod::signals {
 namespace {
 
-// For every distinct mesh, the share of tooth j's Z_r turns that show it.
-std::vector<double> shares_of_tooth(int j, const Timeline& timeline, const SpanLayout& layout,
-                                    int meshes) {
-    std::vector<double> share(meshes, 0.0);
+// The places of the timeline that tooth j meets, ascending, with the share of its Z_r turns that
+// shows each. Not the distinct meshes: which places share one differs with the tile's other lanes,
+// and a lane's sum must not.
+struct Place {
+    std::size_t place = 0;
+    double share = 0.0;
+};
+
+std::vector<Place> places_of_tooth(int j, const Timeline& timeline, const SpanLayout& layout) {
+    std::vector<double> turns(timeline.size(), 0.0);
     for (long i = 0; i < layout.ring_teeth; ++i) {
         const long k = j + i * layout.planet_teeth;
-        share[timeline[k % static_cast<long>(timeline.size())]] += 1.0;
+        turns[static_cast<std::size_t>(k) % timeline.size()] += 1.0;
     }
-    for (double& s : share) {
-        s /= layout.ring_teeth;
+    std::vector<Place> places;
+    for (std::size_t place = 0; place < turns.size(); ++place) {
+        if (turns[place] > 0.0) {
+            places.push_back({place, turns[place] / layout.ring_teeth});
+        }
     }
-    return share;
+    return places;
 }
 
 void remove_lane_means(machine::AlignedVector& values, int lanes) {
@@ -52,15 +61,12 @@ void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLay
     const int stride = tile.phases / te_phases * lanes;
     te_turn.assign(static_cast<std::size_t>(layout.planet_teeth) * te_phases * lanes, 0.0);
     for (int j = 0; j < layout.planet_teeth; ++j) {
-        const std::vector<double> share = shares_of_tooth(j, timeline, layout, tile.meshes());
         double* out = te_turn.data() + static_cast<std::size_t>(j) * te_phases * lanes;
-        for (int mesh = 0; mesh < tile.meshes(); ++mesh) {
-            if (share[mesh] == 0.0) {
-                continue;
-            }
+        for (const auto& [place, share] : places_of_tooth(j, timeline, layout)) {
+            const double* te = tile.te[static_cast<std::size_t>(timeline[place])];
             for (int p = 0; p < te_phases; ++p) {
                 for (int l = 0; l < lanes; ++l) {
-                    out[p * lanes + l] += share[mesh] * tile.te[mesh][p * stride + l];
+                    out[p * lanes + l] += share * te[p * stride + l];
                 }
             }
         }

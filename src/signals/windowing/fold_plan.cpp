@@ -13,22 +13,26 @@ struct PairCode {
     int operator()(int mesh, int carrier) const { return mesh * positions + carrier; }
 };
 
-// A sum: pair codes with their number of occurrences, ascending.
+// A sum: pair codes with their number of occurrences, in the order of the addition.
 using Occurrences = std::vector<std::pair<int, int>>;
 
+// The order and the counts follow the carrier index and the place in the timeline, never the number
+// of the mesh: which places share a record differs with the tile's other lanes, and a lane's sum
+// must not.
 Occurrences occurrences_of_tooth(int j, const Timeline& timeline, const SpanLayout& layout,
                                  PairCode code) {
-    std::vector<int> codes(layout.ring_teeth);
     const long length = static_cast<long>(timeline.size());
+    std::vector<std::pair<int, int>> met;  // carrier index, place
     for (int i = 0; i < layout.ring_teeth; ++i) {
         const long k = j + static_cast<long>(i) * layout.planet_teeth;
-        codes[i] = code(timeline[k % length], static_cast<int>(k % layout.carrier_meshes));
+        met.emplace_back(static_cast<int>(k % layout.carrier_meshes), static_cast<int>(k % length));
     }
-    std::sort(codes.begin(), codes.end());
+    std::sort(met.begin(), met.end());
     Occurrences occurrences;
-    for (const int c : codes) {
-        if (occurrences.empty() || occurrences.back().first != c) {
-            occurrences.emplace_back(c, 0);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+        const auto [carrier, place] = met[i];
+        if (i == 0 || met[i] != met[i - 1]) {
+            occurrences.emplace_back(code(timeline[static_cast<std::size_t>(place)], carrier), 0);
         }
         ++occurrences.back().second;
     }

@@ -50,6 +50,21 @@ TEST_CASE("The averaged transmission error is the mean over all turns of the spa
     }
 }
 
+TEST_CASE(
+    "A gearbox's averaged transmission error does not ask which mesh periods are one record") {
+    const RandomTile tile(8, 4, 12, 5);
+    RandomTile twice(8, 4, 12, 12);
+    for (std::size_t record = 0; record < twice.te.size(); ++record) {
+        std::ranges::copy(tile.te[record < 5 ? record : 0], twice.te[record].begin());
+    }
+    for (const int length : {31, 19, 81}) {
+        machine::AlignedVector turn, other;
+        average_te(tile.signals, event_timeline(length, 3, 4), {31, 81, 81}, 4, turn);
+        average_te(twice.signals, event_timeline(length, 3, 11), {31, 81, 81}, 4, other);
+        CHECK(turn == other);
+    }
+}
+
 TEST_CASE("Encoders must divide the samples of a mesh") {
     const RandomTile tile(8, 4, 12, 1);
     machine::AlignedVector turn;

@@ -1,0 +1,58 @@
+// Every shipped study by every number of lanes: the same bits. Small ensembles, whose first
+// gearboxes are healthy and whose tiles are full and not: a lane's neighbours change with their
+// number.
+#include <algorithm>
+
+#include "mc/study/fluctuations.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using test::bits;
+using test::shipped_study;
+
+namespace {
+
+std::vector<std::string> shipped_studies() {
+    std::vector<std::string> names;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(GEARPOD_SOURCE_DIR) + "/studies")) {
+        const std::string name = entry.path().filename().string();
+        // Those without teeth have modes only.
+        if (name.ends_with(".toml") && shipped_study(name).gearbox.has_teeth() &&
+            shipped_study(name).gearbox.module_m) {
+            names.push_back(name);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Those that march every mesh of the span, for a second and more a tile, have few gearboxes.
+std::vector<std::string> small(const std::string& name) {
+    const mc::Study study = shipped_study(name);
+    const bool slow = study.numerics.horizon == mc::Horizon::march;
+    return {slow ? "ensemble.instances=2" : "ensemble.instances=11",
+            slow ? "ensemble.threshold_instances=1" : "ensemble.threshold_instances=3"};
+}
+
+}  // namespace
+
+TEST_CASE("Every shipped study gives the same bits by one, four and eight lanes") {
+    const auto names = shipped_studies();
+    REQUIRE(names.size() > 30);
+    for (const std::string& name : names) {
+        INFO(name);
+        auto changes = small(name);
+        // Uneven drives have kernels of four lanes in a portable build only.
+        const bool any_width = GEARPOD_PORTABLE || !mc::driven_unevenly(shipped_study(name));
+        changes.emplace_back("numerics.lanes=8");
+        const auto reference = bits(test::run(shipped_study(name, changes)));
+        changes.back() = "numerics.lanes=1";
+        CHECK(bits(test::run(shipped_study(name, changes))) == reference);
+        if (any_width) {
+            changes.back() = "numerics.lanes=4";
+            CHECK(bits(test::run(shipped_study(name, changes))) == reference);
+        }
+    }
+}
