@@ -9,6 +9,8 @@
 #include <iterator>
 #include <utility>
 
+#include "mc/input/nesting.hpp"
+
 // toml++ 3.3 asserts, and in release builds assumes, what malformed headers such as "[[[" break
 // (its pull request 301 says so). Here a broken assumption is an exception, and thereby a syntax
 // error.
@@ -85,8 +87,16 @@ bool is_bare_word(std::string_view text) {
                        [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
+// toml++ recurses into what is nested, and so does what reads its tables.
+constexpr std::string_view kNested = "nested more than 32 deep";
+static_assert(kMostNesting == 32);
+
 // The value of an assignment; a bare word is a string because shells eat quotes.
 bool parse_value(const std::string& text, Value& value, std::string& why) {
+    if (line_nested_too_deep(text) != 0) {
+        why = kNested;
+        return false;
+    }
     try {
         const toml::table table = toml::parse("value = " + text, kOverrideFile);
         if (table.size() != 1) {
@@ -110,19 +120,27 @@ bool parse_value(const std::string& text, Value& value, std::string& why) {
     }
 }
 
-// The first line with which the text breaks toml++'s assumptions.
-int breaking_line(const std::string& text) {
-    int line = 1;
-    for (std::size_t end = text.find('\n'); end != std::string::npos;
-         end = text.find('\n', end + 1), ++line) {
-        try {
-            static_cast<void>(toml::parse(std::string_view(text).substr(0, end)));
-        } catch (const toml::parse_error&) {
-        } catch (const BrokenAssumption&) {
-            return line;
-        }
+bool breaks(std::string_view text) {
+    try {
+        static_cast<void>(toml::parse(text));
+    } catch (const toml::parse_error&) {
+    } catch (const BrokenAssumption&) {
+        return true;
     }
-    return line;
+    return false;
+}
+
+// The first line with which the text, which does so, breaks toml++'s assumptions. It is read in
+// order, so a text breaks them as soon as it holds that line.
+int breaking_line(std::string_view text) {
+    std::vector<std::size_t> ends;
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos;
+         end = text.find('\n', end + 1)) {
+        ends.push_back(end);
+    }
+    const auto whole = std::partition_point(
+        ends.begin(), ends.end(), [&](std::size_t end) { return !breaks(text.substr(0, end)); });
+    return 1 + static_cast<int>(whole - ends.begin());
 }
 
 std::string trimmed(std::string_view text) {
@@ -192,6 +210,11 @@ std::string_view Value::kind_name() const {
 }
 
 Value parse_document(const std::string& text, const std::string& file, Problems& problems) {
+    if (const int line = line_nested_too_deep(text); line != 0) {
+        problems.push_back({file, line, "", std::string(kNested),
+                            "write [section] and key = value; nothing was read"});
+        return {};
+    }
     try {
         Value document = Converter(file).convert(toml::parse(text, file));
         document.position = {file, 0};
@@ -214,7 +237,7 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
     const bool empty_part =
         std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
     const std::string file(kOverrideFile);
-    if (equals == std::string::npos || empty_part) {
+    if (equals == std::string::npos || empty_part || parts.size() > kMostNesting) {
         problems.push_back({file, 0, assignment, "not an assignment",
                             "write section.key=value, e.g. ensemble.seed=1"});
         return;
