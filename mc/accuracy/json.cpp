@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/accuracy/report.hpp"
+#include "mc/files/json_text.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace gearpod::mc {
@@ -121,7 +122,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
     for (const auto& [name, value] : provenance(study, 1, 1)) {
         all["provenance"][name] = value;
     }
-    return all.dump(2) + "\n";
+    return json_text(all, 2) + "\n";
 }
 
 }  // namespace gearpod::mc

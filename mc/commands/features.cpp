@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mc/commands/support.hpp"
+#include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
 #include "mc/gearbox/instance_features.hpp"
@@ -192,8 +193,8 @@ void print_text(const std::vector<Measured>& all, const MeasuredSignal& signal,
     }
 }
 
-std::string json_text(const std::vector<Measured>& all, const MeasuredSignal& signal,
-                      const Scene& scene) {
+std::string measured_json(const std::vector<Measured>& all, const MeasuredSignal& signal,
+                          const Scene& scene) {
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
     json["sensor_meshes"] = signal.sensor_meshes;
@@ -205,13 +206,11 @@ std::string json_text(const std::vector<Measured>& all, const MeasuredSignal& si
         const std::string name(one.feature->name);
         if (!one.missing.empty()) {
             json["unavailable"][name] = one.missing;
-        } else if (std::isfinite(one.value)) {
-            json["features"][name] = one.value;
         } else {
-            json["features"][name] = nullptr;
+            json["features"][name] = one.value;
         }
     }
-    return json.dump(2) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 // Says so if no feature can be had, and what the shortest takes.
@@ -270,7 +269,7 @@ int features_command(const FeaturesOptions& options) {
             print_text(all, signal, *scene);
             return kDone;
         }
-        return write_text_to(options.json, json_text(all, signal, *scene)) ? kDone : kBadInput;
+        return write_text_to(options.json, measured_json(all, signal, *scene)) ? kDone : kBadInput;
     } catch (const SignalError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return kBadInput;

@@ -5,6 +5,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "mc/commands/support.hpp"
+#include "mc/files/json_text.hpp"
 #include "mc/scene/body.hpp"
 #include "mc/scene/meshes.hpp"
 
@@ -64,7 +65,7 @@ int modes_command(const ModesOptions& options) {
 
     if (!options.json.empty()) {
         const nlohmann::json json{{"frequencies_Hz", frequencies}};
-        return write_text_to(options.json, json.dump(2) + "\n") ? kDone : kBadInput;
+        return write_text_to(options.json, json_text(json, 2) + "\n") ? kDone : kBadInput;
     }
     fmt::print("natural frequencies at mean mesh stiffness, {} degrees of freedom\n",
                frequencies.size());

@@ -6,8 +6,12 @@
 #include <span>
 
 #include "mc/commands/support.hpp"
+#include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"
+#include "mc/files/json_text.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/run_report.hpp"
@@ -22,11 +26,11 @@ bool write_files(const ReportOptions& options, const Results& results, const Row
                  const std::optional<analysis::Reliability>& reliability) {
     nlohmann::json json = report_json(results, rows, reliability);
     json["results"] = options.results;
-    if (!options.json.empty() && !write_text_to(options.json, json.dump(2) + "\n")) {
+    if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
         return false;
     }
     if (!options.html.empty()) {
-        const std::string page = report_page(json.dump());
+        const std::string page = report_page(json_text(json));
         write_file(options.html, std::as_bytes(std::span(page)));
     }
     return true;
@@ -43,6 +47,7 @@ int report_command(const ReportOptions& options) {
         const FileRows rows(options.results, results);
         results.detection = detect_all(results, rows);
         const auto reliability = reliability_of(results, rows, options.condition, thread_count());
+        check_results(options.results, results, rows);
         if (!options.json.empty() || !options.html.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;

@@ -6,6 +6,7 @@
 
 #include "mc/ensemble/batch_worker.hpp"
 #include "mc/files/atomic_file.hpp"
+#include "mc/ensemble/results_check.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/results_file.hpp"
@@ -66,6 +67,7 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
                         results_path, rows.rows(), plan.rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
+    check_results(results_path, old, rows);
     BatchFiller filler(*checkpoint, plan, identity.shape);
     rows.visit([&](const RowBlock& block) { filler.add(block); });
     checkpoint->sync();

@@ -1,0 +1,148 @@
+#include "mc/ensemble/results_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "mc/ensemble/ensemble.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+bool share(double value) {
+    return value > 0.0 && value < 1.0;
+}
+
+bool group_after(const analysis::SizeGroup& group, double before) {
+    return std::isfinite(group.high) && group.low >= before && group.high >= group.low;
+}
+
+// What no run writes, whatever the study; "" if there is nothing of that kind.
+std::string impossible(const Results& frame) {
+    double before = -1.0;
+    for (const double level : frame.noise_levels) {
+        if (!std::isfinite(level) || level < 0.0 || level <= before) {
+            return fmt::format(
+                "/noise_levels holds {:g}, and must be finite, not negative and "
+                "ascending",
+                level);
+        }
+        before = level;
+    }
+    if (!share(frame.request.false_alarm_rate) || !share(frame.request.confidence)) {
+        return "/detection: false_alarm_rate and confidence must lie between 0 and 1";
+    }
+    double end = 0.0;
+    for (const analysis::SizeGroup& group : frame.request.groups) {
+        if (!group_after(group, end)) {
+            return "/detection: the sizes must be finite, not negative and ascending";
+        }
+        end = group.high;
+    }
+    return "";
+}
+
+// The first column that is another than the study's, by name or unit.
+std::string unlike(const std::string& where, const auto& columns, const auto& own) {
+    const auto text = [](const auto& list, std::size_t i) {
+        return i < list.size() ? list[i].name + " (" + list[i].unit + ")" : "none";
+    };
+    for (std::size_t i = 0; i < std::max(columns.size(), own.size()); ++i) {
+        if (text(columns, i) != text(own, i)) {
+            return fmt::format("{}: column {} is {}, but of the study {}", where, i + 1,
+                               text(columns, i), text(own, i));
+        }
+    }
+    return "";
+}
+
+// How the frame differs from that of the study's own run.
+std::string unlike_study(const Results& frame, const Results& own) {
+    std::string why = unlike("/instances", frame.parameters, own.parameters);
+    if (why.empty()) {
+        why = unlike("/features", frame.features, own.features);
+    }
+    if (why.empty() && frame.noise_levels != own.noise_levels) {
+        why = fmt::format("/noise_levels holds {} levels that are not the study's {}",
+                          frame.noise_levels.size(), own.noise_levels.size());
+    }
+    const auto same = [](const analysis::SizeGroup& a, const analysis::SizeGroup& b) {
+        return a.low == b.low && a.high == b.high;
+    };
+    const auto& request = frame.request;
+    if (why.empty() && (!std::ranges::equal(request.groups, own.request.groups, same) &&
+                        !frame.features.empty())) {
+        why = "/detection has other sizes than the study";
+    }
+    if (why.empty() && (request.false_alarm_rate != own.request.false_alarm_rate ||
+                        request.confidence != own.request.confidence ||
+                        request.size.name != own.request.size.name)) {
+        why = "/detection has another false_alarm_rate, confidence or size_name than the study";
+    }
+    return why;
+}
+
+class RowCheck {
+  public:
+    // `healthy`: rows of the threshold group, if a study says so.
+    RowCheck(const RowShape& shape, std::optional<std::size_t> healthy)
+        : shape_(shape), healthy_(healthy) {}
+
+    void look_at(const RowBlock& block) {
+        for (std::size_t i = 0; i < block.count() && why_.empty(); ++i) {
+            const std::size_t row = block.first + i;
+            const int group = block.group[i];
+            if (block.status[i] < 0 || block.status[i] >= kStatuses) {
+                why_ = fmt::format("/status of row {} is {}", row, block.status[i]);
+            } else if (group != 0 && group != 1) {
+                why_ = fmt::format("/instances/group of row {} is {}", row, group);
+            } else if (healthy_ && (row < *healthy_) != (group == 0)) {
+                why_ = fmt::format("/instances/group of row {} is not the study's", row);
+            }
+            const double* values = block.values.data() + i * shape_.values();
+            if (!std::all_of(values, values + shape_.parameters,
+                             [](double value) { return std::isfinite(value); })) {
+                why_ = fmt::format("/instances of row {} holds a number that is not finite", row);
+            }
+            if (std::any_of(values + shape_.parameters, values + shape_.values(),
+                            [](double value) { return std::isinf(value); })) {
+                why_ = fmt::format("/features of row {} holds an infinite number", row);
+            }
+        }
+    }
+    const std::string& why() const { return why_; }
+
+  private:
+    const RowShape shape_;
+    const std::optional<std::size_t> healthy_;
+    std::string why_;
+};
+
+}  // namespace
+
+void check_results(const std::string& path, const Results& frame, const RowSource& rows) {
+    std::string why = impossible(frame);
+    const auto study = read_study_text(frame.provenance_value("study"), path).study;
+    std::optional<std::size_t> healthy;
+    if (why.empty() && study) {
+        why = unlike_study(frame, results_frame(*study));
+        healthy = static_cast<std::size_t>(study->ensemble.threshold_instances);
+        const std::size_t most = *healthy + static_cast<std::size_t>(study->ensemble.instances);
+        if (why.empty() && rows.rows() > most) {
+            why = fmt::format("it has {} gearboxes, the study {}", rows.rows(), most);
+        }
+    }
+    if (why.empty()) {
+        RowCheck check(row_shape(frame), healthy);
+        rows.visit([&](const RowBlock& block) { check.look_at(block); });
+        why = check.why();
+    }
+    if (!why.empty()) {
+        throw std::runtime_error(path + ": is no results file that `run` wrote: " + why);
+    }
+}
+
+}  // namespace gearpod::mc
