@@ -15,6 +15,14 @@ using namespace gearpod::mc;
 void add_study_keys(CLI::App& command, StudyOptions& options) {
     command
         .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
+// Of an option that names a file to write: "" would be no file, or another than the one meant.
+CLI::Option* needs_name(CLI::Option* option) {
+    return option->check([](const std::string& name) {
+        return name.empty() ? std::string("the file name is empty; name a file, or leave it out")
+                            : std::string();
+    });
+}
+
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -63,12 +71,16 @@ int run_program(int argc, char** argv) {
     add_shorthand(*run_app, "--instances", "ensemble.instances", "gearboxes over all fault sizes",
                   run.study);
     add_shorthand(*run_app, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
-    run_app->add_option("--out", run.out, "results file (default: the study's name with .h5)");
+    needs_name(
+        run_app->add_option("--out", run.out, "results file (default: the study's name with .h5)"));
     run_app->add_flag("--resume", run.resume,
                       "continue an interrupted run, or add gearboxes to a finished one");
     run_app
         ->add_option("--time-limit", run.time_limit,
                      "finish, save and exit with 4 before this time is over")
+    run_app->add_flag("--force", run.force,
+                      "overwrite the results of another study, or a file that is none; start "
+                      "although the memory will not suffice");
         ->type_name("HH:MM:SS");
     run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
     run_app
@@ -83,8 +95,10 @@ int run_program(int argc, char** argv) {
     ReportOptions report;
     auto* report_app = app.add_subcommand("report", "detection rates from a results file");
     report_app->add_option("results", report.results, "results file (HDF5)")->required();
-    report_app->add_option("--json", report.json, "write JSON to a file, or to - for the terminal");
-    report_app->add_option("--html", report.html, "write a page with figures to a file");
+    needs_name(report_app->add_option("--json", report.json,
+                                      "write JSON to a file, or to - for the terminal"));
+    needs_name(
+        report_app->add_option("--html", report.html, "write a page with figures to a file"));
     report_app->add_option(
         "--by", report.condition,
         "random input, e.g. torque_N_m, whose values get thresholds of their own");
@@ -107,7 +121,8 @@ int run_program(int argc, char** argv) {
     StiffnessOptions stiffness;
     auto* stiffness_app = app.add_subcommand("stiffness", "mesh stiffness over one mesh period");
     add_study(*stiffness_app, stiffness.study);
-    stiffness_app->add_option("--csv", stiffness.csv, "write curves to a file, or to -");
+    needs_name(
+        stiffness_app->add_option("--csv", stiffness.csv, "write curves to a file, or to -"));
     stiffness_app->add_option("--points", stiffness.points, "phases in the table")
         ->check(CLI::Range(2, 1000000));
     stiffness_app->callback([&] { code = stiffness_command(stiffness); });
@@ -115,14 +130,14 @@ int run_program(int argc, char** argv) {
     ModesOptions modes;
     auto* modes_app = app.add_subcommand("modes", "natural frequencies at mean mesh stiffness");
     add_study(*modes_app, modes.study);
-    modes_app->add_option("--json", modes.json, "write JSON to a file, or to -");
+    needs_name(modes_app->add_option("--json", modes.json, "write JSON to a file, or to -"));
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
     auto* accuracy_app = app.add_subcommand(
         "accuracy", "what accuracy costs: every way to march a study, its time and its error");
     add_study(*accuracy_app, accuracy.study);
-    accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -");
+    needs_name(accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -"));
     accuracy_app->add_option("--peers", accuracy.peers,
                              "table (CSV) of other programs' results to show beside ours");
     accuracy_app->add_option("--repeats", accuracy.repeats, "how often every rung is timed")
@@ -139,7 +154,7 @@ int run_program(int argc, char** argv) {
     add_study(*simulate_app, simulate.study);
     simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
         ->required();
-    simulate_app->add_option("--out", simulate.out, "signals as .h5 or .csv");
+    needs_name(simulate_app->add_option("--out", simulate.out, "signals as .h5 or .csv"));
     simulate_app
         ->add_option("--meshes", simulate.meshes, "mesh periods to write (default: a planet turn)")
         ->check(CLI::PositiveNumber);
@@ -167,7 +182,7 @@ int run_program(int argc, char** argv) {
         ->allow_extra_args(false);
     features_app->add_option("--noise-level", features.noise_level,
                              "noise level of those simulated gearboxes (default: 1)");
-    features_app->add_option("--json", features.json, "write JSON to a file, or to -");
+    needs_name(features_app->add_option("--json", features.json, "write JSON to a file, or to -"));
     features_app->callback([&] { code = features_command(features); });
 
     if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {

@@ -9,7 +9,9 @@ namespace gearpod::mc {
 
 int accuracy_command(const AccuracyOptions& options) {
     const auto made = load_scene(options.study);
-    if (!made) {
+    const bool writable = can_write(
+        {"--json", options.json}, {{"the study", options.study.path}, {"--peers", options.peers}});
+    if (!made || !writable) {
         return kBadInput;
     }
     const Study& study = made.scene->study();

@@ -25,6 +25,7 @@ struct RunOptions {
     StudyOptions study;
     std::string out;  // "": the study's name with .h5, in the working folder
     bool resume = false;
+    bool force = false;         // overwrite what a run with other numbers has written
     std::string time_limit;     // "hh:mm:ss", "": none
     std::string watch;          // feature whose Pd the progress shows, "": the study's first
     std::vector<long> signals;  // rows whose signals the results hold as well

@@ -248,7 +248,7 @@ bool any_feature(const std::vector<Measured>& all, const std::string& path, cons
 
 int features_command(const FeaturesOptions& options) {
     const auto scene = load_scene(options.study).scene;
-    if (!scene) {
+    if (!scene || !writable) {
         return kBadInput;
     }
     try {
@@ -275,5 +275,10 @@ int features_command(const FeaturesOptions& options) {
         return kBadInput;
     }
 }
+    std::vector<FileRole> read{{"the study", options.study.path}, {"the signal", options.signal}};
+    for (const std::string& path : options.healthy) {
+        read.push_back({"a recording of --healthy", path});
+    }
+    const bool writable = can_write({"--json", options.json}, read);
 
 }  // namespace gearpod::mc

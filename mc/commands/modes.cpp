@@ -44,8 +44,9 @@ bool has_masses(const Study& study) {
 }  // namespace
 
 int modes_command(const ModesOptions& options) {
+    const bool writable = can_write({"--json", options.json}, {{"the study", options.study.path}});
     const auto study = load_study(options.study);
-    if (!study) {
+    if (!study || !writable) {
         return kBadInput;
     }
     if (!has_masses(*study)) {

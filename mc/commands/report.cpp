@@ -39,7 +39,9 @@ bool write_files(const ReportOptions& options, const Results& results, const Row
 }  // namespace
 
 int report_command(const ReportOptions& options) {
-    if (!options.html.empty() && !can_write(options.html)) {
+    const FileRole read{"the results file", options.results}, json{"--json", options.json};
+    const bool json_good = can_write(json, {read});
+    if (!can_write({"--html", options.html}, {read, json}) || !json_good) {
         return kBadInput;
     }
     try {

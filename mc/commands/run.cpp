@@ -15,6 +15,8 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/numerics/numerical_error.hpp"
+#include "mc/files/atomic_file.hpp"
+#include "mc/forecast/memory.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -64,6 +66,43 @@ bool check_signals(const RunOptions& options, const Study& study) {
 // The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
 std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
     std::vector<RowSignals> all;
+// The results are written under another name first, and batches go into the checkpoint.
+bool check_output(const RunOptions& options) {
+    const std::vector<FileRole> study{{"the study", options.study.path}};
+    const std::string out = results_path(options);
+    if (!can_write({"--out", out}, study)) {
+        return false;
+    }
+    std::string why = why_not_pending(out);
+    for (const std::string& name : {behind_links(out) + ".new", checkpoint_path(out)}) {
+        if (same_file(name, options.study.path)) {
+            why = "the study has the name " + name + " that the run needs";
+        }
+    }
+    if (!why.empty()) {
+        fmt::print(stderr, "{}: cannot be written: {}\n", out, why);
+    }
+    return why.empty();
+}
+
+// What the run holds at least, on this machine.
+bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
+    const Ensemble& ensemble = scene.study().ensemble;
+    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances);
+    const int here = ranks.on_this_machine();
+    const double needed = least_memory_bytes(scene, plan, here * thread_count(scene.study(), here));
+    const double at_hand = memory_at_hand_bytes();
+    if (options.force || needed <= at_hand) {
+        return true;
+    }
+    fmt::print(
+        stderr,
+        "{}: numerics.threads: the run needs {:.2g} GB of memory at least, and {:.2g} GB are "
+        "at hand; take fewer threads or lower sensor.sampling_Hz, or try it with --force\n",
+        options.study.path, 1e-9 * needed, 1e-9 * at_hand);
+    return false;
+}
+
     for (const long row : options.signals) {
         try {
             all.push_back({static_cast<std::size_t>(row),
@@ -273,14 +312,15 @@ int run_command(const RunOptions& options) {
     const auto& scene = made.scene;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
-        const bool writable = can_write(results_path(options));
+        const bool writable = check_output(options);
         if (scene && writable && good_limit && check_watch(options, scene->study()) &&
             check_signals(options, scene->study())) {
             const Ensemble& ensemble = scene->study().ensemble;
             try {
                 checkpoint = open_checkpoint(
                     *scene, BatchPlan(ensemble.threshold_instances, ensemble.instances),
-                    results_path(options), options.resume, options.quiet);
+                    results_path(options),
+                    {.resume = options.resume, .force = options.force, .quiet = options.quiet});
             } catch (const std::exception& error) {
                 fmt::print(stderr, "{}\n", error.what());
             }

@@ -81,7 +81,7 @@ int simulate_command(const SimulateOptions& options) {
                        options.out);
             good = false;
         } else {
-            good = can_write(options.out) && good;
+            good = can_write({"--out", options.out}, {{"the study", options.study.path}}) && good;
         }
     }
     if (!good) {

@@ -96,8 +96,9 @@ void print_summary(const Scene& scene) {
 }  // namespace
 
 int stiffness_command(const StiffnessOptions& options) {
+    const bool writable = can_write({"--csv", options.csv}, {{"the study", options.study.path}});
     const auto scene = load_scene(options.study).scene;
-    if (!scene) {
+    if (!scene || !writable) {
         return kBadInput;
     }
     if (options.csv.empty()) {

@@ -33,10 +33,21 @@ StudyScene load_scene(const StudyOptions& options) {
     return made;
 }
 
-bool can_write(const std::string& path) {
-    const std::string reason = why_not_writable(path);
+bool can_write(const FileRole& output, const std::vector<FileRole>& others) {
+    if (output.path.empty() || output.path == "-") {
+        return true;
+    }
+    for (const auto& [role, path] : others) {
+        if (path != "-" && same_file(output.path, path)) {
+            fmt::print(stderr,
+                       "{} {}: is {} as well, which it would overwrite; name another file\n",
+                       output.role, output.path, role);
+            return false;
+        }
+    }
+    const std::string reason = why_not_writable(output.path);
     if (!reason.empty()) {
-        fmt::print(stderr, "{}: cannot be written: {}\n", path, reason);
+        fmt::print(stderr, "{}: cannot be written: {}\n", output.path, reason);
     }
     return reason.empty();
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mc/commands/commands.hpp"
 #include "mc/numerics/study_scene.hpp"
@@ -21,8 +22,14 @@ StudyScene make_scene(const StudyOptions& options);
 // The same; prints the problems.
 StudyScene load_scene(const StudyOptions& options);
 
-// Prints why `path` cannot be written, if so.
-bool can_write(const std::string& path);
+// A file that a command reads or writes, and as what: "the study", "--json".
+struct FileRole {
+    std::string role, path;
+};
+
+// Prints why an output cannot be written, if so: for the file itself, or because it is a file, by
+// whatever name, that the command has another use for. "-" and "" are no files.
+bool can_write(const FileRole& output, const std::vector<FileRole>& others);
 
 // Writes to a file, or to standard output for "-". False after a message if the file fails.
 bool write_text_to(const std::string& path, const std::string& text);

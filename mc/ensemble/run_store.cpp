@@ -2,11 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "mc/ensemble/batch_worker.hpp"
-#include "mc/files/atomic_file.hpp"
 #include "mc/ensemble/results_check.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/results_file.hpp"
@@ -66,12 +67,30 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
                         "raise --instances",
                         results_path, rows.rows(), plan.rows()));
     }
-    auto checkpoint = Checkpoint::create(path, identity, plan);
     check_results(results_path, old, rows);
+    auto checkpoint = Checkpoint::create(path, identity, plan);
     BatchFiller filler(*checkpoint, plan, identity.shape);
     rows.visit([&](const RowBlock& block) { filler.add(block); });
     checkpoint->sync();
     return checkpoint;
+}
+
+// Why a run of `identity` must not overwrite what is there, or "". The same study by another
+// version of the program may: that is what one computes again for.
+std::string why_precious(const std::string& results_path, const RunIdentity& identity) {
+    std::error_code none;
+    if (!Checkpoint::exists(results_path) || std::filesystem::file_size(results_path, none) == 0) {
+        return "";
+    }
+    try {
+        const Results old = read_frame(results_path);
+        RunIdentity there = identity_of(old, results_path);
+        there.version = identity.version;
+        const std::string why = difference(there, identity);
+        return why.empty() ? "" : results_path + ": holds results that a run wrote and that " + why;
+    } catch (const std::exception& error) {
+        return error.what();
+    }
 }
 
 void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string& from) {
@@ -89,27 +108,34 @@ std::string checkpoint_path(const std::string& results_path) {
 }
 
 std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
-                                            const std::string& results_path, bool resume,
-                                            bool quiet) {
+                                            const std::string& results_path,
+                                            const StoreOptions& options) {
     const Study& study = scene.study();
     const RunIdentity identity = run_identity(study, row_shape(Sampler(study), study));
     const std::string path = checkpoint_path(results_path);
     std::unique_ptr<Checkpoint> checkpoint;
     std::string from;
-    if (resume && Checkpoint::exists(path)) {
+    if (options.resume && Checkpoint::exists(path)) {
         from = path;
         checkpoint = Checkpoint::resume(path, identity, plan);
-    } else if (resume && Checkpoint::exists(behind_links(results_path))) {
+    } else if (options.resume && Checkpoint::exists(behind_links(results_path))) {
         from = results_path;
         checkpoint = grow(results_path, path, identity, plan);
     } else {
+        const std::string why =
+            options.force ? "" : why_precious(behind_links(results_path), identity);
+        if (!why.empty()) {
+            throw std::runtime_error(why +
+                                     "; name another file with --out, or overwrite this one with "
+                                     "--force");
+        }
         checkpoint = Checkpoint::create(path, identity, plan);
-        if (resume && !quiet) {
+        if (options.resume && !options.quiet) {
             fmt::print(stderr, "{}: there is nothing to continue; the run begins anew\n",
                        results_path);
         }
     }
-    if (!from.empty() && (!quiet || !checkpoint->findings().empty())) {
+    if (!from.empty() && (!options.quiet || !checkpoint->findings().empty())) {
         tell(*checkpoint, plan, from);
     }
     return checkpoint;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -23,9 +24,16 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
+// A new file. What has the temporary's name was left by a process that had this one's number, or
+// is a trap: it is not opened.
+Descriptor open_temporary(const std::string& name) {
+    ::unlink(name.c_str());
+    return Descriptor(::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+}
+
 // errno of the first failure, 0 if the bytes are safely on the disk under the temporary's name.
 int write_temporary(const std::string& name, std::span<const std::byte> bytes) {
-    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    Descriptor file = open_temporary(name);
     if (file.get() < 0) {
         return errno;
     }
@@ -95,8 +103,12 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
 
 PendingFile::PendingFile(const std::string& path)
     : path_(path), target_(behind_links(path)), name_(target_ + ".new") {
-    const std::string kind = why_not_replaceable(path);
+    std::string kind = why_not_replaceable(path);
+    if (kind.empty()) {
+        kind = why_not_pending(path);
+    }
     if (!kind.empty()) {
+        name_.clear();
         throw std::runtime_error(path + ": cannot be written (" + kind + ")");
     }
 }
@@ -117,6 +129,74 @@ void PendingFile::commit(int fd) {
 
 void PendingFile::fail(int error) const {
     throw std::runtime_error(path_ + ": cannot be written (" + std::strerror(error) + ")");
+}
+
+std::string why_not_pending(const std::string& path) {
+    const std::string name = behind_links(path) + ".new";
+    struct stat status {};
+    if (::lstat(name.c_str(), &status) != 0) {
+        return "";
+    }
+    const bool own = S_ISREG(status.st_mode) && status.st_nlink == 1;
+    return own ? ""
+               : name + " is in the way, which is a link, a folder, a pipe or a device; remove it";
+}
+
+bool same_file(const std::string& one, const std::string& other) {
+    struct stat a {
+    }, b{};
+    const bool has_a = ::stat(one.c_str(), &a) == 0, has_b = ::stat(other.c_str(), &b) == 0;
+    if (has_a && has_b) {
+        return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    }
+    const auto place = [](const std::string& path) {
+        std::error_code none;
+        const std::filesystem::path end = behind_links(path);
+        const auto whole = std::filesystem::weakly_canonical(end, none);
+        return none ? end : whole;
+    };
+    return has_a == has_b && !one.empty() && !other.empty() && place(one) == place(other);
+}
+
+namespace {
+
+// Gives a file another name unless that is taken, and takes the first one away; errno or 0.
+int rename_to_free(const std::string& from, const std::string& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+        return 0;
+    }
+    if (errno != EINVAL && errno != ENOSYS) {
+        return errno;
+    }
+    // A file system, or a kernel, that cannot; most of them know hard links.
+    const int error = ::link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+    if (error == 0) {
+        ::unlink(from.c_str());
+    }
+    return error;
+}
+
+}  // namespace
+
+int create_exclusively(const std::string& path, std::span<const std::byte> bytes,
+                       const std::function<void(int)>& prepare) {
+    const std::string temporary = temporary_name(path);
+    Descriptor file = open_temporary(temporary);
+    if (file.get() < 0) {
+        return -1;
+    }
+    prepare(file.get());
+    int error = write_at(file.get(), bytes, 0) && ::fsync(file.get()) == 0 ? 0 : errno;
+    if (error == 0) {
+        error = rename_to_free(temporary, path);
+    }
+    if (error != 0) {
+        ::unlink(temporary.c_str());
+        errno = error;
+        return -1;
+    }
+    sync_folder(path);
+    return file.release();
 }
 
 std::string why_not_writable(const std::string& name) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -39,6 +40,18 @@ class PendingFile {
 // or "".
 // Leaves no file behind and an existing file as it was.
 std::string why_not_writable(const std::string& path);
+
+// Why no PendingFile(path) can be written: a link, a pipe, a device or a file with a second name is
+// where it would be; or "".
+std::string why_not_pending(const std::string& path);
+
+// Whether two names, of which either may not exist yet, are those of one file, links followed.
+bool same_file(const std::string& one, const std::string& other);
+
+// Creates `path` with an open file of that text, unless something of that name is there: -1 with
+// errno (EEXIST). `prepare` may lock the file, which nobody sees before.
+int create_exclusively(const std::string& path, std::span<const std::byte> bytes,
+                       const std::function<void(int)>& prepare);
 
 // The file that a chain of symbolic links ends at, whether it exists or not; the links themselves
 // where the chain has no end.

@@ -19,6 +19,8 @@ class Descriptor {
     ~Descriptor() { close(); }
 
     int get() const { return fd_; }
+    // The caller closes it.
+    int release() { return std::exchange(fd_, -1); }
     bool close() {
         const int fd = std::exchange(fd_, -1);
         return fd < 0 || ::close(fd) == 0;

@@ -1,0 +1,144 @@
+// No command writes over what it reads, nor a run over what another study's run has computed.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bytes_of;
+using test::Folder;
+using test::Outcome;
+using test::program;
+using test::write_bytes;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSmall = " --instances 2 --set ensemble.threshold_instances=1";
+
+// A folder with a study, its results and a recording.
+struct Workplace {
+    Folder folder;
+    std::string study = folder.file("s.toml"), results = folder.file("r.h5"),
+                signal = folder.file("x.csv");
+    Workplace() {
+        fs::copy_file(test::study("planet-crack.toml"), study);
+        const Outcome run = program("run " + study + kSmall + " --quiet --out " + results);
+        INFO(run.output);
+        REQUIRE(run.code == 0);
+        REQUIRE(program("simulate " + study + " --instance 0 --out " + signal).code == 0);
+        fs::create_symlink("s.toml", folder.file("link.toml"));
+        fs::create_hard_link(study, folder.file("hard.toml"));
+        fs::create_symlink(results, folder.file("link.h5"));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A command refuses to write over a file that it reads, whatever its name") {
+    const Workplace place;
+    const std::string study = bytes_of(place.study), results = bytes_of(place.results),
+                      signal = bytes_of(place.signal);
+    const auto at = [&](const std::string& name) { return place.folder.file(name); };
+    const std::string measured =
+        "features " + place.signal + " --study " + place.study + " --sensor sensor ";
+    const std::string commands[] = {
+        "run " + place.study + kSmall + " --out " + place.study,
+        "run " + place.study + kSmall + " --force --out " + place.study,
+        "run " + place.study + kSmall + " --out " + at("link.toml"),
+        "run " + place.study + kSmall + " --out " + at("hard.toml"),
+        "run " + at("link.toml") + kSmall + " --out " + at("./hard.toml"),
+        "report " + place.results + " --json " + place.results,
+        "report " + place.results + " --html " + at("link.h5"),
+        "report " + at("link.h5") + " --html " + place.results,
+        "report " + place.results + " --json " + at("a") + " --html " + at("./a"),
+        "stiffness " + place.study + " --csv " + place.study,
+        "modes " + place.study + " --json " + at("link.toml"),
+        "accuracy " + place.study + " --json " + place.study,
+        "accuracy " + place.study + " --peers " + place.signal + " --json " + place.signal,
+        measured + "--json " + place.signal,
+        measured + "--json " + place.study,
+        measured + "--healthy " + place.results + " --json " + place.results,
+    };
+    const long files = place.folder.files();
+    for (const std::string& command : commands) {
+        const Outcome outcome = program(command);
+        INFO(command << "\n" << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("would overwrite"));
+        CHECK(bytes_of(place.study) == study);
+        CHECK(bytes_of(place.results) == results);
+        CHECK(bytes_of(place.signal) == signal);
+        CHECK(place.folder.files() == files);
+    }
+    // A study of the names that a run needs beside its results.
+    for (const char* ending : {".new", ".part"}) {
+        const std::string out = at("z.h5");
+        fs::copy_file(place.study, out + ending);
+        const Outcome outcome = program("run " + out + ending + kSmall + " --out " + out);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(bytes_of(out + ending) == study);
+        fs::remove(out + ending);
+    }
+}
+
+TEST_CASE("An output without a name is bad input") {
+    const Workplace place;
+    for (const std::string& command :
+         {"run " + place.study + kSmall + " --out ''", "report " + place.results + " --json ''",
+          "report " + place.results + " --html ''", "stiffness " + place.study + " --csv ''",
+          "simulate " + place.study + " --instance 0 --out ''"}) {
+        const Outcome outcome = program(command);
+        INFO(command << "\n" << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("empty"));
+    }
+}
+
+TEST_CASE("Results of another study, and what is none, are overwritten with --force only") {
+    const Workplace place;
+    const std::string run = "run " + place.study + kSmall + " --quiet --out " + place.results;
+    const std::string before = bytes_of(place.results);
+    CHECK(program(run).code == 0);  // the same study again
+    for (const std::string& other : {run + " --set operation.torque_N_m=400", run + " --seed 99"}) {
+        const Outcome refused = program(other);
+        INFO(refused.output);
+        CHECK(refused.code == 2);
+        CHECK(refused.mentions("--force"));
+        CHECK(mc::read_results(place.results).status.size() == 3);
+    }
+    CHECK(program(run + " --seed 99 --force").code == 0);
+    CHECK(mc::read_frame(place.results).provenance_value("seed") == "99");
+    const std::string notes = place.folder.file("notes.txt");
+    write_bytes(notes, "years of work\n");
+    const std::string over = "run " + place.study + kSmall + " --quiet --out " + notes;
+    CHECK(program(over).code == 2);
+    CHECK(bytes_of(notes) == "years of work\n");
+    CHECK(program(over + " --force").code == 0);
+}
+
+TEST_CASE("What stands where the results are written first is refused and not opened") {
+    const Workplace place;
+    const std::string out = place.folder.file("n.h5"), pending = out + ".new",
+                      precious = place.folder.file("precious");
+    write_bytes(precious, "years of work\n");
+    const auto in_the_way = [&](auto make) {
+        make();
+        const Outcome outcome = test::shell("timeout 60 " + std::string(GEARPOD_PROGRAM) + " run " +
+                                            place.study + kSmall + " --quiet --out " + out);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("n.h5.new is in the way"));
+        CHECK(bytes_of(precious) == "years of work\n");
+        CHECK_FALSE(fs::exists(out));
+        fs::remove_all(pending);
+    };
+    in_the_way([&] { fs::create_symlink("precious", pending); });
+    in_the_way([&] { fs::create_hard_link(precious, pending); });
+    in_the_way([&] { REQUIRE(::mkfifo(pending.c_str(), 0600) == 0); });
+    in_the_way([&] { fs::create_directory(pending); });
+    write_bytes(pending, "what a killed writer left");
+    CHECK(program("run " + place.study + kSmall + " --quiet --out " + out).code == 0);
+    CHECK_FALSE(fs::exists(pending));
+}
