@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
@@ -15,10 +18,13 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::string_view kMagic = "gearpod tiles 1\n";
+constexpr std::string_view kMagic = "gearpod tiles 2\n";
 constexpr std::uint64_t kBatchMark = 0x454c495444504721u;  // in front of a written batch
 constexpr std::size_t kBlock = 4096;                       // batches begin at a multiple of it
 constexpr std::size_t kMostText = 1u << 24;                // longer is damage
+
+constexpr std::size_t kCounterBytes = 24, kWorkerBytes = 256;
+constexpr int kOpenExisting = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;  // no link, no waiting at a pipe
 
 // A record's numbers, 8 bytes each.
 constexpr std::size_t kStatusAt = 2;
@@ -87,8 +93,7 @@ Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& ide
     if (file_.get() < 0) {
         fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
     }
-    // The counter follows the header.
-    const std::size_t end = header_.size() + 3 * 8;
+    const std::size_t end = header_.size() + kCounterBytes + kWorkerBytes;
     begin_ = static_cast<off_t>((end + kBlock - 1) / kBlock * kBlock);
     scratch_.resize(record_bytes());
 }
@@ -110,38 +115,109 @@ bool Checkpoint::exists(const std::string& path) {
     return ::lstat(path.c_str(), &status) == 0;
 }
 
-// The lock goes with the process that holds it, however it ends.
-void Checkpoint::lock() {
+namespace {
+
+// Whoever works on it, as text, in a file with the lock held by another process.
+std::string worker_of(int fd) {
+    std::vector<std::byte> head(kMagic.size() + 8), worker(kWorkerBytes);
+    if (read_at(fd, head, 0) < static_cast<ssize_t>(head.size())) {
+        return "another run";
+    }
+    const std::uint64_t length =
+        std::min<std::uint64_t>(number_at(view(head), kMagic.size()), kMostText);
+    const auto at = static_cast<off_t>(head.size() + length + 8 + kCounterBytes);
+    const ssize_t got = read_at(fd, worker, at);
+    const std::string_view text =
+        view(worker).substr(0, got > 0 ? static_cast<std::size_t>(got) : 0);
+    const std::string who(text.substr(0, text.find('\0')));
+    return who.empty() ? "another run" : "another run (" + who + ")";
+}
+
+struct flock whole_file() {
     struct flock lock {};
     lock.l_type = F_WRLCK;
     lock.l_whence = SEEK_SET;
-    if (::fcntl(file_.get(), F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN)) {
-        fail("another run is working on it");
+    return lock;
+}
+
+// The lock goes with the process that holds it, however it ends. "" or who has it. What cannot be
+// locked (some network file systems) counts as free.
+std::string lock(int fd) {
+    struct flock own = whole_file();
+    const bool taken = ::fcntl(fd, F_SETLK, &own) != 0 && (errno == EACCES || errno == EAGAIN);
+    return taken ? worker_of(fd) : "";
+}
+
+std::string busy_text(const std::string& worker) {
+    return worker + " is working on it; wait for its end, or name another file with --out";
+}
+
+// Who works on an existing one; "" if nobody does, or it cannot be known.
+std::string worker_on(const std::string& path) {
+    const Descriptor file(::open(path.c_str(), kOpenExisting | O_RDONLY));
+    struct flock asked = whole_file();
+    const bool taken =
+        file.get() >= 0 && ::fcntl(file.get(), F_GETLK, &asked) == 0 && asked.l_type != F_UNLCK;
+    return taken ? worker_of(file.get()) : "";
+}
+
+std::string worker_text() {
+    std::array<char, 65> host{};
+    ::gethostname(host.data(), host.size() - 1);
+    const std::time_t now = std::time(nullptr);
+    std::array<char, 32> since{};
+    std::tm local{};
+    std::strftime(since.data(), since.size(), "%Y-%m-%d %H:%M:%S", ::localtime_r(&now, &local));
+    return fmt::format("process {} on {} since {}", ::getpid(), host.data(), since.data());
+}
+
+}  // namespace
+
+// Says in the file who works on it.
+void Checkpoint::sign() {
+    std::string text = worker_text().substr(0, kWorkerBytes - 1);
+    text.resize(kWorkerBytes, '\0');
+    const auto at = static_cast<off_t>(header_.size() + kCounterBytes);
+    if (!write_at(file_.get(), std::as_bytes(std::span(text)), at)) {
+        fail(fmt::format("cannot be written ({})", std::strerror(errno)));
     }
 }
 
 std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const RunIdentity& identity,
                                                const BatchPlan& plan) {
-    if (exists(path)) {
-        throw std::runtime_error(path +
-                                 ": holds what an interrupted run has finished; continue it with "
-                                 "--resume, or delete this file to start again");
-    }
     const std::string header = header_of(identity);
-    write_file(path, std::as_bytes(std::span(header)));
-    std::unique_ptr<Checkpoint> checkpoint(
-        new Checkpoint(path, Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)), identity, plan));
-    checkpoint->lock();
+    // Locked before it has its name: a second starter sees no checkpoint, or one in use.
+    const int fd = create_exclusively(path, std::as_bytes(std::span(header)),
+                                      [](int file) { static_cast<void>(lock(file)); });
+    if (fd < 0 && errno == EEXIST) {
+        const std::string worker = worker_on(path);
+        throw std::runtime_error(
+            path + ": " +
+            (worker.empty() ? "holds what an interrupted run has finished; continue it with "
+                              "--resume, or delete this file to start again"
+                            : busy_text(worker)));
+    }
+    std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(path, Descriptor(fd), identity, plan));
+    checkpoint->sign();
     checkpoint->sync();
     return checkpoint;
 }
 
 std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const RunIdentity& identity,
                                                const BatchPlan& plan) {
-    std::unique_ptr<Checkpoint> checkpoint(
-        new Checkpoint(path, Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC)), identity, plan));
-    checkpoint->lock();
+    std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(
+        path, Descriptor(::open(path.c_str(), kOpenExisting | O_RDWR)), identity, plan));
+    struct stat status {};
+    if (::fstat(checkpoint->file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+        checkpoint->fail(
+            "is no regular file, as a checkpoint is; remove it, or name another file "
+            "with --out");
+    }
+    if (const std::string worker = lock(checkpoint->file_.get()); !worker.empty()) {
+        checkpoint->fail(busy_text(worker));
+    }
     checkpoint->check_header();
+    checkpoint->sign();
     checkpoint->scan();
     checkpoint->sync();
     return checkpoint;

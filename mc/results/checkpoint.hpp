@@ -1,10 +1,11 @@
 // The checkpoint of a run: a file beside the results that holds every finished batch at its place,
 // so that a run killed at any moment continues where it was.
 //
-//   header      "gearpod tiles 1\n", length of the text (u64), text that says what the run is,
+//   header      "gearpod tiles 2\n", length of the text (u64), text that says what the run is,
 //               FNV-1a of all that
 //   counter     graded gearboxes asked for (u64), batches safe at the last sync (u64), FNV-1a of
 //               both
+//   worker      256 bytes: who works on it, and since when, as text; counts while a lock is held
 //   batch b     from the next multiple of 4096 on, all of one size: mark, rows (u64), 16 status
 //               (i64), 16 x RowShape::values() doubles, FNV-1a of b and of all that
 //
@@ -25,7 +26,8 @@ namespace gearpod::mc {
 class Checkpoint final : public RowStore {
   public:
     // A new, empty one. Throws std::runtime_error naming the path and the reason, also where one
-    // exists: what an interrupted run computed is not thrown away.
+    // exists, and then whether a run works on it: what an interrupted run computed is not thrown
+    // away.
     static std::unique_ptr<Checkpoint> create(const std::string& path, const RunIdentity& identity,
                                               const BatchPlan& plan);
     // Continues one. Throws std::runtime_error naming the path and the reason: damaged header,
@@ -52,7 +54,7 @@ class Checkpoint final : public RowStore {
                const BatchPlan& plan);
 
     [[noreturn]] void fail(const std::string& what) const;
-    void lock();
+    void sign();
     void check_header();
     void scan();
     std::uint64_t synced_before();

@@ -1,6 +1,7 @@
 // The checkpoint: what was written is there again, what is damaged or foreign is noticed.
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <csignal>
@@ -146,11 +147,75 @@ TEST_CASE("Two runs cannot work on one checkpoint") {
     const auto mine = Checkpoint::create(path, kIdentity, kPlan);
     const pid_t other = fork();
     if (other == 0) {
-        std::_Exit(contains(reason_of(path), "another run is working on it") ? 0 : 1);
+        std::array<char, 64> host{};
+        ::gethostname(host.data(), host.size() - 1);
+        const std::string worker = "r.h5.part: another run (process " + std::to_string(getppid()) +
+                                   " on " + host.data() + " since 20";
+        std::string created;
+        try {
+            Checkpoint::create(path, kIdentity, kPlan);
+        } catch (const std::runtime_error& error) {
+            created = error.what();
+        }
+        const std::string resumed = reason_of(path);
+        const bool good = contains(resumed, worker) && contains(created, worker) &&
+                          contains(created, "is working on it") && !contains(created, "delete");
+        std::_Exit(good ? 0 : 1);
     }
     int status = 0;
     REQUIRE(waitpid(other, &status, 0) == other);
     CHECK(status == 0);
+}
+
+// Of many starters at once one makes the checkpoint, and all others know whose it is.
+TEST_CASE("Starters that race for one checkpoint do not get it twice") {
+    const Folder folder;
+    for (int round = 0; round < 20; ++round) {
+        const std::string path = folder.file("r" + std::to_string(round) + ".part");
+        std::array<int, 2> gate{};
+        REQUIRE(::pipe(gate.data()) == 0);
+        std::vector<pid_t> starters;
+        for (int i = 0; i < 6; ++i) {
+            starters.push_back(fork());
+            if (starters.back() == 0) {
+                char byte = 0;
+                ::close(gate[1]);
+                static_cast<void>(::read(gate[0], &byte, 1) == 0);  // until all are there
+                int code = 0;
+                std::unique_ptr<Checkpoint> mine;
+                try {
+                    mine = Checkpoint::create(path, kIdentity, kPlan);
+                } catch (const std::runtime_error& error) {
+                    code = contains(error.what(), "is working on it") ? 1 : 2;
+                }
+                ::usleep(200000);
+                std::_Exit(code);
+            }
+        }
+        ::close(gate[0]);
+        ::close(gate[1]);
+        int made = 0, told = 0;
+        for (const pid_t starter : starters) {
+            int status = 0;
+            REQUIRE(waitpid(starter, &status, 0) == starter);
+            made += WEXITSTATUS(status) == 0 ? 1 : 0;
+            told += WEXITSTATUS(status) == 1 ? 1 : 0;
+        }
+        CHECK(made == 1);
+        CHECK(told == 5);
+    }
+    CHECK(folder.files() == 20);
+}
+
+TEST_CASE("A checkpoint that is a link or a pipe is refused and not waited for") {
+    const Folder folder;
+    const std::string path = folder.file("r.h5.part");
+    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+    CHECK(contains(reason_of(path), "is no regular file"));
+    std::filesystem::remove(path);
+    fill(folder.file("other"), {0});
+    std::filesystem::create_symlink("other", path);
+    CHECK(contains(reason_of(path), "cannot be opened"));
 }
 
 TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") {
