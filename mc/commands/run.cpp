@@ -4,8 +4,10 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <set>
 
 #include "analysis/report/detection_text.hpp"
+#include "machine/stop.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/run_agreement.hpp"
@@ -103,7 +105,10 @@ bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ra
     return false;
 }
 
-    for (const long row : options.signals) {
+// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
+std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
+    std::vector<RowSignals> all;
+    for (const long row : std::set<long>(options.signals.begin(), options.signals.end())) {
         try {
             all.push_back({static_cast<std::size_t>(row),
                            simulate(scene, id_of_row(scene.study(), row), scene.span().planet_teeth)
@@ -148,7 +153,7 @@ class Run {
                                                      .checkpoint_s = study_.ensemble.checkpoint_s,
                                                      .checkpointed = [&] { snapshot(); }});
         progress.finish();
-        return conclude(outcome);
+        return conclude(outcome, interruption);
     }
 
   private:
@@ -190,7 +195,36 @@ class Run {
         snapshot_s_ = seconds_since(start);
     }
 
-    int conclude(const EnsembleOutcome& outcome) {
+    // What is computed of single gearboxes once all are there; left out of an interrupted run.
+    void add_examples(Results& all, const Interruption& interruption,
+                      EnsembleOutcome& outcome) const {
+        try {
+            all.signals = chosen_signals(options_, scene_);
+            all.numerical = find_numerical_error(scene_);
+        } catch (const machine::Stopped&) {
+            const std::string reason = interruption.reason({});
+            outcome.interruption = reason.empty() ? "the time limit" : reason;
+            all.signals.clear();
+        }
+    }
+
+    // Of a run that is on the disk already.
+    std::string text_of(const Results& all, const RowSource& rows) const {
+        try {
+            return results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
+        } catch (const machine::Stopped&) {
+            return "the time is over; `gearpod report` shows the results";
+        }
+    }
+
+        Results examples;
+        if (outcome.failure.empty() && outcome.interruption.empty()) {
+            add_examples(examples, interruption, outcome);
+        }
+    int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
+        if (!whole) {
+            interruption.let_finish();
+        }
         const auto start = WallClock::now();
         const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         for (const CrewTimes& crew : outcome.crews) {
@@ -203,16 +237,14 @@ class Run {
         if (trouble.empty()) {
             try {
                 all = frame(rows, state_of(outcome));
-                all.signals = chosen_signals(options_, scene_);
-                if (whole) {
-                    all.numerical = find_numerical_error(scene_);
-                }
+                all.signals = std::move(examples.signals);
+                all.numerical = std::move(examples.numerical);
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
                 if (whole && !options_.quiet) {
-                    text = results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
+                    text = text_of(all, rows);
                 }
             } catch (const std::exception& error) {
                 trouble = error.what();
@@ -308,7 +340,8 @@ int run_command(const RunOptions& options) {
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);
     const Ranks ranks;
-    const StudyScene made = load_scene_together(ranks, options.study);
+    const bool too_late = !scene && !interruption.reason({}).empty();
+    const StudyScene made = load_scene_together(ranks, options.study, interruption);
     const auto& scene = made.scene;
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
@@ -326,8 +359,10 @@ int run_command(const RunOptions& options) {
             }
         }
     }
-    if (ranks.from_leader(checkpoint ? "go" : "").empty()) {
-        return kBadInput;
+    const std::string refusal = std::to_string(too_late ? kResumable : kBadInput);
+    const std::string order = ranks.from_leader(checkpoint ? "go" : refusal);
+    if (order != "go") {
+        return std::stoi(order);
     }
     if (!ranks.leads()) {
         help(*scene, ranks, interruption);

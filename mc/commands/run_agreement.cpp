@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "machine/stop.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/random/fnv.hpp"
 #include "mc/results/provenance.hpp"
@@ -36,10 +37,25 @@ std::string misfit(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
+StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption) {
+    try {
+        return make_scene(options);
+    } catch (const machine::Stopped&) {
+        const std::string reason = interruption.reason({});
+        StudyScene none;
+        none.problems = {{options.path, 0, "",
+                          fmt::format("stopped by {} before its first gearbox",
+                                      reason.empty() ? "the time limit" : reason),
+                          "there is nothing to continue; start it again"}};
+        return none;
+    }
+}
+
 }  // namespace
 
-StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options) {
-    StudyScene made = make_scene(options);
+StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
+                               const Interruption& interruption) {
+    StudyScene made = make_in_time(options, interruption);
     const auto all_problems = ranks.gather(made ? "" : format(made.problems));
     const auto names = ranks.gather(ranks.size() > 1 ? rank_name(ranks) : "");
     const auto programs =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mc/commands/commands.hpp"
+#include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/study_scene.hpp"
 
@@ -9,6 +10,8 @@ namespace gearpod::mc {
 
 // The scene in every rank, or nothing in any of them after rank 0 said why: a problem of the study,
 // or the rank that cannot read it, has another one or runs another program. All call it together.
-StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options);
+// An interruption is such a reason as well.
+StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
+                               const Interruption& interruption);
 
 }  // namespace gearpod::mc

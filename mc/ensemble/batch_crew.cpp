@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <exception>
 
+#include "machine/stop.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/input/exception_text.hpp"
 
 namespace gearpod::mc {
 
@@ -108,8 +110,10 @@ void BatchCrew::work(const BatchTask& task, const BatchPlan& plan) noexcept {
                 worker.emplace(task);
             }
             finished.rows = worker->compute(plan.batch(*batch), seconds);
+        } catch (const machine::Stopped&) {
+            finished.stopped = true;
         } catch (const std::exception& error) {
-            finished.failure = error.what();
+            finished.failure = exception_text(error);
         }
         finished.seconds = seconds_since(start);
         hand_in(std::move(finished));

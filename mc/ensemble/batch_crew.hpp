@@ -18,7 +18,8 @@ struct FinishedBatch {
     std::size_t batch = 0;
     BatchRows rows;
     double seconds = 0.0;
-    std::string failure;  // what went wrong instead, "" if nothing
+    std::string failure;   // what went wrong instead, "" if nothing
+    bool stopped = false;  // it was left off before its end, and has no rows
 };
 
 // What the threads of one process did with their time, summed over them.

@@ -132,6 +132,7 @@ class Leader {
                     break;
                 case Say::stop:
                     interrupt(text_of(message->bytes));
+                    leave_off(Interruption::kGrace);
                     break;
                 case Say::times:
                     outcome_.crews[rank] = times_of(message->bytes);
@@ -139,6 +140,7 @@ class Leader {
                     break;
                 case Say::compute:
                 case Say::drop:
+                case Say::leave:
                 case Say::close:
                     break;  // rank 0's own words
             }
@@ -152,6 +154,10 @@ class Leader {
 
     void accept(std::size_t rank, const FinishedBatch& finished) {
         settle(rank, 1);
+        if (finished.stopped) {
+            interrupt(reason_now());
+            return;
+        }
         longest_batch_s_ = std::max(longest_batch_s_, finished.seconds);
         naps_.finished(finished);
         if (!finished.failure.empty()) {
@@ -203,19 +209,43 @@ class Leader {
         saving_s_ = seconds_since(start);
     }
 
+    // No batch is begun that may not be finished in time, and none that is in work is waited for
+    // when what is left of the time is needed for saving.
     void consider_stopping() {
-        if (stopping_ || run_.interruption == nullptr) {
+        if (run_.interruption == nullptr) {
             return;
         }
-        // The batches in work, once more for a guess, and saving as long as it took last.
-        const std::chrono::duration<double> ahead(1.5 * longest_batch_s_ + saving_s_);
-        interrupt(run_.interruption->reason(ahead));
+        using Time = std::chrono::duration<double>;
+        if (!stopping_) {
+            // A batch that is begun now and takes a little longer than any so far, and saving.
+            interrupt(run_.interruption->reason(Time(1.2 * longest_batch_s_ + saving_s_)));
+        }
+        if (stopping_ && !run_.interruption->reason(Time(saving_s_ + kSlack_s)).empty()) {
+            leave_off(run_.interruption->signalled() ? Interruption::kGrace : Time(0.0));
+        }
+    }
+
+    // Why computing was left off, perhaps by a rank whose clock is ahead of this one's.
+    std::string reason_now() const {
+        const std::string reason = run_.interruption->reason({});
+        return reason.empty() ? "the time limit" : reason;
     }
 
     void interrupt(const std::string& reason) {
         if (!reason.empty() && !stopping_) {
             outcome_.interruption = reason;
             stop();
+        }
+    }
+
+    void leave_off(std::chrono::duration<double> grace) {
+        if (std::exchange(leaving_, true)) {
+            return;
+        }
+        run_.interruption->leave_off_in(grace);
+        const auto milliseconds = static_cast<std::size_t>(1e3 * grace.count());
+        for (int rank = 1; rank < run_.ranks.size(); ++rank) {
+            say(run_.ranks, rank, Say::leave, bytes_of_number(milliseconds));
         }
     }
 
@@ -256,6 +286,9 @@ class Leader {
         return batch;
     }
 
+    // Within which batches that are left off have come to an end.
+    static constexpr double kSlack_s = 0.2;
+
     BatchCrew& crew_;
     const BatchPlan plan_;
     const EnsembleRun& run_;
@@ -265,7 +298,7 @@ class Leader {
     std::size_t outstanding_ = 0;
     std::size_t next_ = 0;
     int closed_ = 0;
-    bool stopping_ = false, unwritable_ = false;
+    bool stopping_ = false, leaving_ = false, unwritable_ = false;
     double longest_batch_s_ = 0.0, saving_s_ = 0.0;
     WallClock::time_point last_sync_;
     EnsembleOutcome outcome_;
@@ -319,6 +352,10 @@ class Follower {
                     break;
                 case Say::drop:
                     drop();
+                    break;
+                case Say::leave:
+                    run_.interruption->leave_off_in(
+                        std::chrono::milliseconds(number_of(message->bytes)));
                     break;
                 case Say::close:
                     closed_ = true;

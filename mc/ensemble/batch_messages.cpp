@@ -80,6 +80,7 @@ std::vector<std::byte> bytes_of_batch(const FinishedBatch& batch) {
     packer.put_list(batch.rows.status);
     packer.put_list(batch.rows.values);
     packer.put_list(batch.failure);
+    packer.put(batch.stopped);
     return packer.take();
 }
 FinishedBatch batch_of(std::span<const std::byte> bytes) {
@@ -90,6 +91,7 @@ FinishedBatch batch_of(std::span<const std::byte> bytes) {
     batch.rows.status = unpacker.get_list<std::vector<int>>();
     batch.rows.values = unpacker.get_list<std::vector<double>>();
     batch.failure = unpacker.get_list<std::string>();
+    batch.stopped = unpacker.get<bool>();
     return batch;
 }
 

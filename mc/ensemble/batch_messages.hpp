@@ -14,6 +14,7 @@ namespace gearpod::mc {
 enum class Say {
     compute,   // to a rank: a batch
     drop,      // to a rank: begin no more of its batches
+    leave,     // to a rank: leave off its batches in so many milliseconds
     close,     // to a rank: all is done
     finished,  // to rank 0: a batch's rows, or what went wrong
     dropped,   // to rank 0: how many batches were not begun

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -49,6 +50,7 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seco
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        machine::leave_if_stopped();
         add_row(ids[lane], computed, static_cast<int>(lane), rows);
     }
     const double spent_s = seconds_since(start);

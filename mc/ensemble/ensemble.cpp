@@ -1,9 +1,11 @@
 #include "mc/ensemble/ensemble.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
+#include "machine/stop.hpp"
 #include "mc/ensemble/batch_exchange.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
@@ -28,13 +30,39 @@ Results results_frame(const Study& study) {
     return results;
 }
 
+namespace {
+
+// Why this rank has left off what all need before the first batch, or "".
+std::string prepare(const Scene& scene, const EnsembleRun& run, std::optional<BatchTask>& task) {
+    try {
+        task.emplace(scene);
+    } catch (const machine::Stopped&) {
+        const std::string reason = run.interruption == nullptr ? "" : run.interruption->reason({});
+        return reason.empty() ? "the time limit" : reason;
+    }
+    return "";
+}
+
+}  // namespace
+
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
-    const BatchTask task(scene);
+    std::optional<BatchTask> task;
+    for (const std::string& reason : run.ranks.gather(prepare(scene, run, task))) {
+        if (!reason.empty()) {
+            EnsembleOutcome outcome;
+            outcome.interruption = reason;
+            while (run.ranks.leads() && outcome.batches < plan.batches() &&
+                   run.store.has(outcome.batches)) {
+                ++outcome.batches;
+            }
+            return outcome;
+        }
+    }
     const int threads = std::max(
         1, static_cast<int>(std::min<std::size_t>(
                static_cast<std::size_t>(thread_count(scene.study(), run.ranks.on_this_machine())),
                plan.batches())));
-    BatchCrew crew(task, plan, threads);
+    BatchCrew crew(*task, plan, threads);
     return run.ranks.leads() ? lead(crew, plan, run) : follow(crew, run);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <csignal>
+#include <ctime>
 #include <string_view>
 
 namespace gearpod::mc {
@@ -13,12 +14,24 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1};
 
 volatile std::sig_atomic_t caught = 0;
+// When, on the steady clock, in nanoseconds: a handler may set no other type.
+std::atomic<long long> caught_ns{0};
+static_assert(std::atomic<long long>::is_always_lock_free);
+
+long long steady_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
 
 extern "C" void note_signal(int number) {
     if (caught != 0 && number != SIGUSR1) {
         std::signal(number, SIG_DFL);
         std::raise(number);
         return;
+    }
+    if (caught == 0) {
+        caught_ns = steady_ns();
     }
     caught = number;
 }
@@ -38,7 +51,9 @@ void handle(int number, void (*handler)(int)) {
 }  // namespace
 
 Interruption::Interruption(std::optional<std::chrono::seconds> limit)
-    : limit_(limit), start_(std::chrono::steady_clock::now()) {
+    : limit_(limit),
+      start_(std::chrono::steady_clock::now()),
+      end_(limit ? start_ + *limit : std::chrono::steady_clock::time_point::max()) {
     caught = 0;
     for (const int number : kSignals) {
         handle(number, note_signal);
@@ -58,6 +73,31 @@ std::string Interruption::reason(std::chrono::duration<double> ahead) const {
     }
     const bool over = limit_ && std::chrono::steady_clock::now() - start_ + ahead >= *limit_;
     return over ? "the time limit" : "";
+}
+
+bool Interruption::signalled() const {
+    return caught != 0;
+}
+
+void Interruption::leave_off_in(std::chrono::duration<double> grace) const {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(grace);
+    auto before = end_.load();
+    while (end < before && !end_.compare_exchange_weak(before, end)) {
+    }
+}
+
+void Interruption::let_finish() const {
+    finishing_ = true;
+}
+
+bool Interruption::stop() const {
+    if (finishing_) {
+        return false;
+    }
+    const bool signalled =
+        caught != 0 && steady_ns() - caught_ns >= std::chrono::nanoseconds(kGrace).count();
+    return signalled || std::chrono::steady_clock::now() >= end_.load(std::memory_order_relaxed);
 }
 
 std::optional<std::chrono::seconds> parse_time_limit(const std::string& text) {

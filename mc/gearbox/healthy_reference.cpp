@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "machine/stop.hpp"
 #include "mc/gearbox/instance_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
 
@@ -71,6 +72,7 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
         }
         const GearboxTile tile = run_gearboxes(scene, sampler, path, ids, lanes);
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+            machine::leave_if_stopped();
             if (tile.status[lane] == Status::ok) {
                 const int l = static_cast<int>(lane);
                 records.each_level(lane_signals(scene, path, tile, l, records.meshes()),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -127,6 +128,7 @@ void InstanceSignals::each_level(
     }
     spectrum_.load(gearbox.te_turn, noise_.encoder);
     for (std::size_t level = 0; level < levels.size(); ++level) {
+        machine::leave_if_stopped();
         features::FeatureInput input;
         if (sensed) {
             sensor_features(gearbox, levels[level] * inputs.noise_m_s2, input);

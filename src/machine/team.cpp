@@ -7,6 +7,8 @@
 #include <exception>
 #include <mutex>
 
+#include "machine/stop.hpp"
+
 namespace gearpod::machine {
 namespace {
 
@@ -47,7 +49,10 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
     Failure failure;
 #pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(most))
     for (std::size_t i = 0; i < count; ++i) {
-        failure.keep_from([&] { work(i); });
+        failure.keep_from([&] {
+            leave_if_stopped();
+            work(i);
+        });
     }
     failure.rethrow();
 }

@@ -8,6 +8,7 @@
 #include "lockstep/driven/forced_motion.hpp"
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
+#include "machine/stop.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -27,6 +28,7 @@ class DrivenKernelMarch final : public DrivenMarch<W> {
 
     void operator()(int mesh, const std::vector<PairOverride>& overrides, TileState& state,
                     MeshRecord& record) override {
+        machine::leave_if_stopped();
         rows_.fill(mesh);
         kernel_(plan_, lanes_, filter_, overrides, state, record);
     }

@@ -5,6 +5,7 @@
 
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
+#include "machine/stop.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -20,6 +21,7 @@ class KernelMarch final : public MeshMarch<W> {
 
     void operator()(const std::vector<PairOverride>& overrides, TileState& state,
                     MeshRecord& record) const override {
+        machine::leave_if_stopped();
         kernel_(plan_, lanes_, filter_, overrides, state, record);
     }
 

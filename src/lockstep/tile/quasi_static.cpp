@@ -9,6 +9,7 @@
 #include "lockstep/driven/driven_forces.hpp"
 #include "lockstep/driven/excitation_rows.hpp"
 #include "lockstep/tile/static_lanes.hpp"
+#include "machine/stop.hpp"
 
 namespace gearpod::lockstep {
 namespace {
@@ -126,6 +127,7 @@ class QuasiStatic {
     }
 
     int add_record(int mesh, const std::vector<PairOverride>& overrides) {
+        machine::leave_if_stopped();
         if (rows_ != nullptr) {
             rows_->fill(mesh);
         }

@@ -156,6 +156,71 @@ TEST_CASE("Signals and the time limit finish, save and exit with 4") {
     CHECK(test::program(run_of(out, 5000) + " --resume --time-limit 2h").code == 2);
 }
 
+// Every batch of this study takes a minute.
+TEST_CASE("Signals and the time limit end a batch that is in work, and nothing of it is kept") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const std::string slow = "run " + study("yang-pitch-errors.toml") +
+                             " --set numerics.steps_per_mesh=2000 --quiet --out " + out;
+    const auto before = std::chrono::steady_clock::now();
+    const auto took_s = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    };
+    CHECK(test::program(slow + " --time-limit 00:00:03").code == 4);
+    CHECK(took_s() > 2.0);
+    const pid_t child = start(slow + " --resume");
+    await_batches(out + ".part", 0);
+    kill(child, SIGTERM);
+    const int status = status_of(child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 4);
+    CHECK(test::shell(mpirun(2) + GEARPOD_PROGRAM + " " + slow + " --resume --time-limit 00:00:02")
+              .code == 4);
+    CHECK(took_s() < 40.0);
+    CHECK(mc::read_results(out).status.empty());
+    fs::remove(out + ".part");
+}
+
+TEST_CASE("Ended by signals inside of batches and continued, a run keeps its bits", "[mpi]") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const auto command = [&](const std::string& file) {
+        return "run " + study("crack-in-sun.toml") +
+               " --instances 20 --set ensemble.threshold_instances=17 --set "
+               "ensemble.checkpoint_s=0 --quiet --out " +
+               file;
+    };
+    REQUIRE(test::program(command(folder.file("whole.h5"))).code == 0);
+    int stopped = 0;
+    for (int i = 0; i < 30; ++i) {
+        const std::string stop = "timeout -s TERM " + std::to_string(0.3 + 0.1 * (i % 7)) + " env ";
+        const Outcome part = test::shell(stop + (i % 2 == 0 ? "" : mpirun(2)) + GEARPOD_PROGRAM +
+                                         " " + command(out) + " --resume");
+        INFO(part.output);
+        if (part.mentions("is working on it")) {
+            std::this_thread::sleep_for(200ms);  // mpirun is gone before its ranks are
+            continue;
+        }
+        REQUIRE(part.code != 2);
+        if (part.code == 0) {
+            break;
+        }
+        ++stopped;
+    }
+    CHECK(stopped > 0);
+    CHECK(test::program(command(out) + " --resume").code == 0);
+    CHECK(bits(out) == bits(folder.file("whole.h5")));
+}
+
+TEST_CASE("Rows named twice have their signals once") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    const Outcome run = test::program(run_of(out, 2) + " --quiet --signals 1,1,0 --signals 1");
+    INFO(run.output);
+    CHECK(run.code == 0);
+    CHECK_FALSE(fs::exists(out + ".part"));
+}
+
 TEST_CASE("A grown ensemble computes only what is new, and has the bits of one computed at once") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
