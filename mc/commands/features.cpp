@@ -23,6 +23,8 @@ namespace {
 
 using features::Feature;
 
+constexpr int kFewestOfParts = 4;  // samples a mesh period that can be parted (mesh_separation.hpp)
+
 // Mesh periods of its signal that a feature looks at.
 int meshes_of(const Feature& feature, const Scene& scene) {
     return feature.from_sensor ? meshes_needed(scene.study(), scene.span(), feature.needs)
@@ -39,13 +41,17 @@ std::string missing(const Feature& feature, const Scene& scene, const MeasuredSi
     if (feature.from_sensor && scene.study().effects.quasi_static()) {
         return "the study has no sensor (effects.motion)";
     }
-    if ((feature.from_sensor ? signal.sensor : signal.te).empty()) {
+    if (!(feature.from_sensor ? signal.has_sensor : signal.has_te)) {
         return feature.from_sensor ? "no sensor signal" : "no transmission error";
     }
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
     const int needed = meshes_of(feature, scene);
     if (has < needed) {
         return fmt::format("{} mesh periods, but it takes {}", has, needed);
+    }
+    if ((feature.needs & features::kTeParts) != 0 && scene.te_samples_per_mesh() < kFewestOfParts) {
+        return fmt::format("the study's encoders sample {} times a mesh period, but it takes {}",
+                           scene.te_samples_per_mesh(), kFewestOfParts);
     }
     if ((feature.needs & features::kHealthy) != 0 && !has_reference) {
         return "no healthy gearboxes at that noise level to compare with: give --healthy or "
@@ -80,12 +86,18 @@ class MeasuredInput {
         const std::size_t span = turn * static_cast<std::size_t>(scene_.span().ring_teeth);
         te_ = signals::synchronous_average(
             std::span(signal.te).first(std::min(signal.te.size(), span)), turn);
-        double sum = 0.0;
+        double sum = 0.0, largest = 0.0, deviation = 0.0;
         for (const double value : te_) {
             sum += value;
+            largest = std::max(largest, std::abs(value));
         }
         for (double& value : te_) {
             value -= sum / static_cast<double>(turn);
+            deviation = std::max(deviation, std::abs(value));
+        }
+        // What then is left is rounding, whose ratios say nothing.
+        if (deviation <= kRounding * largest) {
+            std::fill(te_.begin(), te_.end(), 0.0);
         }
         signals::OrderSpectrum spectrum(static_cast<int>(turn));
         spectrum.load(te_);
@@ -112,6 +124,8 @@ class MeasuredInput {
         input.sensor_mean_square = windowing.mean_square(0.0);
         analysis_.sensor(signal.sensor, offset, input);
     }
+
+    static constexpr double kRounding = 1e-13;
 
     const Scene& scene_;
     SpanAnalysis analysis_;
@@ -148,6 +162,25 @@ HealthyReference simulated_at(double noise_level, const Scene& scene) {
     return {{all.residual_variance[at]}, {all.envelope_variance[at]}, {all.amplitude[at]}};
 }
 
+// Why a feature has no number although its signal is there.
+std::string why_no_value(const Feature& feature, const features::FeatureInput& input,
+                         const Scene& scene) {
+    const auto zero = [](std::span<const double> values) {
+        return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+    };
+    if (!feature.from_sensor && zero(input.te_turn)) {
+        return "the transmission error is constant";
+    }
+    if (feature.compute == features::te_fm0 && scene.te_samples_per_mesh() <= 2) {
+        return fmt::format("no mesh harmonic: the study's encoders sample {} times a mesh period",
+                           scene.te_samples_per_mesh());
+    }
+    if (feature.from_sensor && input.sensor_mean_square == 0.0) {
+        return "the sensor's signal is zero";
+    }
+    return "no finite number: its definition divides by what is zero in this signal";
+}
+
 struct Measured {
     const Feature* feature;
     double value;
@@ -170,6 +203,9 @@ std::vector<Measured> measure(const Scene& scene, const MeasuredSignal& signal,
     for (Measured& one : all) {
         if (one.missing.empty()) {
             one.value = one.feature->compute(input);
+            if (!std::isfinite(one.value)) {
+                one.missing = why_no_value(*one.feature, input, scene);
+            }
         }
     }
     return all;
@@ -222,19 +258,17 @@ bool any_feature(const std::vector<Measured>& all, const std::string& path, cons
     }
     int shortest = 0;
     for (const Measured& one : all) {
-        const bool there = !(one.feature->from_sensor ? signal.sensor : signal.te).empty() &&
+        const bool there = (one.feature->from_sensor ? signal.has_sensor : signal.has_te) &&
                            !(one.feature->from_sensor && scene.study().effects.quasi_static());
         const bool central = (one.feature->needs & (features::kSun | features::kRing)) != 0;
-        if (there && !central) {
-            const int needed = meshes_of(*one.feature, scene);
+        const int needed = central ? 0 : meshes_of(*one.feature, scene);
+        const int has = one.feature->from_sensor ? signal.sensor_meshes : signal.te_meshes;
+        if (there && has < needed) {
             shortest = shortest == 0 ? needed : std::min(shortest, needed);
         }
     }
     if (shortest == 0) {
-        fmt::print(stderr,
-                   "{}: no transmission error, and a quasi-static study has no features of "
-                   "a sensor\n",
-                   path);
+        fmt::print(stderr, "{}: no feature can be had of it: {}\n", path, all.front().missing);
     } else {
         fmt::print(stderr,
                    "{}: too short: {} mesh periods of sensor signal and {} of transmission "
@@ -247,6 +281,11 @@ bool any_feature(const std::vector<Measured>& all, const std::string& path, cons
 }  // namespace
 
 int features_command(const FeaturesOptions& options) {
+    std::vector<FileRole> read{{"the study", options.study.path}, {"the signal", options.signal}};
+    for (const std::string& path : options.healthy) {
+        read.push_back({"a recording of --healthy", path});
+    }
+    const bool writable = can_write({"--json", options.json}, read);
     const auto scene = load_scene(options.study).scene;
     if (!scene || !writable) {
         return kBadInput;
@@ -275,10 +314,5 @@ int features_command(const FeaturesOptions& options) {
         return kBadInput;
     }
 }
-    std::vector<FileRole> read{{"the study", options.study.path}, {"the signal", options.signal}};
-    for (const std::string& path : options.healthy) {
-        read.push_back({"a recording of --healthy", path});
-    }
-    const bool writable = can_write({"--json", options.json}, read);
 
 }  // namespace gearpod::mc

@@ -61,8 +61,9 @@ int report_command(const ReportOptions& options) {
         const std::string state = results.provenance_value("state");
         if (state == "running" || state.starts_with("interrupted")) {
             fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results,
-                       count_rows(rows).all, results.provenance_value("gearboxes_asked_for"),
-                       state);
+                       count_rows(rows).all,
+                       printable(results.provenance_value("gearboxes_asked_for")),
+                       printable(state));
         }
         fmt::print("{}", results_text(results, rows, reliability));
         if (!options.html.empty()) {

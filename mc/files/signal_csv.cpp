@@ -5,6 +5,7 @@
 #include <charconv>
 #include <fstream>
 #include <string_view>
+#include <unordered_set>
 
 #include "mc/files/signal_file.hpp"
 
@@ -78,6 +79,7 @@ class SignalCsv : public SignalFile {
                 break;
             }
         }
+        std::unordered_set<std::string> known;
         for (const std::string_view field : fields(line, separator_)) {
             double value = 0.0;
             const auto end = field.data() + field.size();
@@ -87,7 +89,7 @@ class SignalCsv : public SignalFile {
                     number, names_.size() + 1));
             }
             names_.push_back(name_of(field));
-            if (std::count(names_.begin(), names_.end(), names_.back()) > 1) {
+            if (!known.insert(names_.back()).second) {
                 throw SignalError(
                     fmt::format("{}:{}: two columns are named {}", path_, number, names_.back()));
             }

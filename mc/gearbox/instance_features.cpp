@@ -1,5 +1,8 @@
 #include "mc/gearbox/instance_features.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
@@ -26,7 +29,9 @@ std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
                                                                            : own(input.tooth_rms)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            values[f * levels_ + level] = features_[f]->compute(input);
+            const double value = features_[f]->compute(input);
+            values[f * levels_ + level] =
+                std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
         }
     });
     return values;

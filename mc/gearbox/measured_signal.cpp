@@ -6,7 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "features/feature.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "signals/spectra/order_tracking.hpp"
 
 namespace gearpod::mc {
@@ -33,27 +36,30 @@ class Reading {
         stop_at_problems();
         const std::size_t samples = std::max(sensor.size(), te.size());
         MeasuredSignal measured;
+        measured.has_sensor = !sensor.empty();
+        measured.has_te = !te.empty();
         std::vector<double> phase = phases(samples, measured.tracking);
         stop_at_problems();
-        check_rate(phase, !sensor.empty());
+        check_rate(phase, !sensor.empty(), !te.empty());
         stop_at_problems();
         const signals::OrderTracking tracking(std::move(phase));
         if (!sensor.empty()) {
             const int grid = scene_.samples_per_mesh();
             measured.sensor_meshes = tracking.meshes(grid);
-            measured.sensor = tracking.resample(sensor, grid, measured.sensor_meshes);
+            measured.sensor =
+                tracking.resample(sensor, grid, std::min(measured.sensor_meshes, most_meshes()));
         }
         if (!te.empty()) {
             const int grid = scene_.te_samples_per_mesh();
             measured.te_meshes = tracking.meshes(grid);
-            measured.te = tracking.resample(te, grid, measured.te_meshes);
+            measured.te = tracking.resample(te, grid, std::min(measured.te_meshes, most_meshes()));
         }
         return measured;
     }
 
   private:
     void reject(const std::string& what) {
-        problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, what);
+        problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, printable(what));
     }
     void stop_at_problems() const {
         if (!problems_.empty()) {
@@ -62,7 +68,13 @@ class Reading {
     }
     std::string columns_text() const {
         const auto names = file_->names();
-        return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+        constexpr std::size_t kShown = 20;
+        const auto end =
+            names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
+        const std::string rest =
+            names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "";
+        return names.empty() ? "none"
+                             : fmt::format("{}{}", fmt::join(names.begin(), end, ", "), rest);
     }
 
     // A column of finite numbers as long as the others.
@@ -76,6 +88,14 @@ class Reading {
                             "sample {}; cut them off or fill the gaps",
                             name, std::count_if(values.begin(), values.end(), is_bad),
                             values.size(), bad - values.begin() + 1));
+        }
+        const auto huge = std::find_if(values.begin(), values.end(),
+                                       [](double value) { return std::abs(value) > kLargest; });
+        if (huge != values.end() && bad == values.end()) {
+            reject(
+                fmt::format("column {}: sample {} is {:g}; numbers above {:g} cannot be computed "
+                            "with",
+                            name, huge - values.begin() + 1, *huge, kLargest));
         }
         if (values.size() < 2) {
             reject(fmt::format("column {} has {} sample(s)", name, values.size()));
@@ -151,8 +171,22 @@ class Reading {
             }
             return phase;
         }
-        how = "column speed_rpm";
-        return integrated(phase, column(kSpeed));
+        const std::vector<double> speed_rpm = column(kSpeed);
+        check_direction(speed_rpm);
+        how = speed_rpm.empty() || speed_rpm.front() >= 0.0
+                  ? "column speed_rpm"
+                  : "column speed_rpm, which is negative: turning backwards";
+        return integrated(phase, speed_rpm);
+    }
+
+    // A gearbox that turns about passes its meshes again, and loads its other flanks.
+    void check_direction(const std::vector<double>& speed_rpm) {
+        const auto other = std::find_if(speed_rpm.begin(), speed_rpm.end(),
+                                        [&](double rpm) { return rpm * speed_rpm.front() < 0.0; });
+        if (other != speed_rpm.end()) {
+            reject(fmt::format("column {} changes its sign at sample {}; cut the recording there",
+                               kSpeed, other - speed_rpm.begin() + 1));
+        }
     }
 
     // Trapezoidal rule. Backwards is as good as forwards.
@@ -185,10 +219,16 @@ class Reading {
     }
 
     // A grid coarser than the samples would fold high frequencies down.
-    void check_rate(const std::vector<double>& phase, bool sensor) {
+    void check_rate(const std::vector<double>& phase, bool sensor, bool te) {
         const double per_mesh =
             static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
         const double mesh_Hz = scene_.nominal_mesh_frequency_Hz();
+        if (te && per_mesh < kFewestSamples) {
+            reject(
+                fmt::format("{:.6g} samples a mesh period do not show the mesh frequency of the "
+                            "transmission error; is the speed or the sampling rate right?",
+                            per_mesh));
+        }
         const double low_pass = scene_.study().sensor.low_pass_Hz;
         if (sensor && per_mesh > kSpareRate * scene_.samples_per_mesh()) {
             reject(
@@ -204,7 +244,16 @@ class Reading {
         }
     }
 
+    // All that any feature looks at.
+    int most_meshes() const {
+        const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
+        return meshes_needed(scene_.study(), scene_.span(),
+                             planetary ? features::kSun | features::kRing : 0U);
+    }
+
     static constexpr double kEven = 1e-3;
+    static constexpr double kFewestSamples = 2.0;  // a mesh period
+    static constexpr double kLargest = 1e18;
     static constexpr double kSpareRate = 1.02;
 
     const std::string& path_;

@@ -16,9 +16,11 @@ struct SignalColumns {
 };
 
 struct MeasuredSignal {
-    std::vector<double> sensor;  // m/s^2, P a mesh period; empty without the column
-    std::vector<double> te;      // rad, P_te a mesh period; empty without the column
-    int sensor_meshes = 0, te_meshes = 0;
+    // The mesh periods that features look at, as many as there are of them.
+    std::vector<double> sensor;  // m/s^2, P a mesh period
+    std::vector<double> te;      // rad, P_te a mesh period
+    bool has_sensor = false, has_te = false;  // whether there is such a column, however short
+    int sensor_meshes = 0, te_meshes = 0;     // whole mesh periods of the recording
     std::string tracking;  // how the samples got their mesh phase
 };
 

@@ -4,19 +4,21 @@
 #include <map>
 #include <tuple>
 
+#include "mc/input/printable.hpp"
+
 namespace gearpod::mc {
 
 std::string format(const Problem& problem) {
-    std::string text = problem.file;
+    std::string text = printable(problem.file);
     if (problem.line > 0) {
         text += ":" + std::to_string(problem.line);
     }
     if (!problem.key.empty()) {
-        text += ": " + problem.key;
+        text += ": " + printable(problem.key);
     }
-    text += ": " + problem.what;
+    text += ": " + printable(problem.what);
     if (!problem.remedy.empty()) {
-        text += "; " + problem.remedy;
+        text += "; " + printable(problem.remedy);
     }
     return text;
 }

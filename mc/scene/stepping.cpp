@@ -10,6 +10,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
 #include "mc/scene/body.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {
@@ -17,6 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr int kMostSamples = 20'000;   // likewise: a span of thousands of them fits the memory
 constexpr int kFewestSamples = 4;
 
 // The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
@@ -38,10 +40,10 @@ int round_up_to_smooth(int least) {
 // Samples a mesh period at least, for a rate of `key`.
 int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) {
     const double samples = std::ceil(rate_Hz / mesh_frequency_Hz - 1e-9);
-    if (samples > kMostSteps) {
+    if (samples > kMostSamples) {
         throw SceneError(key,
                          fmt::format("{:.3g} samples a mesh period are too many (at most {})",
-                                     samples, kMostSteps),
+                                     samples, kMostSamples),
                          "lower the rate or raise the speed");
     }
     return std::max(1, static_cast<int>(samples));
@@ -201,6 +203,16 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
                                  result.samples);
     while (result.samples % result.te_samples != 0) {
         ++result.te_samples;
+    }
+    const unsigned needs = needs_of(used_features(study));
+    if ((needs & features::kTeParts) != 0 && result.te_samples < kFewestSamples) {
+        throw SceneError(
+            "sensor.encoder_sampling_Hz",
+            fmt::format("{} sample(s) a mesh period do not part the transmission error, as te_fm4, "
+                        "te_m6a and te_m8a do",
+                        result.te_samples),
+            fmt::format("at least {:.4g} Hz, or without these features",
+                        kFewestSamples * mesh_frequency_Hz));
     }
     return result;
 }

@@ -8,7 +8,7 @@
 
 namespace gearpod::mc {
 
-inline constexpr int kMostSteps = 1'000'000;  // and samples, in a mesh period
+inline constexpr int kMostSteps = 1'000'000;  // in a mesh period
 
 // Samples of the sensor and of the encoders in one mesh period. Without inertia there is no sensor
 // and both are the encoders'.

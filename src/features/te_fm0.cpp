@@ -1,6 +1,7 @@
 // Figure of merit zero: peak-to-peak over the sum of the amplitudes at the mesh order Z_p and its
 // harmonics, as many as te_harmonics and below the Nyquist order: Park et al. (2016), Table II.
 #include <algorithm>
+#include <limits>
 
 #include "features/feature.hpp"
 
@@ -16,7 +17,8 @@ double te_fm0(const FeatureInput& input) {
         }
         harmonics += input.te_amplitude[order];
     }
-    return (*high - *low) / harmonics;
+    // Encoders too slow for a mesh harmonic show none.
+    return harmonics > 0.0 ? (*high - *low) / harmonics : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace gearpod::features

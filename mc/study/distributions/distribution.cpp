@@ -15,6 +15,7 @@
 #include "mc/study/distributions/grid.hpp"
 #include "mc/study/distributions/levels.hpp"
 #include "mc/study/distributions/lognormal.hpp"
+#include "mc/study/distributions/magnitude.hpp"
 #include "mc/study/distributions/normal.hpp"
 #include "mc/study/distributions/triangular.hpp"
 #include "mc/study/distributions/truncated_normal.hpp"
@@ -133,6 +134,12 @@ class FieldReader {
         if (entry.value.elements.empty()) {
             return add(entry.position, entry.name, "has no values", "give at least one");
         }
+        if (entry.value.elements.size() > kMostElements) {
+            return add(entry.position, entry.name,
+                       fmt::format("has {} values, and at most {} are computed with",
+                                   entry.value.elements.size(), kMostElements),
+                       "give fewer");
+        }
         bool good = true;
         for (const Value& element : entry.value.elements) {
             good = check_number(entry, element, range) && good;
@@ -147,6 +154,8 @@ class FieldReader {
             what = fmt::format("must be a number, but is {}", value.kind_name());
         } else if (!std::isfinite(value.number)) {
             what = fmt::format("must be a finite number, but is {}", value.number);
+        } else if (!computable(value.number)) {
+            what = fmt::format("{} {}", value.number, kNotComputable);
         } else if (!range.contains(value.number)) {
             what = fmt::format("must be {}, but is {}", range.text(), value.number);
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "features/feature.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/reading/parts.hpp"
@@ -47,7 +48,9 @@ void read_section(StudyDraft& draft, const Entry& section) {
 }
 
 void read_title(StudyDraft& draft, const Entry& entry) {
-    if (entry.value.kind == Value::Kind::text) {
+    if (entry.value.kind == Value::Kind::text && !is_printable(entry.value.text)) {
+        draft.reject(entry.position, "title", "holds control characters", "write one line of text");
+    } else if (entry.value.kind == Value::Kind::text) {
         draft.study.title = entry.value.text;
     } else {
         draft.reject(entry.position, "title",

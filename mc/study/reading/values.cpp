@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mc/input/spelling.hpp"
+#include "mc/study/distributions/magnitude.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/tones.hpp"
 
@@ -96,7 +97,7 @@ class ValueReader {
     }
 
     void operator()(const TonesAccess& access) {
-        if (is_list("tones")) {
+        if (value_.elements.empty() ? is_list("tones") : nonempty_list("tones")) {
             access.set(draft_.study, read_tones(value_, [&](std::string what, std::string remedy) {
                            reject(std::move(what), std::move(remedy));
                        }));
@@ -115,10 +116,8 @@ class ValueReader {
                    key_.range.hint());
             return false;
         }
-        const double si = value.number * key_.unit.to_si;
-        if (!std::isfinite(si) || (value.number != 0.0 && !std::isnormal(si))) {
-            reject(fmt::format("{} is beyond the numbers that can be computed with", value.number),
-                   key_.range.hint());
+        if (!computable(value.number)) {
+            reject(fmt::format("{} {}", value.number, kNotComputable), key_.range.hint());
             return false;
         }
         return true;
@@ -143,6 +142,12 @@ class ValueReader {
 
     bool nonempty_list(std::string_view of) {
         if (!is_list(of)) {
+            return false;
+        }
+        if (value_.elements.size() > kMostElements) {
+            reject(fmt::format("has {} values, and at most {} are computed with",
+                               value_.elements.size(), kMostElements),
+                   "give fewer");
             return false;
         }
         if (value_.elements.empty()) {

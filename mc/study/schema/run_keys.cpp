@@ -30,6 +30,8 @@ constexpr machine::InstructionSet kSets[] = {machine::InstructionSet::baseline,
                                              machine::InstructionSet::x86_64_v4};
 const std::vector<ChoiceName> kInstructionSets = names_or_auto<machine::InstructionSet>(kSets);
 
+// Nearer to 0 or 1 intervals have no numbers.
+constexpr Range kShare = from_to(1e-9, 1 - 1e-9);
 constexpr Range kTolerance = {0.0, 1.0, false, true};
 
 std::span<const ChoiceName> feature_names() {
@@ -59,8 +61,8 @@ const Key kKeys[] = {
     {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the mesh window"},
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "mesh harmonics in te_fm0"},
 
-    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, inside(0, 1), may, kShared, "share of healthy gearboxes that may alarm"},
-    {"detection", "confidence", number<&Detection::confidence>, kNone, inside(0, 1), may, kShared, "confidence of the intervals"},
+    {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "share of healthy gearboxes that may alarm"},
+    {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence of the intervals"},
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -225,6 +226,137 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
     write_mat(folder.file("long.mat"), {{"sensor", good}, {"te", eight}}, true);
     refused(folder.file("long.mat") + " --sampling-Hz 280",
             "column te has 8 samples, but sensor has 80");
+}
+
+// A turn of the planet and more, 60 samples a mesh period.
+Columns hostile(const std::function<double(double)>& te) {
+    Columns columns{{"mesh_phase", {}}, {"te", {}}};
+    for (int i = 0; i < 60 * 30; ++i) {
+        columns[0].second.push_back(i / 60.0);
+        columns[1].second.push_back(te(i / 60.0));
+    }
+    return columns;
+}
+
+TEST_CASE("A feature without a number is named with its reason, and no number is infinite") {
+    const Folder folder;
+    const std::string file = folder.file("x.csv");
+    for (const double level : {0.0, 1e-5, -3.0, 1e15}) {
+        write_csv(file, hostile([&](double) { return level; }));
+        const auto json = features_of(file, kSmall);
+        INFO(level << json.dump(2));
+        CHECK(json["features"]["te_rms"] == 0.0);
+        for (const char* name : {"te_kurtosis", "te_fc", "te_fm0"}) {
+            CHECK(json["unavailable"][name] == "the transmission error is constant");
+        }
+        const Outcome text = program("features " + file + " --study " + kSmall);
+        CHECK_FALSE(text.mentions("nan"));
+        CHECK_FALSE(text.mentions("inf"));
+    }
+    for (const double level : {1e19, 1e200, -1e308}) {
+        write_csv(file, hostile([&](double at) { return level * std::sin(at); }));
+        const Outcome outcome = program("features " + file + " --study " + kSmall);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("column te: sample"));
+        CHECK(outcome.mentions("cannot be computed with"));
+    }
+    // Encoders that see a mesh twice see none of its harmonics.
+    write_csv(file, hostile([](double at) { return 1e-5 * std::sin(0.1 * at); }));
+    const auto slow = features_of(file, kSmall +
+                                            " --set sensor.encoder_sampling_Hz=50 --set "
+                                            "'features.use=[\"te_rms\"]'");
+    INFO(slow.dump(2));
+    CHECK(slow["features"].contains("te_rms"));
+    CHECK(std::string(slow["unavailable"]["te_fm0"]).find("no mesh harmonic") == 0);
+}
+
+TEST_CASE("A recording's speed is believed only where it can be true") {
+    const Folder folder;
+    const std::string file = folder.file("x.csv");
+    const auto recorded = [&](const std::function<double(int)>& rpm) {
+        Columns columns{{"time", {}}, {"te", {}}, {"speed_rpm", {}}};
+        for (int i = 0; i < 3000; ++i) {
+            columns[0].second.push_back(i / 1000.0);
+            columns[1].second.push_back(1e-5 * std::sin(0.3 * i));
+            columns[2].second.push_back(rpm(i));
+        }
+        write_csv(file, columns);
+        return test::shell("ulimit -v 1000000; " + std::string(GEARPOD_PROGRAM) + " features " +
+                           file + " --study " + kSmall);
+    };
+    const Outcome forwards = recorded([](int) { return 20.0; });
+    INFO(forwards.output);
+    CHECK(forwards.code == 0);
+    const Outcome backwards = recorded([](int) { return -20.0; });
+    CHECK(backwards.code == 0);
+    CHECK(backwards.mentions("turning backwards"));
+    const Outcome flipping = recorded([](int i) { return i < 1000 ? 20.0 : -20.0; });
+    CHECK(flipping.code == 2);
+    CHECK(flipping.mentions("column speed_rpm changes its sign at sample 1001"));
+    for (const double rpm : {1e6, 1e12, 1e18}) {
+        const Outcome raced = recorded([&](int) { return rpm; });
+        INFO(raced.output);
+        CHECK(raced.code == 2);
+        CHECK(raced.mentions("do not show the mesh frequency"));
+    }
+}
+
+TEST_CASE("Recordings of a few samples are too short, of which kind they ever are") {
+    const Folder folder;
+    const std::string file = folder.file("x.csv");
+    for (const char* column : {"sensor", "te"}) {
+        for (const int samples : {2, 3, 10, 20}) {
+            Columns columns{{"mesh_phase", {}}, {column, {}}};
+            for (int i = 0; i < samples; ++i) {
+                columns[0].second.push_back(i / 8.0);
+                columns[1].second.push_back(0.5 + i % 2);
+            }
+            write_csv(file, columns);
+            const Outcome outcome = program("features " + file + " --study " + kSmall);
+            INFO(column << " " << samples << "\n" << outcome.output);
+            CHECK(outcome.code == 2);
+            CHECK(outcome.mentions("too short: "));
+        }
+    }
+}
+
+TEST_CASE("A table of two hundred thousand columns is answered at once, and in a few words") {
+    const Folder folder;
+    const std::string file = folder.file("x.csv");
+    {
+        std::ofstream stream(file);
+        for (int c = 0; c < 200000; ++c) {
+            stream << (c == 0 ? "" : ",") << "c" << c;
+        }
+        stream << "\n";
+        for (int c = 0; c < 200000; ++c) {
+            stream << (c == 0 ? "" : ",") << "1";
+        }
+        stream << "\n";
+    }
+    const Outcome outcome = test::shell("timeout 10 " + std::string(GEARPOD_PROGRAM) +
+                                        " features " + file + " --study " + kSmall);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("and 199980 more"));
+    CHECK(outcome.output.size() < 1000);
+}
+
+TEST_CASE("What files are named and titled tells a terminal nothing") {
+    const Folder folder;
+    const std::string file = folder.file("x.csv"), study = folder.file("s.toml");
+    write_bytes(file, "mesh_phase,\x1b[31mred\n0,1\n0.1,2\n");
+    const Outcome column = program("features " + file + " --study " + kSmall);
+    CHECK(column.code == 2);
+    CHECK_FALSE(column.mentions("\x1b"));
+    for (const char* line : {"title = \"\\u001b[31mred\"\n", "title = \"\\u009b31mred\"\n",
+                             "title = \"two\\nlines\"\n", "\"\\u001b[31mred\" = 1\n"}) {
+        write_bytes(study, std::string(line) + bytes_of(kSmall));
+        const Outcome outcome = program("describe " + study);
+        INFO(line << outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK_FALSE(outcome.mentions("\x1b"));
+        CHECK_FALSE(outcome.mentions("\xc2\x9b"));
+    }
 }
 
 }  // namespace

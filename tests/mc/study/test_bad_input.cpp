@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mc/input/nesting.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/study_example.hpp"
 
@@ -358,67 +357,6 @@ TEST_CASE("A file that cannot be read is one problem") {
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].file == path);
     }
-}
-
-namespace {
-
-std::string repeated(int count, const std::string& part) {
-    std::string all;
-    for (int i = 0; i < count; ++i) {
-        all += part;
-    }
-    return all;
-}
-
-}  // namespace
-
-TEST_CASE("A study nested deeper than any can be is refused before a parser recurses into it") {
-    constexpr int kDeep = 60000;
-    const std::string dotted = "a" + repeated(kDeep, ".a");
-    const std::string quoted = "\"a\"" + repeated(kDeep, " . 'a'");
-    const std::string texts[] = {
-        "[" + dotted + "]\n",
-        "[[" + dotted + "]]\nx = 1\n",
-        dotted + " = 1\n",
-        quoted + " = 1\n",
-        "ensemble.until." + dotted + " = 1\n",
-        "x = { " + dotted + " = 1 }\n",
-        "x = " + repeated(kDeep, "[") + repeated(kDeep, "]") + "\n",
-        "x = " + repeated(kDeep, "{ a = ") + "1" + repeated(kDeep, " }") + "\n",
-        repeated(kDeep, "["),
-    };
-    for (const std::string& text : texts) {
-        INFO(text.substr(0, 30));
-        const auto reading = read_study_text("# one\n" + text, "deep.toml");
-        REQUIRE(reading.problems.size() == 1);
-        CHECK(reading.problems[0].line == 2);
-        CHECK(reading.problems[0].what == "nested more than 32 deep");
-    }
-    for (const std::string& set :
-         {dotted + "=1", "fault.side={" + dotted + "=1}", "fault.side=" + repeated(kDeep, "[")}) {
-        INFO(set.substr(0, 30));
-        const auto reading = read_study_text(kExampleStudy, "study.toml", {set});
-        REQUIRE(reading.problems.size() == 1);
-        CHECK(reading.problems[0].file == "--set");
-    }
-}
-
-TEST_CASE("What only looks nested is not: strings, comments, lists of numbers, many lines") {
-    using gearpod::mc::line_nested_too_deep;
-    CHECK(line_nested_too_deep("# " + repeated(100, ".a") + "\n") == 0);
-    CHECK(line_nested_too_deep("x = \"" + repeated(100, "\\\".a[{") + "\"\ny = 1") == 0);
-    CHECK(line_nested_too_deep("x = '" + repeated(100, ".a[{") + "'\n") == 0);
-    CHECK(line_nested_too_deep("x = \"\"\"\n" + repeated(100, "\".a[\n") + "\"\"\"\n") == 0);
-    CHECK(line_nested_too_deep("x = [" + repeated(100, "0.1, [1.5], ") + "]\n") == 0);
-    CHECK(line_nested_too_deep(repeated(100, "[a]\nb.c = 1.25\n")) == 0);
-    CHECK(line_nested_too_deep("a" + repeated(31, ".b") + " = 1\n") == 0);
-    CHECK(line_nested_too_deep("\n\na" + repeated(32, ".b") + " = 1\n") == 3);
-}
-
-TEST_CASE("A long file that toml++ breaks at is answered at once, with its line") {
-    const auto reading = read_study_text(repeated(20000, "# comment\n") + "[[[\n", "long.toml");
-    REQUIRE(reading.problems.size() == 1);
-    CHECK(reading.problems[0].line == 20001);
 }
 
 TEST_CASE("No damage to a study file ends in an exception") {

@@ -1,0 +1,39 @@
+#include "mc/input/printable.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Length of a control character at `at`: one byte of ASCII, two of the C1 set in UTF-8; 0 if none.
+std::size_t control_at(std::string_view text, std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    if (byte(at) < 0x20 || byte(at) == 0x7f) {
+        return 1;
+    }
+    return byte(at) == 0xc2 && byte(at + 1) >= 0x80 && byte(at + 1) < 0xa0 ? 2 : 0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+    std::string shown;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = control_at(text, at);
+        const bool blank = text[at] == '\n' || text[at] == '\t' || text[at] == '\r';
+        shown += length == 0 ? text[at] : blank ? ' ' : '?';
+        at += length == 0 ? 1 : length;
+    }
+    return shown;
+}
+
+bool is_printable(std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (control_at(text, at) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace gearpod::mc
