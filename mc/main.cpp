@@ -1,20 +1,20 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include "lockstep/kernels/built_kernels.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace {
 
 using namespace gearpod::mc;
 
-void add_study_keys(CLI::App& command, StudyOptions& options) {
-    command
-        .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
 // Of an option that names a file to write: "" would be no file, or another than the one meant.
 CLI::Option* needs_name(CLI::Option* option) {
     return option->check([](const std::string& name) {
@@ -23,6 +23,9 @@ CLI::Option* needs_name(CLI::Option* option) {
     });
 }
 
+void add_study_keys(CLI::App& command, StudyOptions& options) {
+    command
+        .add_option("--set", options.overrides, "change a key of the study, e.g. ensemble.seed=7")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -75,12 +78,12 @@ int run_program(int argc, char** argv) {
         run_app->add_option("--out", run.out, "results file (default: the study's name with .h5)"));
     run_app->add_flag("--resume", run.resume,
                       "continue an interrupted run, or add gearboxes to a finished one");
-    run_app
-        ->add_option("--time-limit", run.time_limit,
-                     "finish, save and exit with 4 before this time is over")
     run_app->add_flag("--force", run.force,
                       "overwrite the results of another study, or a file that is none; start "
                       "although the memory will not suffice");
+    run_app
+        ->add_option("--time-limit", run.time_limit,
+                     "finish, save and exit with 4 before this time is over")
         ->type_name("HH:MM:SS");
     run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
     run_app
@@ -209,7 +212,12 @@ int main(int argc, char** argv) {
         }
         return code;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "gearpod: {}\n", error.what());
+        // The command and what it was given, where no command has found words of its own.
+        std::string call = "gearpod";
+        for (int i = 1; i < std::min(argc, 3); ++i) {
+            call += std::string(" ") + argv[i];
+        }
+        fmt::print(stderr, "{}: {}\n", printable(call), exception_text(error));
         return kBadInput;
     }
 }

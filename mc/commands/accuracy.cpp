@@ -4,13 +4,14 @@
 
 #include "mc/accuracy/report.hpp"
 #include "mc/commands/support.hpp"
+#include "mc/input/exception_text.hpp"
 
 namespace gearpod::mc {
 
 int accuracy_command(const AccuracyOptions& options) {
-    const auto made = load_scene(options.study);
     const bool writable = can_write(
         {"--json", options.json}, {{"the study", options.study.path}, {"--peers", options.peers}});
+    const auto made = load_scene(options.study);
     if (!made || !writable) {
         return kBadInput;
     }
@@ -45,7 +46,7 @@ int accuracy_command(const AccuracyOptions& options) {
     } catch (const SceneError& error) {
         print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        fmt::print(stderr, "{}\n", exception_text(error));
     }
     return kBadInput;
 }

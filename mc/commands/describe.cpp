@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "lockstep/integrators/facts.hpp"
+#include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/ranks.hpp"
@@ -160,6 +161,21 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     }
 }
 
+// What takes longer is left out.
+class Deadline final : public machine::StopWish {
+  public:
+    static constexpr int kSeconds = 7;
+
+    bool stop() const override { return seconds_since(start_) > kSeconds; }
+
+  private:
+    const WallClock::time_point start_ = WallClock::now();
+};
+
+void print_left_out(const char* what) {
+    fmt::print("\nleft out, because {} s are over: {}\n", Deadline::kSeconds, what);
+}
+
 }  // namespace
 
 int describe_command(const DescribeOptions& options) {
@@ -178,18 +194,28 @@ int describe_command(const DescribeOptions& options) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
-    const auto start = WallClock::now();
-    const auto made = load_scene(options.study);
-    if (!made) {
-        return kBadInput;
-    }
-    const double setup_s = seconds_since(start);
-    const Scene& scene = *made.scene;
-    print_gearbox(scene);
-    print_effects(scene);
-    print_cost(scene, made.choice);
     std::fflush(stdout);
-    print_forecast(scene, begun_s + setup_s);
+    const Deadline deadline;
+    const auto start = WallClock::now();
+    const char* missing =
+        "gearbox, effects, cost and forecast; the numerics are chosen by a pilot (numerics)";
+    try {
+        const auto made = load_scene(options.study);
+        if (!made) {
+            return kBadInput;
+        }
+        const double setup_s = seconds_since(start);
+        const Scene& scene = *made.scene;
+        print_gearbox(scene);
+        print_effects(scene);
+        missing = "cost and forecast";
+        print_cost(scene, made.choice);
+        std::fflush(stdout);
+        missing = "the forecast, for which gearboxes and their analysis are computed";
+        print_forecast(scene, begun_s + setup_s);
+    } catch (const machine::Stopped&) {
+        print_left_out(missing);
+    }
     return kDone;
 }
 

@@ -47,9 +47,9 @@ int report_command(const ReportOptions& options) {
     try {
         Results results = read_frame(options.results);
         const FileRows rows(options.results, results);
+        check_results(options.results, results, rows);
         results.detection = detect_all(results, rows);
         const auto reliability = reliability_of(results, rows, options.condition, thread_count());
-        check_results(options.results, results, rows);
         if (!options.json.empty() || !options.html.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;
@@ -70,7 +70,7 @@ int report_command(const ReportOptions& options) {
             fmt::print("\npage: {}\n", options.html);
         }
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        fmt::print(stderr, "{}\n", exception_text(error));
         return kBadInput;
     }
     return kDone;

@@ -15,10 +15,12 @@
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
-#include "mc/gearbox/simulation.hpp"
-#include "mc/numerics/numerical_error.hpp"
 #include "mc/files/atomic_file.hpp"
+#include "mc/forecast/forecast.hpp"
 #include "mc/forecast/memory.hpp"
+#include "mc/gearbox/simulation.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/numerics/numerical_error.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -65,9 +67,6 @@ bool check_signals(const RunOptions& options, const Study& study) {
     return false;
 }
 
-// The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
-std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
-    std::vector<RowSignals> all;
 // The results are written under another name first, and batches go into the checkpoint.
 bool check_output(const RunOptions& options) {
     const std::vector<FileRole> study{{"the study", options.study.path}};
@@ -217,16 +216,16 @@ class Run {
         }
     }
 
+    int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
+        const auto start = WallClock::now();
         Results examples;
         if (outcome.failure.empty() && outcome.interruption.empty()) {
             add_examples(examples, interruption, outcome);
         }
-    int conclude(EnsembleOutcome outcome, const Interruption& interruption) {
+        const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         if (!whole) {
             interruption.let_finish();
         }
-        const auto start = WallClock::now();
-        const bool whole = outcome.failure.empty() && outcome.interruption.empty();
         for (const CrewTimes& crew : outcome.crews) {
             threads_ += crew.threads;
         }
@@ -247,7 +246,7 @@ class Run {
                     text = text_of(all, rows);
                 }
             } catch (const std::exception& error) {
-                trouble = error.what();
+                trouble = exception_text(error);
             }
         }
         if (!trouble.empty()) {
@@ -340,14 +339,14 @@ int run_command(const RunOptions& options) {
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);
     const Ranks ranks;
-    const bool too_late = !scene && !interruption.reason({}).empty();
     const StudyScene made = load_scene_together(ranks, options.study, interruption);
     const auto& scene = made.scene;
+    const bool too_late = !scene && !interruption.reason({}).empty();
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = check_output(options);
         if (scene && writable && good_limit && check_watch(options, scene->study()) &&
-            check_signals(options, scene->study())) {
+            check_signals(options, scene->study()) && check_memory(options, *scene, ranks)) {
             const Ensemble& ensemble = scene->study().ensemble;
             try {
                 checkpoint = open_checkpoint(

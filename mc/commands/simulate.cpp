@@ -8,6 +8,7 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/gearbox/simulation.hpp"
+#include "mc/input/exception_text.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace gearpod::mc {
@@ -105,7 +106,7 @@ int simulate_command(const SimulateOptions& options) {
         }
         print_summary(simulation, options.out);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        fmt::print(stderr, "{}\n", exception_text(error));
         return kSomeFailed;
     }
     return kDone;

@@ -157,6 +157,10 @@ std::vector<std::size_t> level_order(std::size_t levels) {
     return order;
 }
 
+std::size_t values_of(const Study& study, const BatchPlan& plan) {
+    return plan.rows() * study.features.use.size() * study.sensor.noise_levels.size();
+}
+
 double seconds_of_analysis(Results results, int threads, bool assessed) {
     const auto start = WallClock::now();
     results.detection = detect_all(results);
@@ -221,13 +225,17 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
     return results;
 }
 
+double assessment_bytes(const Study& study, const BatchPlan& plan) {
+    return kBytesOfValue *
+           static_cast<double>(std::min(values_of(study, plan), kMostAssessedValues));
+}
+
 AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,
                            const BatchPlan& plan, int threads, double budget_s) {
     AnalysisTrial trial;
     const std::size_t levels = study.sensor.noise_levels.size();
-    const std::size_t values = plan.rows() * study.features.use.size() * levels;
-    const bool assessed = values <= kMostAssessedValues;
-    trial.bytes = kBytesOfValue * static_cast<double>(std::min(values, kMostAssessedValues));
+    const bool assessed = values_of(study, plan) <= kMostAssessedValues;
+    trial.bytes = assessment_bytes(study, plan);
     if (calibration.gearboxes.empty()) {
         return trial;
     }

@@ -33,4 +33,7 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
 
 inline constexpr std::size_t kTrialRows = 6000;
 
+// Memory that the assessment of all gearboxes of a run has at a time.
+double assessment_bytes(const Study& study, const BatchPlan& plan);
+
 }  // namespace gearpod::mc

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "features/feature.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
-#include "mc/forecast/peak_memory.hpp"
+#include "mc/forecast/memory.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 
@@ -18,35 +19,63 @@ std::size_t at(Group group) {
     return static_cast<std::size_t>(group);
 }
 
-// All tiles of a plan: first one of each group, then here and there, so that any first part of
-// the list is spread over the ensemble.
-std::vector<Batch> spread_tiles(const BatchPlan& plan, std::size_t lanes) {
-    std::vector<Batch> all;
-    for (std::size_t b = 0; b < plan.batches(); ++b) {
-        const Batch batch = plan.batch(b);
-        for (std::size_t first = 0; first < batch.count; first += lanes) {
-            all.push_back({batch.group, batch.first_index + first, batch.first_row + first,
-                           std::min(lanes, batch.count - first)});
+// All tiles of a plan, one after another: first one of each group, then here and there, so that any
+// first part of them is spread over the ensemble. They are counted, not listed.
+class SpreadTiles {
+  public:
+    SpreadTiles(const BatchPlan& plan, std::size_t lanes)
+        : plan_(plan),
+          lanes_(lanes),
+          healthy_(tiles(plan.threshold_rows())),
+          all_(healthy_ + tiles(plan.graded_rows())),
+          // Near the golden section of the whole, and without a common divisor.
+          stride_(std::max<std::size_t>(1, all_ / 1000 * 618 + all_ % 1000 * 618 / 1000)) {
+        while (std::gcd(stride_, all_) != 1) {
+            ++stride_;
         }
     }
-    std::vector<Batch> spread;
-    // A stride near the golden section of the whole that shares no divisor with it.
-    std::size_t stride = std::max<std::size_t>(1, all.size() * 618 / 1000);
-    while (std::gcd(stride, all.size()) != 1) {
-        ++stride;
+
+    std::optional<Batch> next() {
+        if (given_ == all_) {
+            return std::nullopt;
+        }
+        ++given_;
+        const bool both = healthy_ > 0 && healthy_ < all_;
+        if (both && given_ == 2) {
+            return tile(healthy_);
+        }
+        const std::size_t place = advance();
+        return tile(both && place == healthy_ ? advance() : place);
     }
-    for (std::size_t i = 0, place = 0; i < all.size(); ++i) {
-        spread.push_back(all[place]);
-        place = (place + stride) % all.size();
+
+  private:
+    std::size_t advance() {
+        const std::size_t place = place_;
+        place_ = (place_ + stride_) % all_;
+        return place;
     }
-    const auto graded = std::find_if(spread.begin() + 1, spread.end(), [&](const Batch& tile) {
-        return tile.group != spread.front().group;
-    });
-    if (graded != spread.end()) {
-        std::rotate(spread.begin() + 1, graded, graded + 1);
+
+    // A batch is filled by whole tiles but for the last one of its group.
+    std::size_t tiles(std::size_t rows) const {
+        return rows / kBatchRows * ((kBatchRows + lanes_ - 1) / lanes_) +
+               (rows % kBatchRows + lanes_ - 1) / lanes_;
     }
-    return spread;
-}
+
+    Batch tile(std::size_t place) const {
+        const std::size_t each = (kBatchRows + lanes_ - 1) / lanes_;
+        const bool healthy = place < healthy_;
+        const std::size_t own = healthy ? place : place - healthy_;
+        const std::size_t before = healthy ? 0 : plan_.threshold_batches();
+        const Batch batch = plan_.batch(before + own / each);
+        const std::size_t first = own % each * lanes_;
+        return {batch.group, batch.first_index + first, batch.first_row + first,
+                std::min(lanes_, batch.count - first)};
+    }
+
+    const BatchPlan plan_;
+    const std::size_t lanes_, healthy_, all_;
+    std::size_t stride_, place_ = 0, given_ = 0;
+};
 
 struct MeasuredTile {
     Batch tile = {};
@@ -61,8 +90,8 @@ struct MeasuredTile {
 // What the threads of a calibration share.
 class Measurement {
   public:
-    Measurement(const BatchTask& task, std::vector<Batch> tiles, bool reusable, double budget_s)
-        : task_(task), tiles_(std::move(tiles)), reusable_(reusable), budget_s_(budget_s) {}
+    Measurement(const BatchTask& task, const SpreadTiles& tiles, bool reusable, double budget_s)
+        : task_(task), tiles_(tiles), reusable_(reusable), budget_s_(budget_s) {}
 
     std::vector<MeasuredTile> run(int threads) {
         start_ = WallClock::now();
@@ -73,17 +102,17 @@ class Measurement {
     int threads() const { return threads_; }
 
   private:
-    const Batch* next(int had) {
+    std::optional<Batch> next(int had) {
         const std::scoped_lock lock(mutex_);
         const double over = seconds_since(start_) / budget_s_;
         const bool more = had == 0 || over < 1.0 || (had == 1 && over < 2.0);
-        return more && next_ < tiles_.size() ? &tiles_[next_++] : nullptr;
+        return more ? tiles_.next() : std::nullopt;
     }
 
     void work(int threads) {
         auto start = WallClock::now();
         BatchWorker worker(task_);
-        for (int had = 0; const Batch* tile = next(had); ++had) {
+        for (int had = 0; const std::optional<Batch> tile = next(had); ++had) {
             const bool first = had == 0;
             compute(worker, {.tile = *tile, .first = first}, start);
             if (reusable_) {
@@ -104,13 +133,12 @@ class Measurement {
     }
 
     const BatchTask& task_;
-    const std::vector<Batch> tiles_;
+    SpreadTiles tiles_;
     const bool reusable_;
     const double budget_s_;
     WallClock::time_point start_;
     std::mutex mutex_;
     int threads_ = 0;
-    std::size_t next_ = 0;
     std::vector<MeasuredTile> measured_;
 };
 
@@ -201,7 +229,7 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCali
     const bool reusable = distinct_marches(scene).has_value();
     start = WallClock::now();
     Measurement measurement(
-        task, spread_tiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
+        task, SpreadTiles(plan, static_cast<std::size_t>(scene.study().numerics.lanes)), reusable,
         budget_s);
     const std::vector<MeasuredTile> all = measurement.run(result.threads);
     result.threads = measurement.threads();

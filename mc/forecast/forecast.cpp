@@ -100,6 +100,12 @@ double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double 
                     memory.before + analysis_bytes + kFileBytes);
 }
 
+double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads) {
+    const auto teams = std::min(static_cast<std::size_t>(threads), plan.batches());
+    return std::max(static_cast<double>(teams) * motion_bytes(scene),
+                    assessment_bytes(scene.study(), plan));
+}
+
 RunForecast forecast_run(const Scene& scene, const BatchPlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,
                          double setup_s) {

@@ -30,6 +30,10 @@ double memory_bytes(const MemoryUse& memory, const MarchCounts& marches, double 
 // How long a run that verifies its numerics marches some gearboxes again; 0 if it does not.
 double verification_s(const Scene& scene, const RunCalibration& calibration);
 
+// What a run of so many threads holds beside the memory of this process: the motions of a tile in
+// each of them, or, after them, the columns of its analysis. It takes more (memory_bytes).
+double least_memory_bytes(const Scene& scene, const BatchPlan& plan, int threads);
+
 // `setup_s`: of the program and the scene. The most it takes: ensemble.until may end it before.
 RunForecast forecast_run(const Scene& scene, const BatchPlan& plan,
                          const RunCalibration& calibration, const AnalysisTrial& analysis,

@@ -1,10 +1,12 @@
-// The memory of this process.
+// Memory of this process and of this machine.
 #pragma once
 
 namespace gearpod::mc {
 
-// The most that it has had in memory at a time, bytes (VmHWM of /proc/self/status); 0 where that is
-// not told.
+// The most memory this process has had so far; 0 if the system does not say.
 double peak_memory_bytes();
+
+// What this process may still take: of the machine, of its control group, of its own limit.
+double memory_at_hand_bytes();
 
 }  // namespace gearpod::mc

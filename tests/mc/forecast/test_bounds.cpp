@@ -1,0 +1,82 @@
+// What an accepted study may cost: describe ends soon and stays small, run says beforehand what
+// cannot fit, and whatever is counted has a ceiling.
+#include <ctime>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::Folder;
+using test::Outcome;
+
+namespace {
+
+std::string levels(int count) {
+    std::string list;
+    for (int i = 0; i < count; ++i) {
+        list += (i == 0 ? "" : ",") + std::to_string(i);
+    }
+    return "[" + list + "]";
+}
+
+// In 2 GB; no exit code of a shell or of a signal.
+Outcome bounded(const std::string& arguments, int kilobytes = 2000000) {
+    return test::shell("ulimit -v " + std::to_string(kilobytes) + "; timeout 60 " +
+                       GEARPOD_PROGRAM + " " + arguments);
+}
+
+}  // namespace
+
+TEST_CASE("Whatever a study counts, describe ends within its time and memory") {
+    const std::string study = test::study("crack-in-sun.toml");
+    for (const std::string& set :
+         {"sensor.noise_levels=" + levels(1000), std::string("ensemble.instances=1000000000"),
+          std::string("ensemble.threshold_instances=1000000000"),
+          std::string("features.te_harmonics=1000"), std::string("sensor.sampling_Hz=100000"),
+          std::string("numerics.tolerance=1e-9"), std::string("numerics.steps_per_mesh=1000000"),
+          std::string("numerics.max_meshes=1000000")}) {
+        const auto start = std::time(nullptr);
+        const Outcome outcome = bounded("describe " + study + " --set '" + set + "'");
+        INFO(set.substr(0, 40) << "\n" << outcome.output);
+        CHECK((outcome.code == 0 || outcome.code == 2));
+        CHECK(std::time(nullptr) - start < 30);  // 10 s on an idle machine
+        CHECK_FALSE(outcome.mentions("std::"));
+        CHECK_FALSE(outcome.mentions("nan"));
+    }
+}
+
+TEST_CASE("Counts beyond their ceilings are refused with the ceiling") {
+    const std::string study = test::study("crack-in-sun.toml");
+    for (const auto& [set, words] :
+         {std::pair{"sensor.noise_levels=" + levels(1001), "at most 1000"},
+          std::pair{"random.fault.depth_mm={distribution='levels',values=" + levels(1001) + "}",
+                    "at most 1000"},
+          std::pair{std::string("sensor.sampling_Hz=1e7"), "at most 20000"},
+          std::pair{std::string("ensemble.instances=1000000001"), "ensemble.instances"},
+          std::pair{std::string("sensor.encoder_sampling_Hz=1\" --set \"features.use=['te_fm4']"),
+                    "do not part the transmission error"},
+          std::pair{std::string("features.te_harmonics=100000"), "features.te_harmonics"}}) {
+        const Outcome outcome = bounded("describe " + study + " --set \"" + set + "\"");
+        INFO(outcome.output.substr(0, 400));
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions(words));
+    }
+}
+
+TEST_CASE("A run that cannot fit the memory says so before it begins") {
+    const Folder folder;
+    const std::string run = "run " + test::study("crack-in-sun.toml") +
+                            " --set numerics.horizon=march --set sensor.sampling_Hz=20000 --set "
+                            "numerics.threads=2 --out " +
+                            folder.file("r.h5");
+    const Outcome refused = bounded(run, 1500000);
+    INFO(refused.output);
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("GB of memory at least"));
+    CHECK(refused.mentions("--force"));
+    CHECK(folder.empty());
+    // Tried all the same, it ends with a message and what it has.
+    const Outcome forced = bounded(run + " --force --quiet --time-limit 00:00:10", 1500000);
+    INFO(forced.output);
+    CHECK(forced.code == 4);
+    CHECK_FALSE(forced.mentions("std::"));
+}
