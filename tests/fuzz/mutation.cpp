@@ -28,6 +28,16 @@ constexpr std::array kValues{
     "1e-300",
     "5e-324",
     "1e300",
+    "1e18",
+    "1e19",
+    "-1e18",
+    "1e-30",
+    "1e-31",
+    "1e5",
+    "1e7",
+    "1e-9",
+    "0.999999999",
+    "1000000000",
     "1.7976931348623157e308",
     "-1e300",
     "nan",
@@ -100,7 +110,7 @@ class Mutator {
             return;
         }
         const std::size_t at = below(lines_.size());
-        switch (below(9)) {
+        switch (below(11)) {
             case 0:
                 lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(at));
                 break;
@@ -115,6 +125,12 @@ class Mutator {
                 break;
             case 4:
                 misspell(at);
+                break;
+            case 6:
+                set_value(at, long_list());
+                break;
+            case 7:
+                lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(at), nested());
                 break;
             case 5:
                 lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(at),
@@ -146,6 +162,26 @@ class Mutator {
         if (equals != std::string::npos) {
             lines_[at] = lines_[at].substr(0, equals + 1) + " " + value;
         }
+    }
+    // Numbers that ascend, from few to more than there may be.
+    std::string long_list() {
+        const std::size_t count = std::size_t{1} << below(13);
+        std::string list = "[0";
+        for (std::size_t i = 1; i < count; ++i) {
+            list += ", " + std::to_string(i);
+        }
+        return list + "]";
+    }
+    // A header or a key of many parts, a value of many brackets.
+    std::string nested() {
+        const std::size_t depth = std::size_t{1} << below(17);
+        const std::size_t kind = below(4);
+        const char* const part = kind == 3 ? "[" : ".a";
+        std::string text = kind == 0 ? "[a" : kind == 3 ? "x = " : "a";
+        for (std::size_t i = 0; i < depth; ++i) {
+            text += part;
+        }
+        return text + (kind == 0 ? "]" : kind == 3 ? "" : " = 1");
     }
     void misspell(std::size_t at) {
         if (!lines_[at].empty()) {

@@ -1,0 +1,284 @@
+#include <matio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "attack.hpp"
+#include "mutation.hpp"
+#include "tests/mc/resealed.hpp"
+
+namespace gearpod::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Dice {
+  public:
+    explicit Dice(std::uint64_t number) : engine_(number) {}
+    std::size_t below(std::size_t count) { return count == 0 ? 0 : engine_() % count; }
+    template <class List>
+    const auto& one_of(const List& list) {
+        return list[below(std::size(list))];
+    }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array kNumbers{0.0,       -0.0,       1.0,    -1.0, 0.5,   2.0,   1e-9,   1e-30,
+                              1e-300,    1e9,        1e18,   1e19, 1e150, 1e300, -1e300, kNan,
+                              kInfinity, -kInfinity, 5e-324, 4.0,  1e6,   -20.0, 1e12,   3.0};
+
+void write(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// Bits flipped, numbers put in their places, stretches cleared, copied, cut off or added.
+std::string damaged(std::string bytes, Dice& dice) {
+    const std::size_t times = 1 + dice.below(6);
+    for (std::size_t i = 0; i < times && bytes.size() > 16; ++i) {
+        const std::size_t at = dice.below(bytes.size() - 8);
+        const std::size_t length = 1 + dice.below(std::min<std::size_t>(64, bytes.size() - at - 1));
+        const double number = dice.one_of(kNumbers);
+        switch (dice.below(8)) {
+            case 0:
+                std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length,
+                            static_cast<char>(dice.below(2) == 0 ? 0 : 255));
+                break;
+            case 1:
+                std::memcpy(bytes.data() + at / 8 * 8, &number, 8);
+                break;
+            case 2:
+                bytes.replace(at, length, bytes, dice.below(bytes.size() - length), length);
+                break;
+            case 3:
+                bytes.resize(dice.below(4) == 0 ? at : bytes.size());
+                break;
+            case 4:
+                bytes.insert(at, length, static_cast<char>(dice.below(256)));
+                break;
+            default:
+                bytes[at] = static_cast<char>(bytes[at] ^ (1 << dice.below(8)));
+        }
+    }
+    return bytes;
+}
+
+// Numbers of a dataset exchanged for others, or another number of them.
+void exchange(hid_t root, const std::string& name, Dice& dice) {
+    mc::Numbers numbers = mc::read_numbers(root, name, std::size_t{1} << 24);
+    if (dice.below(3) == 0) {
+        numbers.shape[0] = dice.below(2) == 0 ? dice.below(5) : numbers.shape[0] * 3;
+        std::size_t count = 1;
+        for (const hsize_t extent : numbers.shape) {
+            count *= extent;
+        }
+        numbers.values.resize(count, 1.0);
+    }
+    for (std::size_t i = 0; i < 1 + dice.below(4) && !numbers.values.empty(); ++i) {
+        numbers.values[dice.below(numbers.values.size())] = dice.one_of(kNumbers);
+    }
+    replace_numbers(root, name, numbers.shape, numbers.values);
+}
+
+void edit(hid_t root, const Arsenal& arsenal, std::uint64_t number, Dice& dice) {
+    constexpr std::array kGroups{"instances", "features", "timing", "."};
+    switch (dice.below(4)) {
+        case 0: {
+            const std::string study = mutated(arsenal.studies, number);
+            mc::check(H5Adelete(root, "study"), "study");
+            mc::write_text(root, ".", "study", study);
+            break;
+        }
+        case 1:
+            exchange(root, "noise_levels", dice);
+            break;
+        case 2: {
+            const std::string group = dice.one_of(kGroups);
+            const mc::Hdf5Handle open = mc::open_group(root, group);
+            const auto names = mc::link_names(open.get());
+            const std::string name = dice.one_of(names);
+            mc::check(H5Ldelete(open.get(), name.c_str(), H5P_DEFAULT), name);
+            break;
+        }
+        default: {
+            const mc::Hdf5Handle open =
+                mc::open_group(root, dice.below(2) == 0 ? "instances" : "features");
+            const auto names = mc::link_names(open.get());
+            const std::string name = dice.one_of(names);
+            if (name != "group") {
+                const std::string unit = mc::read_text(open.get(), name, "unit");
+                exchange(open.get(), name, dice);
+                mc::write_text(open.get(), name, "unit", unit);
+            }
+        }
+    }
+}
+
+// Rows of numbers, some of them hostile, at a rate and a speed that may be.
+std::string hostile_csv(Dice& dice) {
+    constexpr std::array kColumns{"time", "mesh_phase", "speed_rpm", "sensor", "te"};
+    constexpr std::array kNames{"time", "te", "sensor", "mesh_phase", "speed_rpm", "", "1", "x"};
+    std::vector<std::string> names;
+    for (const char* column : kColumns) {
+        if (dice.below(3) != 0) {
+            names.emplace_back(dice.below(30) == 0 ? dice.one_of(kNames) : column);
+        }
+    }
+    const std::size_t rows = dice.below(4) == 0 ? dice.below(20) : 200 + dice.below(8000);
+    const double step = std::pow(10.0, -1.0 - static_cast<double>(dice.below(4)));
+    const double speed = dice.below(3) == 0 ? dice.one_of(kNumbers) : 60.0;
+    const double size = dice.below(3) == 0 ? dice.one_of(kNumbers) : 1e-3;
+    const std::size_t odd = dice.below(4) == 0 ? dice.below(rows + 1) : rows;
+    std::string text;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        text += (c == 0 ? "" : ",") + names[c];
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t c = 0; c < names.size(); ++c) {
+            const bool clock = names[c] == "time" || names[c] == "mesh_phase";
+            double value = clock ? step * static_cast<double>(row)
+                           : names[c] == "speed_rpm"
+                               ? speed
+                               : size * std::sin(0.7 * static_cast<double>(row));
+            value = row == odd ? dice.one_of(kNumbers) : value;
+            std::array<char, 32> number{};
+            std::snprintf(number.data(), number.size(), "%.9g", value);
+            text += (c == 0 ? "\n" : ",") + std::string(number.data());
+        }
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string genuine_mat(const std::string& path) {
+    std::vector<double> values;
+    for (int i = 0; i < 5000; ++i) {
+        values.push_back(1e-3 * std::sin(0.7 * i));
+    }
+    double rate = 280.0;
+    mat_t* const file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+    const auto add = [&](const char* name, double* data, std::size_t count) {
+        std::size_t extents[2] = {count, 1};
+        matvar_t* const variable =
+            Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, extents, data, MAT_F_DONT_COPY_DATA);
+        Mat_VarWrite(file, variable, MAT_COMPRESSION_ZLIB);
+        Mat_VarFree(variable);
+    };
+    add("sensor", values.data(), values.size());
+    add("te", values.data(), values.size());
+    add("sampling_Hz", &rate, 1);
+    Mat_Close(file);
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Attack attack_by_study(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    Dice dice(number);
+    const std::string path = folder + "/s.toml";
+    write(path, mutated(arsenal.studies, number));
+    switch (dice.below(4)) {
+        case 0:
+            return {{"stiffness", path}, false};
+        case 1:
+            return {{"modes", path}, true};
+        default:
+            return {{"describe", path}, false};
+    }
+}
+
+Attack attack_by_results(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    Dice dice(number);
+    const std::string path = folder + "/r.h5";
+    write(path, arsenal.results);
+    if (dice.below(3) == 0) {
+        write(path, damaged(arsenal.results, dice));
+    } else {
+        edit_results(path, [&](hid_t root) { edit(root, arsenal, number, dice); });
+    }
+    switch (dice.below(5)) {
+        case 0:
+            return {{"run", arsenal.small_study, "--instances", "5", "--resume", "--quiet", "--out",
+                     path}};
+        case 1:
+            return {{"report", path, "--html", folder + "/r.html"}};
+        case 2:
+            return {{"report", path, "--by", "torque_N_m"}};
+        default:
+            return {{"report", path, "--json", "-"}, false};  // it quotes the mutated study
+    }
+}
+
+Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
+                            std::uint64_t number) {
+    Dice dice(number);
+    const std::string path = folder + "/r.h5";
+    write(path + ".part", damaged(arsenal.checkpoint, dice));
+    return {{"run", arsenal.small_study, "--instances", "200000", "--time-limit", "00:00:01",
+             "--resume", "--quiet", "--out", path}};
+}
+
+Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    Dice dice(number);
+    const std::size_t kind = dice.below(6);
+    const std::string path = folder + (kind == 0 ? "/x.h5" : kind == 1 ? "/x.mat" : "/x.csv");
+    write(path, kind == 0   ? damaged(arsenal.hdf5, dice)
+                : kind == 1 ? damaged(arsenal.mat, dice)
+                : kind == 2 ? damaged(arsenal.csv, dice)
+                            : hostile_csv(dice));
+    Attack attack{{"features", path, "--study", arsenal.small_study}};
+    if (dice.below(2) == 0) {
+        attack.arguments.insert(attack.arguments.end(), {"--json", "-"});
+    }
+    if (dice.below(8) == 0) {
+        attack.arguments.insert(attack.arguments.end(), {"--healthy", path});
+    }
+    if (dice.below(6) == 0) {
+        constexpr std::array kRates{"1e-300", "1", "50", "5000", "1e18", "1e300", "nan", "inf"};
+        attack.arguments.insert(attack.arguments.end(),
+                                {"--sampling-Hz", std::string(dice.one_of(kRates))});
+    }
+    return attack;
+}
+
+// The same file in two roles, by its name or by a link.
+Attack attack_by_roles(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    Dice dice(number);
+    const std::string study = folder + "/s.toml", results = folder + "/r.h5",
+                      signal = folder + "/x.csv", link = folder + "/link";
+    fs::copy_file(arsenal.small_study, study);
+    write(results, arsenal.results);
+    write(signal, arsenal.csv);
+    const std::array files{study, results, signal};
+    const std::string& aim = dice.one_of(files);
+    std::string name = aim;
+    if (dice.below(3) != 0) {
+        dice.below(2) == 0 ? fs::create_symlink(aim, link) : fs::create_hard_link(aim, link);
+        name = link;
+    }
+    switch (dice.below(6)) {
+        case 0:
+            return {{"run", study, "--quiet", "--out", name}, true, {study}};
+        case 1:
+            return {{"report", results, "--json", name}, true, {results}};
+        case 2:
+            return {{"report", results, "--html", name}, true, {results}};
+        case 3:
+            return {{"stiffness", study, "--csv", name}, false, {study}};
+        case 4:
+            return {{"modes", study, "--json", name}, true, {study}};
+        default:
+            return {{"features", signal, "--study", study, "--json", name}, true, {study, signal}};
+    }
+}
+
+}  // namespace gearpod::test
