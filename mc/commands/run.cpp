@@ -341,7 +341,7 @@ int run_command(const RunOptions& options) {
     const Ranks ranks;
     const StudyScene made = load_scene_together(ranks, options.study, interruption);
     const auto& scene = made.scene;
-    const bool too_late = !scene && !interruption.reason({}).empty();
+    const bool too_late = !scene && left_off(made.problems);
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = check_output(options);

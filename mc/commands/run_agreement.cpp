@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string_view>
 
 #include "machine/stop.hpp"
 #include "mc/commands/support.hpp"
@@ -37,6 +39,8 @@ std::string misfit(const std::string& name, const std::string& program,
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
 }
 
+constexpr std::string_view kLeftOff = "stopped by ";
+
 StudyScene make_in_time(const StudyOptions& options, const Interruption& interruption) {
     try {
         return make_scene(options);
@@ -44,7 +48,7 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
         const std::string reason = interruption.reason({});
         StudyScene none;
         none.problems = {{options.path, 0, "",
-                          fmt::format("stopped by {} before its first gearbox",
+                          fmt::format("{}{} before its first gearbox", kLeftOff,
                                       reason.empty() ? "the time limit" : reason),
                           "there is nothing to continue; start it again"}};
         return none;
@@ -76,6 +80,11 @@ StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
         }
     }
     return made;
+}
+
+bool left_off(const Problems& problems) {
+    return std::any_of(problems.begin(), problems.end(),
+                       [](const Problem& problem) { return problem.what.starts_with(kLeftOff); });
 }
 
 }  // namespace gearpod::mc

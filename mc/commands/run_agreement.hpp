@@ -14,4 +14,7 @@ namespace gearpod::mc {
 StudyScene load_scene_together(const Ranks& ranks, const StudyOptions& options,
                                const Interruption& interruption);
 
+// Whether that interruption is the problem, of this rank.
+bool left_off(const Problems& problems);
+
 }  // namespace gearpod::mc

@@ -227,7 +227,8 @@ class Leader {
 
     // Why computing was left off, perhaps by a rank whose clock is ahead of this one's.
     std::string reason_now() const {
-        const std::string reason = run_.interruption->reason({});
+        const std::string reason =
+            run_.interruption == nullptr ? "" : run_.interruption->reason({});
         return reason.empty() ? "the time limit" : reason;
     }
 

@@ -37,3 +37,31 @@ TEST_CASE("The time limit counts what finishing will take") {
     std::this_thread::sleep_for(600ms);
     CHECK(interruption.reason(1.5s) == "the time limit");
 }
+
+TEST_CASE("Computing leaves off a second after a signal, at the limit, or when it is told to") {
+    {
+        const Interruption interruption(1h);
+        CHECK_FALSE(interruption.stop());
+        std::raise(SIGTERM);
+        CHECK_FALSE(interruption.stop());  // what is nearly finished may be
+        std::this_thread::sleep_for(Interruption::kGrace + 50ms);
+        CHECK(interruption.stop());
+        CHECK_THROWS_AS(gearpod::machine::leave_if_stopped(), gearpod::machine::Stopped);
+        interruption.let_finish();
+        CHECK_FALSE(interruption.stop());
+    }
+    CHECK_NOTHROW(gearpod::machine::leave_if_stopped());
+    const Interruption limited(1s);
+    CHECK_FALSE(limited.stop());
+    limited.leave_off_in(1h);  // not later than the limit
+    std::this_thread::sleep_for(1100ms);
+    CHECK(limited.stop());
+}
+
+TEST_CASE("Who is told to leave off does so then") {
+    const Interruption interruption(std::nullopt);
+    interruption.leave_off_in(200ms);
+    CHECK_FALSE(interruption.stop());
+    std::this_thread::sleep_for(250ms);
+    CHECK(interruption.stop());
+}
