@@ -320,6 +320,19 @@ TEST_CASE("Recordings of a few samples are too short, of which kind they ever ar
     }
 }
 
+// A name of two gigabytes in a file of MATLAB 4; found by libFuzzer.
+TEST_CASE("A MAT file that asks for gigabytes is damaged, and gets none") {
+    const Folder folder;
+    const std::string file = folder.file("x.mat");
+    write_bytes(file, std::string(19, '\0') + "\x7e\xe4");
+    const Outcome outcome = test::shell("ulimit -v 3000000; " + std::string(GEARPOD_PROGRAM) +
+                                        " features " + file + " --study " + kSmall);
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("x.mat: "));
+    CHECK_FALSE(outcome.mentions("memory"));
+}
+
 TEST_CASE("A table of two hundred thousand columns is answered at once, and in a few words") {
     const Folder folder;
     const std::string file = folder.file("x.csv");
