@@ -58,7 +58,7 @@ class SignalMat : public SignalFile {
     explicit SignalMat(const std::string& path)
         : path_(path),
           most_(kSpareBytes + kMostCompressed * std::filesystem::file_size(path)),
-          file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
+          file_(open_capped(path, most_), Mat_Close) {
         const MemoryCap cap(most_);
         if (!file_) {
             throw SignalError(path + ": is no MAT file, or damaged");
@@ -104,6 +104,10 @@ class SignalMat : public SignalFile {
 
   private:
     // matio takes what lengths in the file ask for, gigabytes for a file of twenty bytes.
+    static mat_t* open_capped(const std::string& path, std::size_t most) {
+        const MemoryCap cap(most);
+        return Mat_Open(path.c_str(), MAT_ACC_RDONLY);
+    }
     // Compressed values may be many times the file's bytes.
     static constexpr std::size_t kSpareBytes = std::size_t{256} << 20, kMostCompressed = 1000;
 
