@@ -27,9 +27,20 @@ void add_inertial_terms(GearboxMatrices& m, const PlanetaryLayout& layout,
         m.centrifugal(3 * i + 1, 3 * i + 1) = -mass * w * w;
     }
     for (int n = 0; n < layout.planets; ++n) {
-        const double pull = inputs.mass_kg[planet] * layout.carrier_radius_m * w * w;
+        const double pull = inputs.planet_mass_kg(n) * layout.carrier_radius_m * w * w;
         m.force(motion_index(planet, n)) += pull * std::cos(layout.planet_angle(n));
         m.force(motion_index(planet, n) + 1) += pull * std::sin(layout.planet_angle(n));
+    }
+}
+
+// A bearing that is at rest where its pin is: f = k_p (pin) along x and y.
+void add_pin_forces(GearboxMatrices& m, const PlanetaryLayout& layout,
+                    const PlanetaryInputs& inputs) {
+    for (int n = 0; n < layout.planets; ++n) {
+        const PlanetOwn& own = inputs.own[n];
+        const double k = own.bearing_stiffness * inputs.bearing_stiffness_N_m[planet];
+        m.force += k * own.pin_x_m * planet_bearing_row(layout, n, 0) +
+                   k * own.pin_y_m * planet_bearing_row(layout, n, 1);
     }
 }
 
@@ -126,7 +137,8 @@ Eigen::MatrixXd motions_from_degrees(const PlanetaryLayout& layout) {
 double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs& inputs, int pair) {
     const Body gear = pair < layout.planets ? sun : ring;
     return with_mesh_damping(layout.mesh_damping, [&](auto law) {
-        return law.factor(inputs.mesh_damping, inputs.mass_kg[gear], inputs.mass_kg[planet]);
+        return law.factor(inputs.mesh_damping, inputs.mass_kg[gear],
+                          inputs.planet_mass_kg(pair % layout.planets));
     });
 }
 
@@ -149,7 +161,8 @@ std::vector<SpringDamper> spring_dampers(const PlanetaryLayout& layout,
         for (int axis : {0, 1}) {
             springs.push_back(
                 {fmt::format("planet {}'s bearing", n + 1), planet_bearing_row(layout, n, axis),
-                 inputs.bearing_stiffness_N_m[planet], inputs.bearing_damping_N_s_m[planet]});
+                 inputs.own[n].bearing_stiffness * inputs.bearing_stiffness_N_m[planet],
+                 inputs.own[n].bearing_damping * inputs.bearing_damping_N_s_m[planet]});
         }
         for (const int pair : {n, layout.planets + n}) {
             const bool with_sun = pair == n;
@@ -169,12 +182,14 @@ GearboxMatrices assemble(const PlanetaryLayout& layout, const PlanetaryInputs& i
     GearboxMatrices m = zero_matrices(layout.motions());
     for (int i = 0; i < 3 + layout.planets; ++i) {
         const int body = std::min(i, static_cast<int>(planet));
-        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = inputs.mass_kg[body];
-        m.mass(3 * i + 2, 3 * i + 2) = inputs.inertia_over_r2_kg[body];
+        const double own = i < planet ? 1.0 : inputs.own[i - planet].mass;
+        m.mass(3 * i, 3 * i) = m.mass(3 * i + 1, 3 * i + 1) = own * inputs.mass_kg[body];
+        m.mass(3 * i + 2, 3 * i + 2) = own * inputs.inertia_over_r2_kg[body];
     }
     for (int body : {carrier, ring, sun}) {
         m.force(3 * body + 2) = inputs.force_N[body];
     }
+    add_pin_forces(m, layout, inputs);
     for (const SpringDamper& spring : spring_dampers(layout, inputs, pair_stiffness_N_m)) {
         add(m, spring);
     }

@@ -53,6 +53,14 @@ struct PlanetaryLayout {
     double transverse_pressure_angle() const;
 };
 
+// What sets a planet apart from the others: factors on what they all have, and where its pin is
+// off its place in the carrier, m along the frame's x and y: the bearing is at rest there.
+struct PlanetOwn {
+    double bearing_stiffness = 1.0, bearing_damping = 1.0;
+    double mass = 1.0;  // and inertia
+    double pin_x_m = 0.0, pin_y_m = 0.0;
+};
+
 // What differs between gearboxes; SI units. Arrays are indexed by Body.
 struct PlanetaryInputs {
     double mass_kg[body_count] = {};
@@ -66,6 +74,9 @@ struct PlanetaryInputs {
     double mesh_period_s = 0.0;
     double backlash_m = kNoBackContact;  // 2b along the line of action; for separating meshes
     double force_N[3] = {};              // on u of carrier, ring, sun: torque / r
+    PlanetOwn own[kMaxPlanets] = {};     // of planets 1..N
+
+    double planet_mass_kg(int n) const { return own[n].mass * mass_kg[planet]; }
 };
 
 // Row vectors of the deflections over all 9 + 3N motions.

@@ -1,10 +1,9 @@
 #include "dynamics/planetary_lanes.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
-
-#include "dynamics/effects/mesh_damping.hpp"
 
 namespace gearpod::dynamics {
 namespace {
@@ -25,18 +24,34 @@ void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layou
     }
 }
 
+// Of the planets that ride on the carrier.
+double riding_mass_kg(const PlanetaryLayout& layout, const PlanetaryInputs& in) {
+    double factors = 0.0;
+    for (int n = 0; n < layout.planets; ++n) {
+        factors += in.own[n].mass;
+    }
+    return factors * in.mass_kg[planet];
+}
+
 template <int W, class Real>
 void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layout,
               const PlanetaryInputs& in) {
-    for (int body = 0; body < body_count; ++body) {
-        double inertia = in.inertia_over_r2_kg[body];
+    for (int i = 0; i < 3 + layout.planets; ++i) {
+        const int body = std::min(i, static_cast<int>(planet));
+        const PlanetOwn own = i < planet ? PlanetOwn{} : in.own[i - planet];
+        double inertia = own.mass * in.inertia_over_r2_kg[body];
         if (layout.motion == Motion::torsional && body == carrier) {
-            inertia += layout.planets * in.mass_kg[planet];  // planets ride on the carrier
+            inertia += riding_mass_kg(layout, in);
         }
-        lanes.inverse_mass[body][l] = Real(1.0 / in.mass_kg[body]);
-        lanes.inverse_inertia[body][l] = Real(1.0 / inertia);
-        lanes.bearing_stiffness[body][l] = Real(in.bearing_stiffness_N_m[body]);
-        lanes.bearing_damping[body][l] = Real(in.bearing_damping_N_s_m[body]);
+        lanes.inverse_mass[i][l] = Real(1.0 / (own.mass * in.mass_kg[body]));
+        lanes.inverse_inertia[i][l] = Real(1.0 / inertia);
+        lanes.bearing_stiffness[i][l] =
+            Real(own.bearing_stiffness * in.bearing_stiffness_N_m[body]);
+        lanes.bearing_damping[i][l] = Real(own.bearing_damping * in.bearing_damping_N_s_m[body]);
+    }
+    for (int n = 0; n < layout.planets; ++n) {
+        lanes.pin_x[n][l] = Real(in.own[n].pin_x_m);
+        lanes.pin_y[n][l] = Real(in.own[n].pin_y_m);
     }
     for (int body : {carrier, ring, sun}) {
         const bool held = body == held_body(layout.fixed);
@@ -44,12 +59,9 @@ void set_lane(PlanetaryLanes<W, Real>& lanes, int l, const PlanetaryLayout& layo
         lanes.support_damping[body][l] = Real(held ? in.support_damping_N_s_m : 0.0);
         lanes.force[body][l] = Real(in.force_N[body]);
     }
-    with_mesh_damping(layout.mesh_damping, [&](auto law) {
-        lanes.mesh_damping_factor[0][l] =
-            Real(law.factor(in.mesh_damping, in.mass_kg[sun], in.mass_kg[planet]));
-        lanes.mesh_damping_factor[1][l] =
-            Real(law.factor(in.mesh_damping, in.mass_kg[ring], in.mass_kg[planet]));
-    });
+    for (int pair = 0; pair < layout.pairs(); ++pair) {
+        lanes.mesh_damping_factor[pair][l] = Real(mesh_damping_factor(layout, in, pair));
+    }
     const double w = in.carrier_speed_rad_s;
     lanes.speed[l] = Real(w);
     lanes.centrifugal[l] = Real(layout.carrier_radius_m * w * w);

@@ -11,20 +11,22 @@ namespace gearpod::dynamics {
 template <int W, class RealType = double>
 struct alignas(64) PlanetaryLanes {
     using Real = RealType;
-    // [body][lane]: carrier, ring, sun, planet.
-    Real inverse_mass[body_count][W];
-    Real inverse_inertia[body_count][W];  // 1 / (J / r^2)
-    Real bearing_stiffness[body_count][W];
-    Real bearing_damping[body_count][W];
+    // [body][lane]: carrier, ring, sun, then planets 1..N.
+    static constexpr int kBodies = 3 + kMaxPlanets;
+    Real inverse_mass[kBodies][W];
+    Real inverse_inertia[kBodies][W];  // 1 / (J / r^2)
+    Real bearing_stiffness[kBodies][W];
+    Real bearing_damping[kBodies][W];
     // [carrier, ring, sun][lane]: support of u; zero but for the held member.
     Real support_stiffness[3][W];
     Real support_damping[3][W];
     Real force[3][W];
-    Real mesh_damping_factor[2][W];  // sun-planet, ring-planet: times the shape of the stiffness
-    Real speed[W];                   // carrier, rad/s
-    Real centrifugal[W];             // r_c Omega^2, m/s^2
-    Real mesh_period[W];             // s
-    Real backlash[W];                // 2b of every mesh, m
+    Real mesh_damping_factor[kMaxPairs][W];  // of each pair: times the shape of the stiffness
+    Real pin_x[kMaxPlanets][W], pin_y[kMaxPlanets][W];  // where planet n's bearing is at rest, m
+    Real speed[W];                                      // carrier, rad/s
+    Real centrifugal[W];                                // r_c Omega^2, m/s^2
+    Real mesh_period[W];                                // s
+    Real backlash[W];                                   // 2b of every mesh, m
 
     // Shared by all lanes: unit vectors of planet n's radius, sun mesh and ring mesh.
     Real cos_psi[kMaxPlanets], sin_psi[kMaxPlanets];

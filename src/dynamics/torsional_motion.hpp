@@ -26,7 +26,7 @@ struct TorsionalMotion {
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 3 + p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
     static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int pair) {
-        return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
+        return p.mesh_damping_factor[pair];
     }
 
     // a = M^-1 (f - C v - K q). q, v, a: [rotation][lane].
@@ -85,7 +85,7 @@ struct TorsionalMotion {
             f[l] = std::fma(f_sun + f_ring, ca, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;
-            f[o + l] = (f_ring - f_sun) * p.inverse_inertia[planet][l];
+            f[o + l] = (f_ring - f_sun) * p.inverse_inertia[planet + n][l];
         }
     }
 };

@@ -24,7 +24,7 @@ struct TranslationalMotion {
     static GEARPOD_INLINE int degrees_of_freedom(const Lanes& p) { return 9 + 3 * p.planets; }
     static GEARPOD_INLINE int sources(const Lanes& p) { return p.planets; }
     static GEARPOD_INLINE const Real* mesh_damping_factor(const Lanes& p, int pair) {
-        return p.mesh_damping_factor[pair < p.planets ? 0 : 1];
+        return p.mesh_damping_factor[pair];
     }
 
     // a = M^-1 (f - C v - K q) + inertial terms. q, v, a: [motion][lane].
@@ -111,12 +111,13 @@ struct TranslationalMotion {
                 std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
             const Real f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
 
-            const Real kb = p.bearing_stiffness[planet][l];
-            const Real cb = p.bearing_damping[planet][l];
-            const Real f_x = spring_damper(kb, std::fma(q[2 * W + l], sp, x - q[l]), cb,
-                                           std::fma(v[2 * W + l], sp, vx - v[l]));
-            const Real f_y = spring_damper(kb, std::fma(-q[2 * W + l], cp, y - q[W + l]), cb,
-                                           std::fma(-v[2 * W + l], cp, vy - v[W + l]));
+            const Real kb = p.bearing_stiffness[planet + n][l];
+            const Real cb = p.bearing_damping[planet + n][l];
+            const Real f_x = spring_damper(kb, std::fma(q[2 * W + l], sp, x - q[l]) - p.pin_x[n][l],
+                                           cb, std::fma(v[2 * W + l], sp, vx - v[l]));
+            const Real f_y =
+                spring_damper(kb, std::fma(-q[2 * W + l], cp, y - q[W + l]) - p.pin_y[n][l], cb,
+                              std::fma(-v[2 * W + l], cp, vy - v[W + l]));
 
             f[l] += f_x;
             f[W + l] += f_y;
@@ -130,13 +131,13 @@ struct TranslationalMotion {
 
             const Real w = p.speed[l];
             const Real pull = p.centrifugal[l];
-            f[o + l] =
-                std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)), p.inverse_mass[planet][l],
-                         InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
-            f[o + W + l] =
-                std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)), p.inverse_mass[planet][l],
-                         InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
-            f[o + 2 * W + l] = (f_ring - f_sun) * p.inverse_inertia[planet][l];
+            f[o + l] = std::fma(std::fma(f_sun, cs, std::fma(f_ring, cr, -f_x)),
+                                p.inverse_mass[planet + n][l],
+                                InertialTerms::x(x, vy, w) + InertialTerms::pull(pull, cp));
+            f[o + W + l] = std::fma(std::fma(f_sun, ss, std::fma(f_ring, sr, -f_y)),
+                                    p.inverse_mass[planet + n][l],
+                                    InertialTerms::y(y, vx, w) + InertialTerms::pull(pull, sp));
+            f[o + 2 * W + l] = (f_ring - f_sun) * p.inverse_inertia[planet + n][l];
         }
     }
 };

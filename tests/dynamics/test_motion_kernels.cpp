@@ -31,6 +31,10 @@ PlanetaryInputs random_inputs(std::mt19937& engine) {
     for (double& force : in.force_N) {
         force = 1e4 * uniform(engine);
     }
+    for (PlanetOwn& own : in.own) {
+        own = {uniform(engine), uniform(engine), uniform(engine), 1e-5 * uniform(engine),
+               -1e-5 * uniform(engine)};
+    }
     return in;
 }
 
@@ -122,6 +126,7 @@ TEST_CASE("At rest every planet carries the same share and the held ring takes i
         layout_of(4, Motion::translational_torsional, false, MeshDamping::ratio);
     std::mt19937 engine(1);
     PlanetaryInputs in = random_inputs(engine);
+    std::fill(std::begin(in.own), std::end(in.own), PlanetOwn{});
     const double cos_a = std::cos(layout.pressure_angle_rad);
     const double m = 3.175e-3, torque = 429.0;
     const double r_s = 19 * m / 2 * cos_a, r_c = 25 * m;
