@@ -69,6 +69,71 @@ void print_foundation_warnings(const Study& study) {
     }
 }
 
+void add_size(const Study& study, const char* key, const std::string& unit, double size,
+              const char* what, std::vector<std::string>& parts) {
+    if (study.find_random(key) != nullptr) {
+        parts.push_back(fmt::format("{} random", what));
+    } else if (size > 0.0) {
+        parts.push_back(fmt::format("{} {:g}{}", what, size, unit));
+    }
+}
+
+// "ISO 1328 grade 6 (ring 8), pitch 2 um rms".
+std::string tooth_errors(const Study& study) {
+    const MeshErrors& e = study.errors;
+    std::vector<std::string> parts, members;
+    for (const Member member : kAllMembers) {
+        if (const auto& grade = study.gearbox.bodies[member].quality) {
+            members.push_back(fmt::format("{} {:g}", member_name(member), *grade));
+        }
+    }
+    if (has_tooth_quality(study)) {
+        const std::string all = study.find_random("gearbox.tooth_quality") ? "random"
+                                : e.tooth_quality ? fmt::format("{:g}", *e.tooth_quality)
+                                                  : "";
+        parts.push_back(fmt::format("ISO 1328 grade {}{}{}", all,
+                                    members.empty() || all.empty() ? "" : ", ",
+                                    fmt::join(members, ", ")));
+    }
+    if (has_measured_teeth(study)) {
+        parts.push_back("measured index deviations");
+    }
+    const auto add = [&](const char* key, double rms_m, const char* what) {
+        add_size(study, key, " um rms", 1e6 * rms_m, what, parts);
+    };
+    add("gearbox.pitch_error_um", e.pitch_error_m, "pitch");
+    add("gearbox.index_wave_um", e.index_wave_m, "index waves");
+    add("gearbox.eccentricity_um", e.eccentricity_m, "eccentricity");
+    add("gearbox.profile_slope_um", e.profile_slope_m, "profile slopes");
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string unlike_planets(const Study& study) {
+    const UnlikePlanets& p = study.planets;
+    std::vector<std::string> parts;
+    for (const auto& [list, what] :
+         {std::pair{&p.pin_tangential_m, "tangential pin errors"},
+          std::pair{&p.pin_radial_m, "radial pin errors"},
+          std::pair{&p.bearing_stiffness, "bearing stiffness"},
+          std::pair{&p.bearing_damping, "bearing damping"}, std::pair{&p.mass, "masses"}}) {
+        if (!list->empty()) {
+            parts.push_back(fmt::format("{} given", what));
+        }
+    }
+    const auto add = [&](const char* key, double size, const char* unit, const char* what) {
+        add_size(study, key, unit, size, what, parts);
+    };
+    add("gearbox.pin_tangential_rms_um", 1e6 * p.pin_tangential_rms_m, " um rms",
+        "pins tangentially");
+    add("gearbox.pin_radial_rms_um", 1e6 * p.pin_radial_rms_m, " um rms", "pins radially");
+    add("gearbox.planet_bearing_stiffness_scatter", p.bearing_stiffness_scatter, "",
+        "scatter of the bearings' stiffness");
+    add("gearbox.planet_bearing_damping_scatter", p.bearing_damping_scatter, "",
+        "of their damping");
+    add("gearbox.planet_mass_scatter", p.mass_scatter, "", "of the masses");
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 void print_meshes(const Study& study) {
     const Effects& e = study.effects;
     if (!stiffness_given(study)) {
@@ -92,9 +157,12 @@ void print_meshes(const Study& study) {
     if (has_static_errors(study)) {
         print_entry("transmission error", "harmonics of the mesh period");
     }
-    if (has_pitch_errors(study)) {
-        print_entry("pitch errors", fmt::format("{:g} um rms a tooth, every mesh marched",
-                                                1e6 * study.errors.pitch_error_m));
+    if (has_tooth_errors(study)) {
+        print_entry("tooth errors", tooth_errors(study) + "; every mesh is marched");
+        print_entry("tooth pairs", "each pushes for itself and none pulls");
+    }
+    if (has_unlike_planets(study)) {
+        print_entry("unlike planets", unlike_planets(study) + "; any horizon");
     }
 }
 
@@ -221,10 +289,16 @@ void print_left_out(const Scene& scene) {
     if (!std::isfinite(scene.decay_meshes())) {
         fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
     }
-    if (!has_static_errors(study) && !has_pitch_errors(study)) {
+    if (!has_tooth_errors(study)) {
+        print_entry("tooth errors", "all teeth of a gear are alike");
+    }
+    if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
+        print_entry("unlike planets", "pins in their places, bearings and masses alike");
+    }
+    if (!has_static_errors(study) && !has_tooth_errors(study)) {
         print_entry("transmission error", "perfect flanks");
     }
-    if (e.separation == Separation::none) {
+    if (e.separation == Separation::none && !has_tooth_errors(study)) {
         print_entry("tooth separation", "the meshes are springs that always touch");
     }
 }

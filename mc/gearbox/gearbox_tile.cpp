@@ -7,6 +7,7 @@
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/tooth_draws.hpp"
 #include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"

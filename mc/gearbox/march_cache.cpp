@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -36,7 +37,8 @@ std::size_t bytes_of(const lockstep::TileResult& result) {
 }  // namespace
 
 std::optional<std::size_t> distinct_marches(const Scene& scene) {
-    if (scene.load_shares() != nullptr || draws_fluctuations(scene.study())) {
+    const Study& study = scene.study();
+    if (has_tooth_errors(study) || draws_planets(study) || draws_fluctuations(study)) {
         return std::nullopt;
     }
     std::size_t count = 1;

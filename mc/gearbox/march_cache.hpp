@@ -19,7 +19,7 @@
 namespace gearpod::mc {
 
 // How many gearboxes of the study differ in what their march depends on; none if all of them do: an
-// input of the march has a continuous distribution, or every tooth its own pitch error.
+// input of the march has a continuous distribution, or every tooth or planet its own errors.
 std::optional<std::size_t> distinct_marches(const Scene& scene);
 
 // How often a run of the plan marches, by group: tiles (of as many gearboxes as there are lanes)

@@ -10,7 +10,6 @@
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
-namespace {
 
 Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t lane,
                  std::string_view purpose) {
@@ -19,17 +18,7 @@ Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t
             parameter_id(purpose)};
 }
 
-// Teeth of the gears in the order of lockstep::planetary_teeth and fixed_shaft_teeth.
-std::vector<int> flanks(const Study& study) {
-    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
-        return {*teeth_of(study, Member::pinion), *teeth_of(study, Member::gear)};
-    }
-    const Gearbox& g = study.gearbox;
-    std::vector<int> teeth{*teeth_of(study, Member::sun), *teeth_of(study, Member::ring)};
-    teeth.resize(teeth.size() + 2 * static_cast<std::size_t>(g.planets),
-                 *teeth_of(study, Member::planet));
-    return teeth;
-}
+namespace {
 
 // What a sine and noise are made from.
 struct SineInputs {
@@ -72,7 +61,8 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
 }  // namespace
 
 int run_in_meshes(const Scene& scene) {
-    const bool orbit = scene.load_shares() == nullptr && why_no_mesh_repeats(scene.study()).empty();
+    const bool orbit =
+        !has_tooth_errors(scene.study()) && why_no_mesh_repeats(scene.study()).empty();
     return orbit ? 0 : scene.max_meshes() / 2;
 }
 
@@ -148,36 +138,6 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
         tones.amplitude_m_s2.insert(tones.amplitude_m_s2.end(), lanes, tone.amplitude_m_s2);
     }
     return tones;
-}
-
-std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const GearboxId> ids,
-                                                       std::span<const InstanceInputs> inputs) {
-    if (scene.load_shares() == nullptr) {
-        return std::nullopt;
-    }
-    const std::size_t lanes = inputs.size();
-    lockstep::ToothErrors errors;
-    errors.shares = scene.load_shares();
-    const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
-    errors.pairs =
-        planetary == nullptr
-            ? lockstep::fixed_shaft_teeth()
-            : lockstep::planetary_teeth(scene.pairs(), planetary->train(), planetary->sense());
-    for (const int teeth : flanks(scene.study())) {
-        errors.gears.push_back(
-            {teeth, machine::AlignedVector(static_cast<std::size_t>(teeth) * lanes)});
-    }
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        Philox engine = stream_of(scene, ids, lane, "gearbox.pitch_error.teeth");
-        boost::random::normal_distribution<double> unit;
-        for (lockstep::GearErrors& gear : errors.gears) {
-            for (std::size_t tooth = 0; tooth < static_cast<std::size_t>(gear.teeth); ++tooth) {
-                gear.error_m[tooth * lanes + lane] = inputs[lane].pitch_error_m * unit(engine);
-            }
-        }
-    }
-    return errors;
 }
 
 }  // namespace gearpod::mc

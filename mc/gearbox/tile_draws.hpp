@@ -1,12 +1,11 @@
-// What is drawn for a gearbox beside its inputs: the phases of interfering tones, and the pitch
-// errors of its teeth. As with the inputs, a gearbox's draws depend on nothing but itself.
+// What is drawn for a gearbox beside its inputs: the phases of interfering tones, and the errors of
+// its teeth (tooth_draws.hpp). As with the inputs, a gearbox's draws depend on nothing but itself.
 #pragma once
 
 #include <optional>
 #include <span>
 
 #include "lockstep/plan/excitation.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
 #include "signals/noise/tones.hpp"
@@ -15,14 +14,13 @@ namespace gearpod::mc {
 
 // `inputs` holds one gearbox a lane; lanes beyond `ids` repeat the last of them.
 
+// The random numbers of a lane's gearbox for a purpose.
+Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t lane,
+                 std::string_view purpose);
+
 // Nothing keeps step with the tones: each begins anywhere in its turn. Empty without tones.
 signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
                           std::span<const InstanceInputs> inputs);
-
-// Normal pitch errors of every flank of every gear. None without pitch errors.
-std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
-                                                       std::span<const GearboxId> ids,
-                                                       std::span<const InstanceInputs> inputs);
 
 // Mesh periods that are marched before the first recorded one.
 int run_in_meshes(const Scene& scene);

@@ -45,6 +45,13 @@ void resolve_inertias(const Study& study, EachMember<BodyInstance>& bodies) {
     resolve(Member::carrier, gears ? centre_distance_m(study) : 0.0, 0.5);
 }
 
+// sqrt(2) times as much with each grade.
+double tooth_scale(const Study& study, Member member) {
+    const std::optional<double>& own = study.gearbox.bodies[member].quality;
+    const std::optional<double>& grade = own ? own : study.errors.tooth_quality;
+    return grade ? std::pow(2.0, 0.5 * (*grade - 5.0)) : 0.0;
+}
+
 // A disc of the pitch radius: I = m R_p^2 / 2 (Tian, Table 4.1).
 double inertia_or_disc(const std::optional<double>& inertia, double mass_kg, double radius_m) {
     return inertia.value_or(0.5 * mass_kg * radius_m * radius_m);
@@ -126,9 +133,12 @@ InstanceInputs resolve_inputs(const Study& study) {
     for (const Member member : kAllMembers) {
         const MemberValues& given = g.bodies[member];
         // A quasi-static gearbox may leave the masses out, a torsional one the bearings.
-        inputs.bodies[member] = {given.mass_kg.value_or(0.0), 0.0, 0.0,
+        inputs.bodies[member] = {given.mass_kg.value_or(0.0),
+                                 0.0,
+                                 0.0,
                                  given.bearing_stiffness_N_m.value_or(0.0),
-                                 given.bearing_damping_N_s_m};
+                                 given.bearing_damping_N_s_m,
+                                 tooth_scale(study, member)};
     }
     if (g.kind == GearboxKind::fixed_shaft) {
         resolve_fixed_shaft(study, inputs);
@@ -137,6 +147,10 @@ InstanceInputs resolve_inputs(const Study& study) {
     }
     inputs.backlash_m = g.backlash_m.value_or(0.0);
     inputs.pitch_error_m = study.errors.pitch_error_m;
+    inputs.index_wave_m = study.errors.index_wave_m;
+    inputs.eccentricity_m = study.errors.eccentricity_m;
+    inputs.profile_slope_m = study.errors.profile_slope_m;
+    inputs.planets = given_planets(study);
     inputs.support_stiffness_N_m = g.support_stiffness_N_m;
     inputs.support_damping_N_s_m = g.support_damping_N_s_m;
     inputs.mesh_damping = mesh_damping(study);
@@ -169,7 +183,15 @@ Study Sampler::draw(Group group, std::uint64_t index) const {
 }
 
 InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
-    return resolve_inputs(draw(group, index));
+    const Study drawn = draw(group, index);
+    InstanceInputs inputs = resolve_inputs(drawn);
+    if (draws_planets(study_)) {
+        draw_planets(drawn,
+                     Philox(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
+                            parameter_id("gearbox.planets")),
+                     inputs.planets);
+    }
+    return inputs;
 }
 
 InstanceInputs Sampler::nominal() const {

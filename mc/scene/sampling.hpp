@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mc/random/philox.hpp"
+#include "mc/scene/planets.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -18,6 +19,8 @@ struct BodyInstance {
     double inertia_over_r2_kg, inertia_kg_m2;
     double bearing_stiffness_N_m;  // 0 where a torsional study leaves it out
     double bearing_damping_N_s_m;
+    // What its teeth deviate over those of ISO 1328 grade 5; 0 without a quality.
+    double tooth_scale;
 };
 
 // Of a fixed-shaft gearbox; all 0 in a planetary one.
@@ -42,8 +45,9 @@ struct InstanceInputs {
     double support_stiffness_N_m, support_damping_N_s_m;
     double mesh_damping;  // ratio (1), time (s) or constant (N s/m), as effects.mesh_damping says
     FixedShaftInstance fixed_shaft;
-    double backlash_m;     // 2b
-    double pitch_error_m;  // rms
+    double backlash_m;                                                    // 2b
+    double pitch_error_m, index_wave_m, eccentricity_m, profile_slope_m;  // rms, beside a quality's
+    Planets planets;
     double torque_N_m;
     double speed_rad_s;  // of Sampler::speed_member()
     FluctuationInstance fluctuations;
@@ -94,7 +98,8 @@ class Sampler {
     std::vector<std::uint64_t> turn_lengths_;
 };
 
-// J / r^2 and the rest of one gearbox, from the nominal values of a study.
+// J / r^2 and the rest of one gearbox, from the nominal values of a study. Planets differ as they
+// are given.
 InstanceInputs resolve_inputs(const Study& study);
 
 }  // namespace gearpod::mc

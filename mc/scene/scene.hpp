@@ -47,8 +47,10 @@ class Scene {
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
         return fault().mesh(0, size);
     }
-    // Of the pitch errors of single teeth; null without them.
-    const lockstep::LoadShares* load_shares() const { return plan_->load_shares.get(); }
+    // See SceneStiffness.
+    const EachMember<gears::DeviationScales>& tooth_scales() const {
+        return stiffness_->tooth_scales();
+    }
 
     const signals::SpanLayout& span() const { return span_; }
     // The meshes after which every tooth of the monitored gear has met every tooth of its mate.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
+#include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/plan/transmission_error.hpp"
 #include "mc/scene/body.hpp"
 #include "mc/scene/driving.hpp"
+#include "mc/scene/scene_error.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -31,10 +34,6 @@ class Planner {
         plan_.calibration = chosen.calibration;
         plan_.march = march_on(std::move(chosen.grid));
         check_driving(study_, drive_, plan_.march);
-        if (has_pitch_errors(study_)) {
-            plan_.load_shares =
-                std::make_unique<const lockstep::LoadShares>(stiffness_.pairs(), plan_.march.grid);
-        }
         return std::move(plan_);
     }
 
@@ -53,10 +52,11 @@ class Planner {
         march.integrator = plan_.stepping.integrator;
         march.precision = study_.numerics.precision;
         march.te_weight = drive_.te_weight(march.layout);
-        if (study_.effects.separation != Separation::none) {
+        if (has_tooth_errors(study_)) {
+            march.mesh_law = dynamics::MeshLaw::pushing;
+        } else if (study_.effects.separation != Separation::none) {
             march.mesh_law = dynamics::MeshLaw::separating;
-        } else if (has_pitch_errors(study_) || !first_errors().amplitude_m.empty() ||
-                   !second_errors().amplitude_m.empty()) {
+        } else if (!first_errors().amplitude_m.empty() || !second_errors().amplitude_m.empty()) {
             march.mesh_law = dynamics::MeshLaw::with_error;
         }
     }
@@ -67,6 +67,9 @@ class Planner {
         lockstep::MarchPlan march = plan_.march;
         march.grid = std::move(grid);
         march.nodes = lockstep::tabulate(pairs, march.grid, study_.effects.mesh_damping);
+        if (march.mesh_law == dynamics::MeshLaw::pushing) {
+            add_tooth_pairs(march);
+        }
         if (march.mesh_law != dynamics::MeshLaw::linear) {
             std::vector<lockstep::MeshError> errors(
                 static_cast<std::size_t>(drive_.pairs_per_mesh()), first_errors());
@@ -74,6 +77,15 @@ class Planner {
             lockstep::add_errors(pairs, march.grid, errors, march.nodes);
         }
         return march;
+    }
+
+    void add_tooth_pairs(lockstep::MarchPlan& march) const {
+        try {
+            lockstep::add_tooth_pairs(stiffness_.pairs(), march.grid, march.nodes);
+        } catch (const std::invalid_argument& error) {
+            throw SceneError("gearbox.addendum_coefficient", error.what(),
+                             "give no tooth errors, or teeth that touch fewer at a time");
+        }
     }
 
     // Static transmission errors of one kind of mesh are alike for all planets, shifted with their

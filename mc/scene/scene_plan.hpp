@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "lockstep/plan/march.hpp"
-#include "lockstep/plan/tooth_errors.hpp"
 #include "mc/scene/grid.hpp"
 #include "mc/scene/scene_stiffness.hpp"
 #include "mc/scene/stepping.hpp"
@@ -18,8 +17,6 @@ struct ScenePlan {
     Stepping stepping;
     // How a pilot calibrated the steps, if one did.
     std::optional<Calibration> calibration;
-    // Of the pitch errors of single teeth; null without them.
-    std::unique_ptr<const lockstep::LoadShares> load_shares;
     int te_samples = 0;  // of the encoders in a mesh period
 };
 

@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace gearpod::mc {
+namespace {
+
+gears::DeviationScales grade_5(const gears::Gear& gear) {
+    return gears::scales_of(gears::tooth_tolerances(gear.module_m, 2.0 * gear.pitch_radius(), 5.0),
+                            gear.teeth, gear.pressure_angle_rad);
+}
+
+}  // namespace
 
 SceneStiffness::SceneStiffness(const Study& study, const Drive& drive)
     : meshes_(make_meshes(study, drive.mesh_force_N(Sampler(study).nominal()))),
@@ -11,6 +19,11 @@ SceneStiffness::SceneStiffness(const Study& study, const Drive& drive)
     for (const SceneMesh& mesh : meshes_) {
         mean_pairs_.insert(mean_pairs_.end(), static_cast<std::size_t>(drive.pairs_per_mesh()),
                            mean_total(*mesh.stiffness));
+        for (const Member member : {mesh.members.driver, mesh.members.driven}) {
+            if (has_tooth_quality(study) && tooth_scales_[member].pitch == 0.0) {
+                tooth_scales_[member] = grade_5(gear_of(study, member));
+            }
+        }
     }
 }
 

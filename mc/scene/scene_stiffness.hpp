@@ -1,10 +1,12 @@
-// The stiffness of a study's gear pairs, healthy and with the fault. Of the numerics only
-// stiffness_tolerance has a part in it: scenes that differ in others share one.
+// The stiffness of a study's gear pairs, healthy and with the fault, and what their quality allows.
+// Of the numerics only stiffness_tolerance has a part in it: scenes that differ in others share
+// one.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "gears/tooth_deviations.hpp"
 #include "mc/scene/drive.hpp"
 #include "mc/scene/faults.hpp"
 #include "mc/scene/meshes.hpp"
@@ -23,6 +25,8 @@ class SceneStiffness {
     const SceneFault& fault() const { return fault_; }
     // Every pair's mean over the mesh period, N/m.
     const std::vector<double>& mean_pairs() const { return mean_pairs_; }
+    // The teeth of gears of ISO 1328 grade 5; all 0 without a quality.
+    const EachMember<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
     // All pairs at their stiffest: the bound for the integrator's step.
     std::vector<double> stiffest_pairs() const;
     // Phases in [0, 1) on which steps must end.
@@ -33,6 +37,7 @@ class SceneStiffness {
     lockstep::PairSet pairs_;
     SceneFault fault_;
     std::vector<double> mean_pairs_;
+    EachMember<gears::DeviationScales> tooth_scales_;
 };
 
 }  // namespace gearpod::mc

@@ -63,14 +63,59 @@ double centre_distance_m(const Study& study) {
            (teeth_of(study, Member::sun).value() + teeth_of(study, Member::planet).value());
 }
 
+namespace {
+
+bool any_random(const Study& study, std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const char* key) { return study.find_random(key) != nullptr; });
+}
+
+}  // namespace
+
 bool has_static_errors(const Study& study) {
     const MeshErrors& e = study.errors;
     return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
 }
 
-bool has_pitch_errors(const Study& study) {
-    return study.errors.pitch_error_m > 0.0 ||
-           study.find_random("gearbox.pitch_error_um") != nullptr;
+bool has_tooth_quality(const Study& study) {
+    return study.errors.tooth_quality ||
+           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+               return study.gearbox.bodies[member].quality.has_value();
+           });
+}
+
+bool has_measured_teeth(const Study& study) {
+    return std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+        const MemberValues& body = study.gearbox.bodies[member];
+        return !body.index_m.empty() || !body.ring_side_index_m.empty();
+    });
+}
+
+bool has_tooth_errors(const Study& study) {
+    const MeshErrors& e = study.errors;
+    return has_tooth_quality(study) || has_measured_teeth(study) || e.pitch_error_m > 0.0 ||
+           e.index_wave_m > 0.0 || e.eccentricity_m > 0.0 || e.profile_slope_m > 0.0 ||
+           any_random(study, {"gearbox.pitch_error_um", "gearbox.index_wave_um",
+                              "gearbox.eccentricity_um", "gearbox.profile_slope_um"});
+}
+
+bool draws_planets(const Study& study) {
+    const UnlikePlanets& p = study.planets;
+    return p.pin_tangential_rms_m > 0.0 || p.pin_radial_rms_m > 0.0 ||
+           p.bearing_stiffness_scatter > 0.0 || p.bearing_damping_scatter > 0.0 ||
+           p.mass_scatter > 0.0 ||
+           any_random(study,
+                      {"gearbox.pin_tangential_rms_um", "gearbox.pin_radial_rms_um",
+                       "gearbox.planet_bearing_stiffness_scatter",
+                       "gearbox.planet_bearing_damping_scatter", "gearbox.planet_mass_scatter"});
+}
+
+bool has_unlike_planets(const Study& study) {
+    const UnlikePlanets& p = study.planets;
+    const auto lists = {&p.pin_tangential_m, &p.pin_radial_m, &p.bearing_stiffness,
+                        &p.bearing_damping, &p.mass};
+    return draws_planets(study) ||
+           std::any_of(lists.begin(), lists.end(), [](const auto* list) { return !list->empty(); });
 }
 
 bool stiffness_given(const Study& study) {

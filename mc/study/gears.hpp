@@ -39,10 +39,16 @@ double centre_distance_m(const Study& study);
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);
 
-// Whether any mesh has a static transmission error, whether the teeth of any gearbox have pitch
-// errors.
+// Whether any mesh has a static transmission error.
 bool has_static_errors(const Study& study);
-bool has_pitch_errors(const Study& study);
+// Whether the teeth of any gearbox have errors of their own; a quality that says how large;
+// measured ones.
+bool has_tooth_errors(const Study& study);
+bool has_tooth_quality(const Study& study);
+bool has_measured_teeth(const Study& study);
+// Whether the planets of any gearbox differ, and are drawn.
+bool has_unlike_planets(const Study& study);
+bool draws_planets(const Study& study);
 
 // Whether all tooth numbers and the module are given.
 bool has_gears(const Study& study);

@@ -68,6 +68,10 @@ struct MemberValues {
     std::optional<double> inertia_kg_m2, inertia_over_r2_kg;
     std::optional<double> bearing_stiffness_N_m;
     double bearing_damping_N_s_m = 0.0;
+    std::optional<double> quality;  // ISO 1328 grade of its teeth, before that of all gears
+    // Measured index deviations in place of drawn ones, tooth by tooth, gaps positive; of planets
+    // one planet after the other, and the side that meets the ring.
+    std::vector<double> index_m, ring_side_index_m;
 
     bool operator==(const MemberValues&) const = default;
 };
@@ -124,9 +128,23 @@ struct FixedShaft {
 struct MeshErrors {
     std::vector<double> sun_planet_m, sun_planet_phase_rad, ring_planet_m, ring_planet_phase_rad;
     std::vector<double> mesh_m, mesh_phase_rad;  // fixed-shaft
-    double pitch_error_m = 0.0;                  // rms of a tooth's own pitch error
+    // Of the teeth, drawn: an ISO 1328 grade, and rms deviations beside it, along the line of
+    // action (gears::DeviationScales).
+    std::optional<double> tooth_quality;
+    double pitch_error_m = 0.0, index_wave_m = 0.0, eccentricity_m = 0.0, profile_slope_m = 0.0;
 
     bool operator==(const MeshErrors&) const = default;
+};
+
+// How a planetary gearbox's planets differ: given for each (empty: not at all), and drawn.
+struct UnlikePlanets {
+    std::vector<double> pin_tangential_m, pin_radial_m;            // off their places
+    std::vector<double> bearing_stiffness, bearing_damping, mass;  // factors
+    double pin_tangential_rms_m = 0.0, pin_radial_rms_m = 0.0;     // normal
+    // Of the factors' logarithms, which are normal.
+    double bearing_stiffness_scatter = 0.0, bearing_damping_scatter = 0.0, mass_scatter = 0.0;
+
+    bool operator==(const UnlikePlanets&) const = default;
 };
 
 struct Operation {
@@ -287,6 +305,7 @@ struct Study {
     Gearbox gearbox;
     FixedShaft fixed_shaft;
     MeshErrors errors;
+    UnlikePlanets planets;
     Operation operation;
     Fluctuations fluctuations;
     Effects effects;

@@ -73,17 +73,35 @@ class FaultyAdditiveMesh : public FaultyMesh {
         const Ages ages = touching(inside, healthy_.contact_ratio());
         for (int age = ages.first; age < ages.last; ++age) {
             shift(tau, age, position);
-            if (age > 0 || age <= -teeth_)
-                healthy_.pair_(position, one);
-            else
-                curve_(position, {stretch.begin + age, stretch.end + age}, one);
+            one_pair(age, stretch, position, one);
             add(one, stiffness);
         }
         for (double& k : stiffness)
             k *= factor_;
     }
 
+    void tooth_pair(int tooth, std::span<const double> tau, double inside,
+                    std::span<double> stiffness) const override {
+        std::fill(stiffness.begin(), stiffness.end(), 0.0);
+        if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
+            return;
+        std::vector<double> position(tau.size());
+        shift(tau, -tooth, position);
+        one_pair(-tooth, stretch_around(healthy_.transitions_, jumps_, inside), position,
+                 stiffness);
+        for (double& k : stiffness)
+            k *= factor_;
+    }
+
   private:
+    void one_pair(int age, const Stretch& stretch, std::span<const double> position,
+                  std::span<double> stiffness) const {
+        if (age > 0 || age <= -teeth_)
+            healthy_.pair_(position, stiffness);
+        else
+            curve_(position, {stretch.begin + age, stretch.end + age}, stiffness);
+    }
+
     const AdditiveMesh& healthy_;
     int teeth_;
     double factor_;

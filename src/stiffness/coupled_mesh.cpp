@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 
 #include "stiffness/foundation/foundation_models.hpp"
@@ -29,25 +30,22 @@ int pairs_at(double phase, double contact_ratio) {
 class FaultyCoupledMesh : public FaultyMesh {
   public:
     FaultyCoupledMesh(const CoupledMesh& healthy, const ToothFault& fault)
-        : transitions_(healthy.transitions_),
+        : healthy_(healthy),
+          fault_(fault),
+          transitions_(healthy.transitions_),
           duration_(healthy.contact_ratio() + fault.teeth() - 1) {
-        std::vector<double> breaks;
         for (int period = 0; period <= duration_; ++period)
             for (const double transition : transitions_)
-                breaks.push_back(period + transition);
+                breaks_.push_back(period + transition);
         for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
             for (const double at : fault.breaks())
-                breaks.push_back(tooth + at);
+                breaks_.push_back(tooth + at);
             for (const double jump : fault.jumps())
                 jumps_.push_back(tooth + jump);
         }
-        std::sort(breaks.begin(), breaks.end());
+        std::sort(breaks_.begin(), breaks_.end());
         std::sort(jumps_.begin(), jumps_.end());
-        const double scale = healthy.stretches_.front().total(0.0);
-        const ToothPairFit fit(std::max(healthy.tolerance_, kOfHealthyTotal) * scale);
-        curve_ = fit([&](std::span<const double> tau,
-                         std::span<double> total) { solve(healthy, fault, tau, total); },
-                     breaks, duration_);
+        curve_ = fit([](const SharedLoad& load, int /*period*/) { return load.stiffness; });
     }
 
     double duration() const override { return duration_; }
@@ -56,24 +54,56 @@ class FaultyCoupledMesh : public FaultyMesh {
                std::span<double> stiffness) const override {
         curve_(tau, stretch_around(transitions_, jumps_, inside), stiffness);
     }
+    void tooth_pair(int tooth, std::span<const double> tau, double inside,
+                    std::span<double> stiffness) const override {
+        std::fill(stiffness.begin(), stiffness.end(), 0.0);
+        if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
+            return;
+        std::call_once(teeth_known_, [&] { fit_tooth_pairs(); });
+        tooth_pairs_[static_cast<std::size_t>(tooth - first_tooth())](
+            tau, stretch_around(transitions_, jumps_, inside), stiffness);
+    }
 
   private:
-    static void solve(const CoupledMesh& healthy, const ToothFault& fault,
-                      std::span<const double> tau, std::span<double> total) {
+    // Of the tooth pairs that touch during the passage.
+    int first_tooth() const { return 1 - static_cast<int>(std::ceil(healthy_.contact_ratio())); }
+
+    void fit_tooth_pairs() const {
+        for (int tooth = first_tooth(); tooth < duration_; ++tooth)
+            tooth_pairs_.push_back(fit([tooth](const SharedLoad& load, int period) {
+                const int pair = period - tooth;  // engaged so many periods ago
+                return pair < 0 || pair >= TouchingPairs::kMost
+                           ? 0.0
+                           : load.stiffness * load.share[static_cast<std::size_t>(pair)];
+            }));
+    }
+
+    // value(load, period): of the loads in that period.
+    template <class Value>
+    ToothPairCurve fit(const Value& value) const {
+        const double scale = healthy_.stretches_.front().total(0.0);
+        const ToothPairFit fit(std::max(healthy_.tolerance_, kOfHealthyTotal) * scale);
+        return fit([&](std::span<const double> tau,
+                       std::span<double> values) { solve(value, tau, values); },
+                   breaks_, duration_);
+    }
+
+    template <class Value>
+    void solve(const Value& value, std::span<const double> tau, std::span<double> values) const {
         const std::size_t n = tau.size();
         const int period = static_cast<int>(std::floor(tau[n / 2]));
-        const int pairs = pairs_at(tau[n / 2] - period, healthy.contact_ratio());
+        const int pairs = pairs_at(tau[n / 2] - period, healthy_.contact_ratio());
         std::vector<TouchingPairs> at(n);
         for (std::size_t i = 0; i < n; ++i)
-            at[i] = healthy.touching(tau[i] - period, pairs);
-        for (int tooth = 0; tooth < fault.teeth(); ++tooth) {
+            at[i] = healthy_.touching(tau[i] - period, pairs);
+        for (int tooth = 0; tooth < fault_.teeth(); ++tooth) {
             const int pair = period - tooth;  // engaged so many periods ago
             if (pair >= 0 && pair < pairs)
-                put_fault(healthy, fault, tau, tooth, pair, at);
+                put_fault(healthy_, fault_, tau, tooth, pair, at);
         }
         for (std::size_t i = 0; i < n; ++i)
-            total[i] = fault.mesh_factor() *
-                       share_load(at[i], healthy.contact_, healthy.force_N_).stiffness;
+            values[i] = fault_.mesh_factor() *
+                        value(share_load(at[i], healthy_.contact_, healthy_.force_N_), period);
     }
 
     static void put_fault(const CoupledMesh& healthy, const ToothFault& fault,
@@ -96,9 +126,13 @@ class FaultyCoupledMesh : public FaultyMesh {
         }
     }
 
-    std::vector<double> transitions_, jumps_;
+    const CoupledMesh& healthy_;
+    const ToothFault& fault_;
+    std::vector<double> transitions_, breaks_, jumps_;
     double duration_;
     ToothPairCurve curve_;
+    mutable std::once_flag teeth_known_;
+    mutable std::vector<ToothPairCurve> tooth_pairs_;
 };
 
 CoupledMesh::CoupledMesh(const gears::MeshGeometry& geometry, const Material& material,

@@ -26,6 +26,11 @@ class FaultyMesh {
     // engagement of the first faulty tooth, 0 <= tau <= duration().
     virtual void total(std::span<const double> tau, double inside,
                        std::span<double> stiffness) const = 0;
+    // The part of it of one tooth pair: that which engages `tooth` periods after the first faulty
+    // tooth, before it if negative; 0 where it does not touch. A mesh whose tooth pairs are coupled
+    // works these out when they are first asked for.
+    virtual void tooth_pair(int tooth, std::span<const double> tau, double inside,
+                            std::span<double> stiffness) const = 0;
     // Positions, ascending, at which the fault's own law makes the total jump.
     virtual std::vector<double> jumps() const { return {}; }
 };
@@ -47,7 +52,7 @@ class MeshStiffness {
     // Phases in [0, 1), ascending, that bound the stretches: where tooth pairs begin or cease to
     // touch, and where the total kinks. The first is 0, the start of an engagement.
     virtual std::vector<double> transitions() const = 0;
-    // The pair with that fault on one of its gears. The fault must outlive the result. Throws
+    // The pair with that fault on one of its gears. Mesh and fault must outlive the result. Throws
     // std::invalid_argument if the model does not know what the fault changes.
     virtual std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const = 0;
 };

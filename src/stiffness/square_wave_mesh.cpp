@@ -30,17 +30,38 @@ class FaultySquareWave : public FaultyMesh {
 
     void total(std::span<const double> /*tau*/, double inside,
                std::span<double> stiffness) const override {
-        const double ratio = healthy_.contact_ratio();
-        const int all = touching_pairs(inside, ratio);
-        int faulty = 0;
-        for (int tooth = 0; tooth < teeth_; ++tooth)
-            faulty += touches(inside - tooth, ratio);
-        const double sound = healthy_.level(all - faulty);
-        const double pairs = sound + pair_factor_ * (healthy_.level(all) - sound);
-        std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * pairs);
+        std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * pairs_at(inside).total);
+    }
+
+    // A faulty tooth pair has its factor's part of what is its share among healthy ones; the sound
+    // ones have the rest.
+    void tooth_pair(int tooth, std::span<const double> /*tau*/, double inside,
+                    std::span<double> stiffness) const override {
+        double own = 0;
+        if (touches(inside - tooth, healthy_.contact_ratio())) {
+            const Pairs pairs = pairs_at(inside);
+            own = pair_factor_ * healthy_.level(pairs.all) / pairs.all;
+            if (tooth < 0 || tooth >= teeth_)
+                own = (pairs.total - pairs.faulty * own) / (pairs.all - pairs.faulty);
+        }
+        std::fill(stiffness.begin(), stiffness.end(), mesh_factor_ * own);
     }
 
   private:
+    struct Pairs {
+        int all = 0, faulty = 0;
+        double total = 0;  // but for the factor on the mesh
+    };
+    Pairs pairs_at(double inside) const {
+        const double ratio = healthy_.contact_ratio();
+        Pairs pairs{touching_pairs(inside, ratio), 0, 0};
+        for (int tooth = 0; tooth < teeth_; ++tooth)
+            pairs.faulty += touches(inside - tooth, ratio);
+        const double sound = healthy_.level(pairs.all - pairs.faulty);
+        pairs.total = sound + pair_factor_ * (healthy_.level(pairs.all) - sound);
+        return pairs;
+    }
+
     const SquareWaveMesh& healthy_;
     int teeth_;
     double pair_factor_, mesh_factor_;

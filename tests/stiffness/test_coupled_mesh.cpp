@@ -173,3 +173,23 @@ TEST_CASE("load-dependent contacts need a load") {
                                 {FoundationModel::none, Contact::load_dependent}),
                     std::invalid_argument);
 }
+
+TEST_CASE("Coupled tooth pairs with a fault: a broken one carries nothing, the others all") {
+    const auto geometry = sun_planet();
+    const CoupledMesh mesh(geometry, kSteel, Profile::fillet,
+                           options(FoundationModel::elastic_ring, Contact::linear));
+    const auto broken = BrokenTooth().at(1);
+    const auto faulty = mesh.with_fault(*broken);
+    const auto transitions = mesh.transitions();
+    for (const double tau : {0.2, 0.4, 1.3, 1.5}) {
+        double own = -1, other = -1;
+        const int neighbour = tau < 1 ? -1 : 1;
+        faulty->tooth_pair(0, {&tau, 1}, tau, {&own, 1});
+        faulty->tooth_pair(neighbour, {&tau, 1}, tau, {&other, 1});
+        CHECK(own == Approx(0.0).margin(1.0));
+        CHECK(other == Approx(total_at(*faulty, transitions, tau)).epsilon(1e-8));
+        // Alone it is stiffer than beside a neighbour that presses the bodies, too.
+        const double healthy = total_at(mesh, tau) * share_at(mesh, tau - neighbour);
+        CHECK(other > 1.01 * healthy);
+    }
+}

@@ -14,8 +14,8 @@ namespace gearpod::mc {
 
 template <class AnyStudy>
 auto parts(AnyStudy& s) {
-    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.operation, s.fluctuations, s.effects,
-                    s.fault, s.sensor, s.features, s.detection, s.numerics, s.ensemble,
+    return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.planets, s.operation, s.fluctuations,
+                    s.effects, s.fault, s.sensor, s.features, s.detection, s.numerics, s.ensemble,
                     s.ensemble.until);
 }
 template <class Part>
@@ -144,19 +144,19 @@ constexpr ChoiceAccess listed(std::span<const ChoiceName> names) {
     return {get_listed<Member, List>, set_listed<Member, List>, names};
 }
 
-template <auto Member>
-TypeOf<Member> get_list(const Study& s) {
-    return stored<Member>(s);
+template <auto... Named>
+TypeOf<Named...> get_list(const Study& s) {
+    return stored<Named...>(s);
 }
-template <auto Member>
-void set_list(Study& s, TypeOf<Member> value) {
-    stored<Member>(s) = std::move(value);
+template <auto... Named>
+void set_list(Study& s, TypeOf<Named...> value) {
+    stored<Named...>(s) = std::move(value);
 }
 // Strings or tones.
 template <auto Member>
 constexpr Access<TypeOf<Member>, TypeOf<Member>> list{get_list<Member>, set_list<Member>};
-template <auto Member>
-constexpr NumbersAccess numbers{get_list<Member>, set_list<Member>, false};
+template <auto... Named>
+constexpr NumbersAccess numbers{get_list<Named...>, set_list<Named...>, false};
 template <auto Member>
 constexpr NumbersAccess ascending{get_list<Member>, set_list<Member>, true};
 

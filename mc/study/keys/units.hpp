@@ -31,6 +31,8 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAny{};
 inline constexpr Range kPositive{0.0, kInfinity, true, false};
 inline constexpr Range kNotNegative{0.0, kInfinity, false, false};
+// Grades of ISO 1328-1:1995.
+inline constexpr Range kGrade{0.0, 12.0, false, false};
 // Above what converters sample; it also bounds the number of samples.
 inline constexpr Range kFrequency{0.0, 1e7, true, false};
 constexpr Range from_to(double low, double high) {

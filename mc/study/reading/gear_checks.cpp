@@ -205,6 +205,54 @@ void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<
     }
 }
 
+// Lists with a value for each planet.
+void check_planet_lists(StudyDraft& draft) {
+    const Study& s = draft.study;
+    if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {
+        return;
+    }
+    const UnlikePlanets& p = s.planets;
+    for (const auto& [key, list] :
+         {std::pair{"gearbox.pin_tangential_um", &p.pin_tangential_m},
+          std::pair{"gearbox.pin_radial_um", &p.pin_radial_m},
+          std::pair{"gearbox.planet_bearing_stiffness_factors", &p.bearing_stiffness},
+          std::pair{"gearbox.planet_bearing_damping_factors", &p.bearing_damping},
+          std::pair{"gearbox.planet_mass_factors", &p.mass}}) {
+        if (!list->empty() && static_cast<int>(list->size()) != s.gearbox.planets) {
+            draft.reject(key,
+                         fmt::format("has {} values, but there are {} planets", list->size(),
+                                     s.gearbox.planets),
+                         "give one for each planet, or leave the key out");
+        }
+    }
+}
+
+void check_teeth_listed(StudyDraft& draft, const std::string& key, const std::vector<double>& list,
+                        const std::string& teeth_key, int teeth) {
+    if (!list.empty() && static_cast<int>(list.size()) != teeth &&
+        draft.all_usable({key, teeth_key, "gearbox.planets"})) {
+        draft.reject(key, fmt::format("has {} deviations for {} teeth", list.size(), teeth),
+                     "give one for each tooth, of planets one planet after the other");
+    }
+}
+
+// Measured deviations, one a tooth.
+void check_measured_teeth(StudyDraft& draft) {
+    if (!teeth_usable(draft)) {
+        return;
+    }
+    for (const Member member : toothed_members(draft.study)) {
+        const MemberValues& body = draft.study.gearbox.bodies[member];
+        const int gears = member == Member::planet ? draft.study.gearbox.planets : 1;
+        const int teeth = gears * teeth_of(draft.study, member).value_or(0);
+        const std::string name(member_name(member));
+        check_teeth_listed(draft, "gearbox." + name + "_index_um", body.index_m, teeth_key(member),
+                           teeth);
+        check_teeth_listed(draft, "gearbox." + name + "_ring_side_index_um", body.ring_side_index_m,
+                           teeth_key(member), teeth);
+    }
+}
+
 void check_errors(StudyDraft& draft) {
     const MeshErrors& e = draft.study.errors;
     check_phases(draft, "sun_planet", e.sun_planet_m, e.sun_planet_phase_rad);
@@ -219,6 +267,8 @@ void check_gears(StudyDraft& draft) {
     check_gear_shapes(draft);
     check_bodies(draft);
     check_square_waves(draft);
+    check_planet_lists(draft);
+    check_measured_teeth(draft);
     check_errors(draft);
 }
 

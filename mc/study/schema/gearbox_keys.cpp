@@ -17,6 +17,7 @@ constexpr ChoiceName kProfiles[] = {
 using G = Gearbox;
 using F = FixedShaft;
 using E = MeshErrors;
+using P = UnlikePlanets;
 using B = MemberValues;
 using M = MeshValues;
 
@@ -103,7 +104,32 @@ const Key kKeys[] = {
     {"gearbox", "ring_planet_error_phase_deg", numbers<&E::ring_planet_phase_rad>, kDeg, kAny, planetary<may>, kShared, "their phases; 0 by default"},
     {"gearbox", "mesh_error_um", numbers<&E::mesh_m>, kUm, kNotNegative, fixed_shaft<may>, kShared, "static transmission error: amplitudes of mesh harmonics 1, 2, ..."},
     {"gearbox", "mesh_error_phase_deg", numbers<&E::mesh_phase_rad>, kDeg, kAny, fixed_shaft<may>, kShared, "their phases; 0 by default"},
-    {"gearbox", "pitch_error_um", number<&E::pitch_error_m>, kUm, kNotNegative, pitch_error, kRandom, "rms of a tooth's own pitch error, drawn for each tooth and gearbox"},
+    {"gearbox", "tooth_quality", number<&E::tooth_quality>, kNone, kGrade, tooth_quality, kRandom, "ISO 1328 grade of all gears, of which nine in ten gears drawn keep each tolerance: pitch, cumulative pitch, runout and profile"},
+    {"gearbox", "sun_quality", number<Member::sun, &B::quality>, kNone, kGrade, planetary<tooth_quality>, kRandom, "that of the sun alone"},
+    {"gearbox", "planet_quality", number<Member::planet, &B::quality>, kNone, kGrade, planetary<tooth_quality>, kRandom, "that of the planets"},
+    {"gearbox", "ring_quality", number<Member::ring, &B::quality>, kNone, kGrade, planetary<tooth_quality>, kRandom, "that of the ring"},
+    {"gearbox", "pinion_quality", number<Member::pinion, &B::quality>, kNone, kGrade, fixed_shaft<tooth_quality>, kRandom, "that of the pinion"},
+    {"gearbox", "gear_quality", number<Member::gear, &B::quality>, kNone, kGrade, fixed_shaft<tooth_quality>, kRandom, "that of the gear"},
+    {"gearbox", "pitch_error_um", number<&E::pitch_error_m>, kUm, kNotNegative, tooth_errors, kRandom, "rms of a tooth's own pitch error, drawn for each flank and gearbox, beside a quality's"},
+    {"gearbox", "index_wave_um", number<&E::index_wave_m>, kUm, kNotNegative, tooth_errors, kRandom, "rms of the long waves of a gear's index deviations, harmonics 1 to 3 of its turn, beside a quality's"},
+    {"gearbox", "eccentricity_um", number<&E::eccentricity_m>, kUm, kNotNegative, tooth_errors, kRandom, "rms distance of a gear's toothing from its axis, beside a quality's"},
+    {"gearbox", "profile_slope_um", number<&E::profile_slope_m>, kUm, kNotNegative, tooth_errors, kRandom, "rms of a flank's own profile slope over its engagement, beside a quality's"},
+    {"gearbox", "sun_index_um", numbers<Member::sun, &B::index_m>, kUm, kAny, planetary<tooth_errors>, kShared, "measured index deviations of the sun's teeth in place of drawn ones, along the line of action, a gap positive; from the tooth that meets planet 1 first"},
+    {"gearbox", "planet_index_um", numbers<Member::planet, &B::index_m>, kUm, kAny, planetary<tooth_errors>, kShared, "those of the planets' sides that meet the sun, one planet after the other; each from the tooth that meets the sun first"},
+    {"gearbox", "planet_ring_side_index_um", numbers<Member::planet, &B::ring_side_index_m>, kUm, kAny, planetary<tooth_errors>, kShared, "those of the same teeth's sides that meet the ring"},
+    {"gearbox", "ring_index_um", numbers<Member::ring, &B::index_m>, kUm, kAny, planetary<tooth_errors>, kShared, "those of the ring's teeth, from the tooth that meets planet 1 first"},
+    {"gearbox", "pinion_index_um", numbers<Member::pinion, &B::index_m>, kUm, kAny, fixed_shaft<tooth_errors>, kShared, "those of the pinion's teeth"},
+    {"gearbox", "gear_index_um", numbers<Member::gear, &B::index_m>, kUm, kAny, fixed_shaft<tooth_errors>, kShared, "those of the gear's teeth"},
+    {"gearbox", "pin_tangential_um", numbers<&P::pin_tangential_m>, kUm, kAny, planetary<bearings_move>, kShared, "how far each planet's pin is off its place in the carrier, along the carrier's turn"},
+    {"gearbox", "pin_radial_um", numbers<&P::pin_radial_m>, kUm, kAny, planetary<bearings_move>, kShared, "how far each planet's pin is off its place, away from the axis"},
+    {"gearbox", "pin_tangential_rms_um", number<&P::pin_tangential_rms_m>, kUm, kNotNegative, planetary<bearings_move>, kRandom, "rms of the pins' tangential errors, drawn for each planet and gearbox"},
+    {"gearbox", "pin_radial_rms_um", number<&P::pin_radial_rms_m>, kUm, kNotNegative, planetary<bearings_move>, kRandom, "rms of the pins' radial errors, drawn for each planet and gearbox"},
+    {"gearbox", "planet_bearing_stiffness_factors", numbers<&P::bearing_stiffness>, kNone, kPositive, planetary<bearings_move>, kShared, "each planet's bearing stiffness over planet_bearing_stiffness_N_m"},
+    {"gearbox", "planet_bearing_stiffness_scatter", number<&P::bearing_stiffness_scatter>, kNone, kNotNegative, planetary<bearings_move>, kRandom, "standard deviation of the logarithm of the planets' bearing stiffness, drawn for each"},
+    {"gearbox", "planet_bearing_damping_factors", numbers<&P::bearing_damping>, kNone, kNotNegative, planetary<bearings_damp>, kShared, "each planet's bearing damping over planet_bearing_damping_N_s_m"},
+    {"gearbox", "planet_bearing_damping_scatter", number<&P::bearing_damping_scatter>, kNone, kNotNegative, planetary<bearings_damp>, kRandom, "standard deviation of the logarithm of the planets' bearing damping, drawn for each"},
+    {"gearbox", "planet_mass_factors", numbers<&P::mass>, kNone, kPositive, planetary<planet_masses>, kShared, "each planet's mass and inertia over those of a planet"},
+    {"gearbox", "planet_mass_scatter", number<&P::mass_scatter>, kNone, kNotNegative, planetary<planet_masses>, kRandom, "standard deviation of the logarithm of the planets' masses, drawn for each"},
 };
 // clang-format on
 

@@ -133,13 +133,36 @@ Presence backlash(const Study& s) {
                           {"effects.separation"}};
 }
 
-Presence pitch_error(const Study& s) {
+Presence tooth_errors(const Study& s) {
     return s.numerics.horizon == Horizon::march
                ? kOptional
                : Presence{Need::forbidden,
                           "only for numerics.horizon = \"march\": every tooth differs, so that "
                           "no mesh repeats",
                           {"numerics.horizon"}};
+}
+
+Presence tooth_quality(const Study& s) {
+    return has_gears(s) ? tooth_errors(s)
+                        : Presence{Need::forbidden,
+                                   "tolerances need the gears' teeth and module",
+                                   {"gearbox.module_mm"}};
+}
+
+Presence bearings_move(const Study& s) {
+    return s.effects.torsional() ? Presence{Need::forbidden,
+                                            "rigid bearings hold the planets in their places: "
+                                            "effects.motion",
+                                            {kMotion}}
+                                 : kOptional;
+}
+
+Presence bearings_damp(const Study& s) {
+    return s.effects.quasi_static() ? integration(s) : bearings_move(s);
+}
+
+Presence planet_masses(const Study& s) {
+    return s.effects.gravity ? kOptional : integration(s);
 }
 
 Presence torque_sine(const Study& s) {

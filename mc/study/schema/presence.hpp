@@ -29,7 +29,11 @@ Presence square_wave(const Study&);         // only if it is
 Presence foundation(const Study&);          // required for one
 Presence ring_foundation(const Study&);     // required for one of which rings have one
 Presence backlash(const Study&);            // only for two-sided separation
-Presence pitch_error(const Study&);         // only where every mesh is marched
+Presence tooth_errors(const Study&);        // only where every mesh is marched
+Presence tooth_quality(const Study&);       // and the gears are known
+Presence bearings_move(const Study&);       // only where planets move on their bearings
+Presence bearings_damp(const Study&);       // and not without inertia
+Presence planet_masses(const Study&);       // only where their masses have a part
 
 Presence torque_sine(const Study&);   // only with operation.torque_fluctuation
 Presence torque_noise(const Study&);  // only with operation.torque_noise, and then required

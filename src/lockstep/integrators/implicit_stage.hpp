@@ -63,6 +63,7 @@ struct alignas(64) StageScratch {
     double force[kRows];                      // mesh forces, N
     double d[kRows], r[kRows], y[kRows];      // R x, R v, R y
     double touching[kRows], back[kRows];      // of a separating mesh: see touch()
+    double held[kRows], preload[kRows];       // of teeth that push: see push()
     double s[kRows];                          // S
     double matrix[Model::kMaxPairs * kRows];  // what elimination leaves of G
 };
@@ -188,12 +189,18 @@ GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& sp
                 c *= t.touching[i + l];
                 d += t.back[i + l];
             }
+            if constexpr (Model::Mesh::kHasTeeth) {
+                k = t.held[i + l];
+            }
             if constexpr (Model::Mesh::kHasError) {
                 d -= t.pairs.e[i + l];
                 r -= t.pairs.de[i + l];
             }
             t.s[i + l] = std::fma(span.a[l], c, span.b[l] * k);
             t.force[i + l] = std::fma(k, d, std::fma(c, r, t.s[i + l] * t.y[i + l]));
+            if constexpr (Model::Mesh::kHasTeeth) {
+                t.force[i + l] -= t.preload[i + l];
+            }
         }
     }
 }
@@ -253,9 +260,52 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
     }
 }
 
-// Which flanks of the separating meshes touch at the stage's end, where a mesh deflects by
-// R Q = d + b (y - G F), F being t.force (none at first). t.touching is 1 or 0; t.back is the
-// backlash if the back flanks touch. Returns whether any lane changed.
+// Which flanks of a separating mesh touch where it deflects by `front` beyond its error: t.touching
+// is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane changed.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE int part(int i, const double* __restrict front, StageScratch<Model>& t) {
+    int changes = 0;
+#pragma omp simd reduction(| : changes)
+    for (int l = 0; l < W; ++l) {
+        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
+        const double touching = front[l] > 0.0 || behind ? 1.0 : 0.0;
+        const double back = behind ? t.pairs.backlash[l] : 0.0;
+        changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
+        t.touching[i + l] = touching;
+        t.back[i + l] = back;
+    }
+    return changes;
+}
+
+// Likewise of tooth pairs that push each for itself: together those that do are a spring t.held
+// that pulls by t.preload (N) where the mesh is at its error; t.touching is 1 if any does.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Model>& t) {
+    constexpr int kRows = StageScratch<Model>::kRows;
+    int changes = 0;
+#pragma omp simd reduction(| : changes)
+    for (int l = 0; l < W; ++l) {
+        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
+        double held = behind ? t.pairs.k[i + l] : 0.0;
+        double preload = behind ? -t.pairs.k[i + l] * t.pairs.backlash[l] : 0.0;
+        for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
+            const double k = t.pairs.tooth_k[j * kRows + i + l];
+            const double e = t.pairs.tooth_e[j * kRows + i + l];
+            const double own = front[l] > e ? k : 0.0;
+            held += own;
+            preload = std::fma(own, e, preload);
+        }
+        const double touching = held > 0.0 ? 1.0 : 0.0;
+        changes |= held != t.held[i + l] || preload != t.preload[i + l] ? 1 : 0;
+        t.held[i + l] = held;
+        t.preload[i + l] = preload;
+        t.touching[i + l] = touching;
+    }
+    return changes;
+}
+
+// Finds who touches at the stage's end, where a mesh deflects by R Q = d + b (y - G F), F being
+// t.force (none at first). Returns whether any lane changed.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,
                           const StageSpan<W>& span, bool first, StageScratch<Model>& t) {
@@ -273,15 +323,14 @@ GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict ma
                 rest[l] = std::fma(-g[other * W + l], t.force[other * W + l], rest[l]);
             }
         }
-#pragma omp simd reduction(| : changes)
+#pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const double front = std::fma(span.b[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
-            const bool behind = front + t.pairs.backlash[l] < 0.0;
-            const double touching = front > 0.0 || behind ? 1.0 : 0.0;
-            const double back = behind ? t.pairs.backlash[l] : 0.0;
-            changes |= touching != t.touching[i + l] || back != t.back[i + l] ? 1 : 0;
-            t.touching[i + l] = touching;
-            t.back[i + l] = back;
+            rest[l] = std::fma(span.b[l], rest[l], t.d[i + l]) - t.pairs.e[i + l];
+        }
+        if constexpr (Model::Mesh::kHasTeeth) {
+            changes |= push<Model>(i, rest, t);
+        } else {
+            changes |= part<Model>(i, rest, t);
         }
     }
     return changes != 0;

@@ -71,6 +71,44 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
+// Stiffness and gaps of all pairs' tooth pairs at a stage node, after those of the pairs.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
+                                     const std::vector<PairOverride>& overrides, int step, int node,
+                                     typename Model::Pairs& m) {
+    constexpr int kRows = Model::Pairs::kRows;
+    const int pairs = plan.nodes.pairs, known = plan.nodes.tooth_pairs;
+    const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const double* shared =
+        plan.nodes.tooth_stiffness.data() + (step * nodes + node) * known * pairs;
+    for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
+        for (int pair = 0; pair < pairs; ++pair) {
+            const int row = j * kRows + pair * W;
+            spread<W>(j < known ? shared[j * pairs + pair] : 0.0, m.tooth_k + row);
+            spread<W>(0.0, m.tooth_e + row);
+        }
+    }
+    if (known == 0) {  // one carries all
+        std::copy_n(m.k, pairs * W, m.tooth_k);
+    }
+    const int count = known > 0 ? known : 1;
+    for (const PairOverride& o : overrides) {
+        if (step < o.first_step || step >= o.last_step) {
+            continue;
+        }
+        const int at = ((step - o.first_step) * nodes + node) * count * W;
+        for (int j = 0; j < count; ++j) {
+            const int row = j * kRows + o.pair * W;
+            if (!o.tooth_stiffness.empty()) {
+                round_row<W>(o.tooth_stiffness.data() + at + j * W, m.tooth_k + row);
+            }
+            if (!o.tooth_error.empty()) {
+                round_row<W>(o.tooth_error.data() + at + j * W, m.tooth_e + row);
+            }
+        }
+    }
+}
+
 // What the mesh law needs of all pairs at a stage node, shared values spread over the lanes; and
 // where the forces that vary with time (driven_forces.hpp) have their values there.
 template <class Model, int W = Model::kWidth>
@@ -112,6 +150,9 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
     }
     if constexpr (Model::Mesh::kSeparates) {
         std::copy_n(lanes.backlash, W, m.backlash);
+    }
+    if constexpr (Model::Mesh::kHasTeeth) {
+        load_tooth_pairs<Model>(plan, overrides, step, node, m);
     }
     if constexpr (requires { m.row; }) {
         m.row = lanes.drive.row(step, node);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
 
@@ -47,7 +48,8 @@ std::vector<PairOverride> FaultSchedule::all_overrides(int k) const {
     const int length = faults_.pattern.length;
     std::vector<PairOverride> all = overrides((k % length + length) % length);
     if (faults_.tooth_errors) {
-        for (PairOverride& error : tooth_error_overrides(plan_, *faults_.tooth_errors, k)) {
+        for (PairOverride& error :
+             tooth_error_overrides(plan_, *faults_.pairs, *faults_.tooth_errors, k)) {
             all.push_back(std::move(error));
         }
     }
@@ -67,19 +69,13 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
     const StepPositions steps = steps_under_way(plan_.grid, k, start, duration(passage));
     const auto& curves = faults_.curve[static_cast<std::size_t>(passage.curve)];
     const std::size_t lanes = curves.size(), count = steps.node.size();
-    const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
-    const std::size_t first =
-        static_cast<std::size_t>(steps.first_step) * plan_.grid.stage_nodes.size();
+    const auto slots = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
     PairOverride o{passage.pair, steps.first_step, steps.last_step,
                    machine::AlignedVector(count * lanes), machine::AlignedVector(count * lanes)};
+    o.tooth_stiffness.resize(count * slots * lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
         if (!curves[l]) {
-            for (std::size_t i = 0; i < count; ++i) {
-                const std::size_t node =
-                    (first + i) * pairs + static_cast<std::size_t>(passage.pair);
-                o.stiffness[i * lanes + l] = plan_.nodes.stiffness[node];
-                o.damping_shape[i * lanes + l] = plan_.nodes.damping_shape[node];
-            }
+            keep_healthy(l, lanes, o);
             continue;
         }
         const std::vector<double> total = faulty_total(faults_.pairs->curve(passage.pair),
@@ -90,8 +86,33 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
                 o.damping_shape[i * lanes + l] = law.shape(total[i]);
             }
         });
+        if (slots > 0) {
+            const std::vector<double> teeth =
+                faulty_tooth_pairs(*faults_.pairs, *curves[l], {passage.pair, k, start}, steps,
+                                   plan_.nodes.tooth_pairs);
+            for (std::size_t i = 0; i < teeth.size(); ++i) {
+                o.tooth_stiffness[i * lanes + l] = teeth[i];
+            }
+        }
     }
     return o;
+}
+
+// A lane without a fault: what the plan's nodes say.
+void FaultSchedule::keep_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const {
+    const StiffnessNodes& nodes = plan_.nodes;
+    const auto pairs = static_cast<std::size_t>(nodes.pairs);
+    const std::size_t first =
+        static_cast<std::size_t>(o.first_step) * plan_.grid.stage_nodes.size();
+    const auto copy = [&](const std::vector<double>& from, std::size_t slots, auto& to) {
+        for (std::size_t i = 0; i < to.size() / lanes; ++i) {
+            to[i * lanes + lane] =
+                from[(first * slots + i) * pairs + static_cast<std::size_t>(o.pair)];
+        }
+    };
+    copy(nodes.stiffness, 1, o.stiffness);
+    copy(nodes.damping_shape, 1, o.damping_shape);
+    copy(nodes.tooth_stiffness, static_cast<std::size_t>(nodes.tooth_pairs), o.tooth_stiffness);
 }
 
 }  // namespace gearpod::lockstep

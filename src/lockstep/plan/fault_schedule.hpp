@@ -20,7 +20,7 @@ struct FaultCurves {
     // faults of all lanes have the same number of teeth.
     std::vector<std::vector<std::shared_ptr<const stiffness::FaultyMesh>>> curve;
 
-    // Pitch errors of single teeth; only with TileSettings::march_meshes.
+    // Errors of single teeth; only with TileSettings::march_meshes.
     const ToothErrors* tooth_errors = nullptr;
 
     bool faulty(int lane) const;
@@ -46,6 +46,7 @@ class FaultSchedule {
         return duration_[static_cast<std::size_t>(passage.curve)];
     }
     PairOverride make_override(const FaultPassage& passage, int k, double start) const;
+    void keep_healthy(std::size_t lane, std::size_t lanes, PairOverride& o) const;
 
     const MarchPlan& plan_;
     const FaultCurves& faults_;

@@ -44,8 +44,8 @@ struct MeshRecord {
     machine::AlignedVector estimate = {};
 };
 
-// A pair whose stiffness, or transmission error, or both, differ between lanes during some steps of
-// this mesh. What is left empty stays as it is without the override.
+// A pair whose stiffness, transmission error or tooth pairs differ between lanes during some steps
+// of this mesh. What is left empty stays as it is without the override.
 struct PairOverride {
     int pair = 0;
     int first_step = 0;
@@ -54,6 +54,9 @@ struct PairOverride {
     machine::AlignedVector damping_shape;    // likewise
     machine::AlignedVector error = {};       // likewise, m
     machine::AlignedVector error_rate = {};  // likewise, m per mesh period
+    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m and m; as many
+    // tooth pairs as the plan's nodes know, or one.
+    machine::AlignedVector tooth_stiffness = {}, tooth_error = {};
 };
 
 // A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in

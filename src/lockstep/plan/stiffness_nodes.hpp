@@ -44,6 +44,10 @@ struct StiffnessNodes {
     std::vector<double> damping_shape;  // see effects/mesh_damping.hpp
     // Static transmission error, m, and its rate, m per mesh period; empty: none.
     std::vector<double> error, error_rate;
+    // The tooth pairs one by one, [step][stage node][tooth pair][pair], N/m, the youngest first and
+    // 0 where fewer touch: how many of them, and their stiffness. 0 and empty unless asked for.
+    int tooth_pairs = 0;
+    std::vector<double> tooth_stiffness;
 };
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);

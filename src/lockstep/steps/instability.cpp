@@ -145,7 +145,7 @@ Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInput
     if (step_too_long(plan, inputs)) {
         return Instability::step;
     }
-    const bool linear = plan.mesh_law != dynamics::MeshLaw::separating;
+    const bool linear = !dynamics::separates(plan.mesh_law);
     return linear && growth_per_mesh(plan, inputs) > kNoGrowth ? Instability::parametric
                                                                : Instability::none;
 }

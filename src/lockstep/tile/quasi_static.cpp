@@ -98,6 +98,43 @@ class QuasiStatic {
                 std::copy_n(o.error.begin() + row, W, state_.e.begin() + o.pair * W);
             }
         }
+        if (lanes_.teeth_push) {
+            load_tooth_pairs(overrides, step);
+        }
+    }
+
+    void load_tooth_pairs(const std::vector<PairOverride>& overrides, int step) {
+        const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
+        const std::size_t known = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
+        const std::size_t pairs = static_cast<std::size_t>(plan_.nodes.pairs), rows = pairs * W;
+        const double* shared = plan_.nodes.tooth_stiffness.data() +
+                               static_cast<std::size_t>(step * nodes) * known * pairs;
+        for (std::size_t i = 0; i < known * rows; ++i) {
+            state_.tooth_k[i] = shared[i / W];
+        }
+        if (known == 0) {  // one carries all
+            std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
+        }
+        std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
+        const std::size_t count = std::max<std::size_t>(known, 1);
+        for (const PairOverride& o : overrides) {
+            if (step < o.first_step || step >= o.last_step) {
+                continue;
+            }
+            const auto at = static_cast<std::ptrdiff_t>(
+                static_cast<std::size_t>((step - o.first_step) * nodes) * count * W);
+            for (std::size_t j = 0; j < count; ++j) {
+                const auto from = at + static_cast<std::ptrdiff_t>(j * W);
+                const auto row =
+                    static_cast<std::ptrdiff_t>(j * rows + static_cast<std::size_t>(o.pair) * W);
+                if (!o.tooth_stiffness.empty()) {
+                    std::copy_n(o.tooth_stiffness.begin() + from, W, state_.tooth_k.begin() + row);
+                }
+                if (!o.tooth_error.empty()) {
+                    std::copy_n(o.tooth_error.begin() + from, W, state_.tooth_e.begin() + row);
+                }
+            }
+        }
     }
 
     // The varying forces; there is no speed for inertia to feel.

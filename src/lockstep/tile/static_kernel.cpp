@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "dynamics/effects/mesh_law.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "machine/dispatch.hpp"
 
@@ -13,6 +14,8 @@ constexpr double kNoLoad = 1e-6;
 // What of its stiffness a mesh out of contact keeps: a planet between two gaps then rests between
 // them, and its contacts close when the gaps do. Its force is a billionth of a contact's.
 constexpr double kOpenMesh = 1e-9;
+// Larger than any gap, m.
+constexpr double kNoGap = 1.0;
 // Contacts change a few times until they fit the load.
 constexpr int kMostChanges = 60;
 
@@ -137,11 +140,69 @@ GEARPOD_INLINE void substitute(const StaticLanes<W>& lanes, StaticState<W>& s) {
     }
 }
 
+// A pair of which one flank or the other touches, or none.
+template <int W>
+GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes<W>& lanes,
+                                   int pair, StaticState<W>& s) {
+    const double* __restrict backlash = lanes.backlash.data();
+    double* __restrict restless = s.restless.data();
+    const double* __restrict k = s.k.data() + pair * W;
+    const double* __restrict e = s.e.data() + pair * W;
+    double* __restrict held = s.held.data() + pair * W;
+    double* __restrict preload = s.preload.data() + pair * W;
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        const double front = d[l] - e[l];
+        const bool on_back = front + backlash[l] < 0.0;
+        const double new_held = front > 0.0 || on_back ? k[l] : kOpenMesh * k[l];
+        const double new_preload = on_back ? e[l] - backlash[l] : e[l];
+        const bool same = new_held == held[l] && new_preload == preload[l];
+        restless[l] = same ? restless[l] : 1.0;
+        held[l] = new_held;
+        preload[l] = new_preload;
+    }
+}
+
+// A pair whose tooth pairs push each for itself; one out of contact has the smallest of their gaps.
+template <int W>
+GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W>& lanes, int pair,
+                                 StaticState<W>& s) {
+    const int rows = static_cast<int>(s.k.size());
+    const double* __restrict backlash = lanes.backlash.data();
+    double* __restrict restless = s.restless.data();
+    const double* __restrict k = s.k.data() + pair * W;
+    const double* __restrict e = s.e.data() + pair * W;
+    const double* __restrict tooth_k = s.tooth_k.data() + pair * W;
+    const double* __restrict tooth_e = s.tooth_e.data() + pair * W;
+    double* __restrict held = s.held.data() + pair * W;
+    double* __restrict preload = s.preload.data() + pair * W;
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        const double front = d[l] - e[l];
+        const bool on_back = front + backlash[l] < 0.0;
+        double sum = on_back ? k[l] : 0.0;
+        double pull = on_back ? -k[l] * backlash[l] : 0.0;
+        double gap = kNoGap;
+        for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
+            const double own_k = tooth_k[j * rows + l], own_e = tooth_e[j * rows + l];
+            const double pushing = front > own_e ? own_k : 0.0;
+            sum += pushing;
+            pull = std::fma(pushing, own_e, pull);
+            gap = own_k > 0.0 && own_e < gap ? own_e : gap;
+        }
+        const double new_held = sum > 0.0 ? sum : kOpenMesh * k[l];
+        const double new_preload = e[l] + (sum > 0.0 ? pull / sum : gap < kNoGap ? gap : 0.0);
+        const bool same = new_held == held[l] && new_preload == preload[l];
+        restless[l] = same ? restless[l] : 1.0;
+        held[l] = new_held;
+        preload[l] = new_preload;
+    }
+}
+
 // Opens and closes contacts by the deflections; says which lanes had to.
 template <int W>
 GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>& s) {
     double* __restrict restless = s.restless.data();
-    const double* __restrict backlash = lanes.backlash.data();
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
         restless[l] = 0.0;
@@ -156,20 +217,10 @@ GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>&
                 d[l] = std::fma(weight, q[l], d[l]);
             }
         }
-        const double* __restrict k = s.k.data() + pair * W;
-        const double* __restrict e = s.e.data() + pair * W;
-        double* __restrict held = s.held.data() + pair * W;
-        double* __restrict preload = s.preload.data() + pair * W;
-#pragma omp simd
-        for (int l = 0; l < W; ++l) {
-            const double front = d[l] - e[l];
-            const bool on_back = front + backlash[l] < 0.0;
-            const double new_held = front > 0.0 || on_back ? k[l] : kOpenMesh * k[l];
-            const double new_preload = on_back ? e[l] - backlash[l] : e[l];
-            const bool same = new_held == held[l] && new_preload == preload[l];
-            restless[l] = same ? restless[l] : 1.0;
-            held[l] = new_held;
-            preload[l] = new_preload;
+        if (lanes.teeth_push) {
+            change_teeth(d, lanes, pair, s);
+        } else {
+            change_contact(d, lanes, pair, s);
         }
     }
 }

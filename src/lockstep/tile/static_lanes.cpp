@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "dynamics/effects/mesh_law.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 
 namespace gearpod::lockstep {
@@ -27,7 +28,8 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
     StaticLanes<W> lanes;
     lanes.degrees = dynamics::degrees_of_freedom(layout);
     lanes.pairs = dynamics::pairs(layout);
-    lanes.separating = law == dynamics::MeshLaw::separating;
+    lanes.separating = dynamics::separates(law);
+    lanes.teeth_push = law == dynamics::MeshLaw::pushing;
     lanes.first.push_back(0);
     for (int pair = 0; pair < lanes.pairs; ++pair) {
         const Eigen::VectorXd row = dynamics::mesh_row(layout, pair);
@@ -71,6 +73,8 @@ template <int W>
 StaticState<W>::StaticState(const StaticLanes<W>& lanes)
     : k(static_cast<std::size_t>(lanes.pairs) * W),
       e(k.size()),
+      tooth_k(dynamics::kMostToothPairs * k.size()),
+      tooth_e(tooth_k.size()),
       q(lanes.force.size()),
       loose(W),
       restless(W),

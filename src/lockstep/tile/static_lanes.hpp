@@ -25,6 +25,7 @@ struct StaticLanes {
     machine::AlignedVector force_size;  // [lane]: the largest of them
     machine::AlignedVector backlash;    // [lane], m
     bool separating = false;
+    bool teeth_push = false;  // each for itself
 };
 
 template <int W>
@@ -50,7 +51,9 @@ template <int W>
 struct StaticState {
     explicit StaticState(const StaticLanes<W>& lanes);
     machine::AlignedVector k, e;  // [pair][lane], N/m and m
-    machine::AlignedVector q;     // [degree of freedom][lane], m
+    // Of teeth that push, [tooth pair][pair][lane], N/m and m.
+    machine::AlignedVector tooth_k, tooth_e;
+    machine::AlignedVector q;  // [degree of freedom][lane], m
     // [lane], 1 or 0: some load meets no stiffness; the contacts did not come to rest.
     machine::AlignedVector loose, restless;
 

@@ -213,8 +213,7 @@ class TileMarch {
             }
         }
         // Teeth that separate may move without ever repeating; marched mesh by mesh they need not.
-        const bool may_wander =
-            settings_.march_meshes > 0 && plan_.mesh_law == dynamics::MeshLaw::separating;
+        const bool may_wander = settings_.march_meshes > 0 && dynamics::separates(plan_.mesh_law);
         if (!may_wander) {
             mark_unsettled(settled);
         }

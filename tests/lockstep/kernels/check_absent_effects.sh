@@ -52,8 +52,8 @@ cut=$(awk '
 for header in march_steps implicit_stage; do
     mv "$work/src/lockstep/integrators/$header.hpp.cut" "$work/src/lockstep/integrators/$header.hpp"
 done
-if [ "$cut" -lt 7 ]; then
-    echo "only $cut branches of effects found; seven are known"
+if [ "$cut" -lt 11 ]; then
+    echo "only $cut branches of effects found; eleven are known"
     exit 1
 fi
 code "$1" "$3" > "$work/cut"

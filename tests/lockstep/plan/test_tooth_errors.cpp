@@ -1,11 +1,14 @@
-// Pitch errors of single teeth: who meets whom, and what the load makes of it.
+// Errors of single teeth: who meets whom, and what the load makes of it.
 #include <catch2/catch.hpp>
-#include <numeric>
 
+#include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/plan/tooth_errors.hpp"
+#include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/tile/quasi_static.hpp"
+#include "stiffness/faults/broken.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 #include "tests/lockstep/liang_train.hpp"
+#include "tests/lockstep/tian_gearbox.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -16,8 +19,8 @@ namespace {
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 
 // Of all gears of the train, without errors: sun, ring, and each planet's two sides.
-ToothErrors no_errors(const LoadShares& shares, const PairSet& pairs, std::size_t lanes) {
-    ToothErrors errors{&shares, {}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
+ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
+    ToothErrors errors{{}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
     for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {
         const auto size = static_cast<std::size_t>(teeth) * lanes;
         errors.gears.push_back({teeth, machine::AlignedVector(size, 0.0)});
@@ -27,60 +30,61 @@ ToothErrors no_errors(const LoadShares& shares, const PairSet& pairs, std::size_
 
 MarchPlan error_plan(int samples, int steps, dynamics::Motion motion) {
     MarchPlan plan = LiangTrain::instance().plan(samples, steps, motion);
-    plan.mesh_law = dynamics::MeshLaw::with_error;
+    plan.mesh_law = dynamics::MeshLaw::pushing;
+    add_tooth_pairs(LiangTrain::instance().pairs, plan.grid, plan.nodes);
     return plan;
 }
 
 }  // namespace
 
-TEST_CASE("Equal errors of all teeth are one steady error, whoever shares the load") {
+TEST_CASE("Equal errors of all teeth are one error, of both gears, while a tooth pair touches") {
     const auto& pairs = LiangTrain::instance().pairs;
     const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
-    const LoadShares shares(pairs, plan.grid);
-    ToothErrors errors = no_errors(shares, pairs, 1);
+    ToothErrors errors = no_errors(pairs, 1);
     for (auto& gear : errors.gears) {
         std::fill(gear.error_m.begin(), gear.error_m.end(), 2e-6);
     }
     for (const int k : {-3, 0, 1000}) {
-        for (const PairOverride& o : tooth_error_overrides(plan, errors, k)) {
-            CHECK(o.stiffness.empty());
-            for (std::size_t i = 0; i < o.error.size(); ++i) {
-                CHECK(o.error[i] == Approx(4e-6).epsilon(1e-12));  // both gears'
-                CHECK(std::abs(o.error_rate[i]) < 1e-12);
+        for (const PairOverride& o : tooth_error_overrides(plan, pairs, errors, k)) {
+            CHECK((o.stiffness.empty() && o.error.empty() && o.tooth_stiffness.empty()));
+            for (std::size_t i = 0; i < o.tooth_error.size(); ++i) {
+                const double k_j =
+                    plan.nodes.tooth_stiffness[i * 8 + static_cast<std::size_t>(o.pair)];
+                CHECK(o.tooth_error[i] == (k_j > 0.0 ? 4e-6 : 0.0));
             }
         }
     }
 }
 
-TEST_CASE("A tooth's error shows while it touches, weighed with its load, and its rate fits") {
+TEST_CASE("A tooth's error is its own while it touches, and follows its slope along the flank") {
     const auto& train = LiangTrain::instance();
+    const auto& pairs = train.pairs;
     const MarchPlan plan = error_plan(24, 240, dynamics::Motion::torsional);
-    const LoadShares shares(train.pairs, plan.grid);
-    ToothErrors errors = no_errors(shares, train.pairs, 1);
-    const int tooth = 7;
-    errors.gears[4].error_m[tooth] = 3e-6;  // planet 2, sun side
     const double ratio = train.sun_planet.contact_ratio();
-    for (int k = 0; k < 2 * 31; ++k) {
-        const auto all = tooth_error_overrides(plan, errors, k);
-        for (std::size_t pair = 0; pair < 8; ++pair) {
-            const PairOverride& o = all[pair];
+    const int tooth = 7;
+    for (const bool on_sun : {false, true}) {
+        ToothErrors errors = no_errors(pairs, 1);
+        // Planet 2, sun side; or the sun.
+        GearErrors& gear = errors.gears[on_sun ? 0 : 4];
+        gear.error_m[tooth] = 3e-6;
+        gear.slope_m.assign(gear.error_m.size(), 0.0);
+        gear.slope_m[tooth] = 2e-6;
+        const int first = errors.pairs[1].first[on_sun ? 0 : 1];
+        for (int k = 0; k < 2 * gear.teeth; ++k) {
+            const auto all = tooth_error_overrides(plan, pairs, errors, k);
+            const PairOverride& o = all[1];  // planet 2's mesh with the sun
             for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
                 const Step& step = plan.grid.steps[s];
-                const double middle = k % 31 + step.phase + 0.5 * step.length;
-                const double since = middle - (tooth + train.pairs.start[1]);
-                const bool touches = pair == 1 && since > 0.0 && since < ratio;
-                const double e = o.error[3 * s + 1];
-                CHECK((e != 0.0) == touches);
-                if (touches && since > ratio - 1.0 && since < 1.0) {
-                    CHECK(e == Approx(3e-6));  // alone
-                } else if (touches) {
-                    CHECK((e > 0.6e-6 && e < 2.4e-6));
+                const double middle = k + step.phase + 0.5 * step.length;
+                const double since = std::fmod(
+                    middle - (tooth + first + pairs.start[1]) + 10.0 * gear.teeth, gear.teeth);
+                double sum = 0.0;
+                for (std::size_t j = 0; j < 2; ++j) {
+                    sum += o.tooth_error[(3 * s + 1) * 2 + j];
                 }
-                const double integral =
-                    step.length / 6.0 *
-                    (o.error_rate[3 * s] + 4.0 * o.error_rate[3 * s + 1] + o.error_rate[3 * s + 2]);
-                CHECK(o.error[3 * s + 2] - o.error[3 * s] ==
-                      Approx(integral).epsilon(1e-4).margin(1e-15));
+                // The sun drives: its flank is touched from the root to the tip.
+                const double place = (on_sun ? 1.0 : -1.0) * (since / ratio - 0.5);
+                CHECK(sum == Approx(since < ratio ? 3e-6 + place * 2e-6 : 0.0).margin(1e-15));
             }
         }
     }
@@ -89,19 +93,20 @@ TEST_CASE("A tooth's error shows while it touches, weighed with its load, and it
 TEST_CASE("A sun tooth carries its error from planet to planet, a ring tooth the other way") {
     const auto& pairs = LiangTrain::instance().pairs;
     const MarchPlan plan = error_plan(24, 24, dynamics::Motion::torsional);
-    const LoadShares shares(pairs, plan.grid);
     for (const bool on_sun : {true, false}) {
-        ToothErrors errors = no_errors(shares, pairs, 1);
+        ToothErrors errors = no_errors(pairs, 1);
         errors.gears[on_sun ? 0 : 1].error_m[0] = 1e-6;
         const int teeth = on_sun ? 19 : 81;
         std::vector<double> met(4, -1.0);  // phase at which the tooth begins to touch
         for (int k = 0; k < teeth; ++k) {
-            const auto all = tooth_error_overrides(plan, errors, k);
+            const auto all = tooth_error_overrides(plan, pairs, errors, k);
             for (std::size_t n = 0; n < 4; ++n) {
                 const auto pair = n + (on_sun ? 0 : 4);
-                const auto& e = all[pair].error;
-                const auto before = tooth_error_overrides(plan, errors, k - 1)[pair].error;
-                if (before.back() == 0.0 && *std::max_element(e.begin(), e.end()) > 0.0) {
+                const auto& e = all[pair].tooth_error;
+                const auto before =
+                    tooth_error_overrides(plan, pairs, errors, k - 1)[pair].tooth_error;
+                // The youngest tooth pair of the last node.
+                if (before[before.size() - 2] == 0.0 && e[e.size() - 2] > 0.0) {
                     met[n] = k + pairs.start[pair];
                 }
             }
@@ -127,8 +132,8 @@ TEST_CASE(
     MarchPlan plan = error_plan(12, 12, dynamics::Motion::torsional);
     plan.grid = make_phase_grid(12, 12, contact_transitions(pairs));
     plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::ratio);
-    const LoadShares shares(pairs, plan.grid);
-    ToothErrors errors = no_errors(shares, pairs, 1);
+    add_tooth_pairs(pairs, plan.grid, plan.nodes);
+    ToothErrors errors = no_errors(pairs, 1);
     errors.gears[2].error_m[5] = 4e-6;  // planet 1, sun side
     FaultCurves faults;
     faults.pairs = &pairs;
@@ -156,8 +161,7 @@ TEST_CASE(
 TEST_CASE("Marched with tooth errors, lanes keep their bits; without errors nothing changes") {
     const auto& train = LiangTrain::instance();
     const MarchPlan plan = error_plan(12, 1200, dynamics::Motion::torsional);
-    const LoadShares shares(train.pairs, plan.grid);
-    ToothErrors errors = no_errors(shares, train.pairs, 8);
+    ToothErrors errors = no_errors(train.pairs, 8);
     FaultCurves faults =
         train.ring_side_cracks({0.0, 0.5e-3, 1e-3, 2e-3, 3e-3, 3.5e-3, 4e-3, 4.28e-3});
     const std::vector<dynamics::GearboxInputs> inputs(8, train.inputs(10.0));
@@ -178,7 +182,7 @@ TEST_CASE("Marched with tooth errors, lanes keep their bits; without errors noth
         CHECK(none.records[r].acceleration == plain.records[r].acceleration);
     }
     for (const std::size_t l : {0U, 5U}) {
-        ToothErrors own = no_errors(shares, train.pairs, 1);
+        ToothErrors own = no_errors(train.pairs, 1);
         for (std::size_t g = 0; g < own.gears.size(); ++g) {
             for (std::size_t i = 0; i < own.gears[g].error_m.size(); ++i) {
                 own.gears[g].error_m[i] = errors.gears[g].error_m[8 * i + l];
@@ -196,4 +200,73 @@ TEST_CASE("Marched with tooth errors, lanes keep their bits; without errors noth
             }
         }
     }
+}
+
+TEST_CASE("Two tooth pairs share a load at rest by their gaps, and the one behind lets go") {
+    const auto& gearbox = test::TianGearbox::instance();
+    constexpr double k = 3e8, kRatio = 1.5;
+    const stiffness::SquareWaveMesh mesh(k, 2.0 * k, kRatio);
+    const PairSet pairs{{&mesh}, {0.0}, false};
+    MarchPlan plan = gearbox.plan(16, 16, Integrator::rk4);
+    plan.mesh_law = dynamics::MeshLaw::pushing;
+    plan.grid = make_phase_grid(16, 16, contact_transitions(pairs));
+    plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
+    add_tooth_pairs(pairs, plan.grid, plan.nodes);
+    const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, 0);
+    plan.te_weight.assign(row.begin(), row.end());  // the deflection itself
+
+    auto in = gearbox.inputs();
+    in.load_torque_N_m = in.motor_torque_N_m * 48 / 19;
+    const double force = in.motor_torque_N_m / gearbox.pinion.base_radius();
+    const std::vector<dynamics::GearboxInputs> inputs(8, in);
+    // Pinion tooth 3 has a gap in lanes 1 to 7; the largest is more than the pair deflects.
+    ToothErrors errors{
+        {{19, machine::AlignedVector(19 * 8, 0.0)}, {48, machine::AlignedVector(48 * 8, 0.0)}},
+        fixed_shaft_teeth()};
+    for (std::size_t l = 0; l < 8; ++l) {
+        errors.gears[0].error_m[3 * 8 + l] = 0.3 * static_cast<double>(l) * force / k;
+    }
+    // It has lost half of its stiffness as well in lanes 2 and 6.
+    const stiffness::BrokenTooth family;
+    FaultCurves faults{&pairs, shaft_fault_pattern(pairs, 19), {{}}};
+    faults.curve[0].resize(8);
+    for (FaultPassage& passage : faults.pattern.passages) {
+        passage.start += 3.0;
+    }
+    for (const std::size_t l : {2U, 6U}) {
+        faults.curve[0][l] = stiffness::faulty_mesh(mesh, family.at(0.5));
+    }
+    faults.tooth_errors = &errors;
+    TileSettings settings;
+    settings.march_meshes = 7;
+    const TileResult tile = run_quasi_static<8>(plan, inputs, faults, settings);
+    int alone = 0;
+    for (int mesh_period = 2; mesh_period < 6; ++mesh_period) {
+        const auto& te = tile.records[static_cast<std::size_t>(
+                                          tile.content[static_cast<std::size_t>(mesh_period)])]
+                             .te;
+        for (int i = 1; i < 16; ++i) {
+            const double since = mesh_period + i / 16.0 - 3.0;  // of tooth 3
+            if (std::abs(since - std::round(2.0 * since) / 2.0) < 1e-9) {
+                continue;  // on a transition
+            }
+            for (std::size_t l = 0; l < 8; ++l) {
+                const bool touches = since > 0.0 && since < kRatio;
+                const bool two = i < 8;
+                const double own = faults.curve[0][l] ? 0.5 * k : k;
+                const double gap = errors.gears[0].error_m[3 * 8 + l];
+                double expected = force / (two ? 2.0 * k : k);
+                if (touches && !two) {
+                    expected = gap + force / own;
+                } else if (touches) {
+                    const double both = (force + own * gap) / (own + k);
+                    expected = both > gap ? both : force / k;
+                    alone += both > gap ? 0 : 1;
+                }
+                INFO("since " << since << ", lane " << l);
+                CHECK(te[static_cast<std::size_t>(i) * 8 + l] == Approx(expected).epsilon(1e-9));
+            }
+        }
+    }
+    CHECK(alone > 10);
 }

@@ -260,8 +260,8 @@ TEST_CASE("The features of a fixed-shaft gearbox single out the broken tooth's t
 
 TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from its study") {
     const Scene scene(study_of(kSpatialCrackStudy));
-    CHECK(scene.plan().mesh_law == dynamics::MeshLaw::separating);
-    CHECK(scene.load_shares() != nullptr);
+    CHECK(scene.plan().mesh_law == dynamics::MeshLaw::pushing);
+    CHECK(scene.plan().nodes.tooth_pairs == 2);
     CHECK(scene.fault().largest_size() == 5.0);
     const auto inputs =
         std::get<dynamics::PlanetaryInputs>(scene.inputs(mc::Sampler(scene.study()).nominal()));

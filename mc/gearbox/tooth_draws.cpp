@@ -1,0 +1,186 @@
+#include "mc/gearbox/tooth_draws.hpp"
+
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+
+#include "gears/tooth_deviations.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// A gear with one working side, or a planet with two.
+struct ToothedBody {
+    Member member;
+    int which;                       // of the planets
+    std::vector<std::size_t> sides;  // places in lockstep::ToothErrors
+    std::vector<int> first;          // which of its teeth a side counts as 0
+};
+
+// The tooth of planet n that its ring side counts as 0: it engages with the ring half a planet turn
+// after it did with the sun (lockstep::planet_fault_pattern).
+int first_on_ring(const lockstep::PairSet& pairs, int n, int teeth) {
+    const int ring_pair = pairs.pairs() / 2 + n;
+    const double half_turn = 0.5 * (teeth + (pairs.reversed ? 1 : -1));
+    const long later = std::lround(pairs.pitch_phase(n) + half_turn - pairs.pitch_phase(ring_pair));
+    return static_cast<int>((teeth - later % teeth) % teeth);
+}
+
+// In the order of lockstep::planetary_teeth and fixed_shaft_teeth.
+std::vector<ToothedBody> toothed_bodies(const Scene& scene) {
+    const Study& study = scene.study();
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return {{Member::pinion, 0, {0}, {0}}, {Member::gear, 0, {1}, {0}}};
+    }
+    std::vector<ToothedBody> bodies{{Member::sun, 0, {0}, {0}}, {Member::ring, 0, {1}, {0}}};
+    const int teeth = teeth_of(study, Member::planet).value();
+    for (int n = 0; n < study.gearbox.planets; ++n) {
+        const auto side = 2 + 2 * static_cast<std::size_t>(n);
+        bodies.push_back(
+            {Member::planet, n, {side, side + 1}, {0, first_on_ring(scene.pairs(), n, teeth)}});
+    }
+    return bodies;
+}
+
+using Normal = boost::random::normal_distribution<double>;
+
+gears::WaveNumbers wave_numbers(Philox& engine) {
+    Normal unit;
+    gears::WaveNumbers numbers;
+    for (double& number : numbers.centre) {
+        number = unit(engine);
+    }
+    for (int h = 0; h < gears::WaveNumbers::kHarmonics; ++h) {
+        numbers.cosine[h] = unit(engine);
+        numbers.sine[h] = unit(engine);
+    }
+    return numbers;
+}
+
+gears::DeviationScales scales_of_member(const Scene& scene, Member member,
+                                        const InstanceInputs& inputs) {
+    return gears::combined(
+        gears::scaled(scene.tooth_scales()[member], inputs.bodies[member].tooth_scale),
+        {inputs.eccentricity_m, inputs.index_wave_m, inputs.pitch_error_m, 0.0,
+         inputs.profile_slope_m});
+}
+
+// Fills one lane of all flanks.
+class LaneTeeth {
+  public:
+    LaneTeeth(const Scene& scene, std::size_t lane, std::size_t lanes, Philox pitch, Philox waves,
+              Philox slopes, lockstep::ToothErrors& errors)
+        : scene_(scene),
+          lane_(lane),
+          lanes_(lanes),
+          pitch_(std::move(pitch)),
+          waves_(std::move(waves)),
+          slopes_(std::move(slopes)),
+          errors_(errors) {}
+
+    void draw(const ToothedBody& body, const gears::DeviationScales& scales) {
+        const gears::WaveNumbers numbers = wave_numbers(waves_);
+        for (std::size_t s = 0; s < body.sides.size(); ++s) {
+            lockstep::GearErrors& flanks = errors_.gears[body.sides[s]];
+            // Teeth are numbered as they engage, against the turn of gears that turn backwards.
+            const int looks = (s == 0) != scene_.pairs().reversed ? 1 : -1;
+            const gears::FlankDeviations wave = gears::wave_deviations(
+                flanks.teeth, transverse_pressure_angle_rad(scene_.study().gearbox), scales,
+                numbers, looks);
+            const Engagement engagement = engagement_of(body.sides[s]);
+            // The wave speaks of the flank a quarter of a pitch from the tooth's middle, in contact
+            // at the pitch point; the deviation is that of the engagement's middle.
+            const double ahead = 0.25 * looks + engagement.from_pitch;
+            const double common = scales.common_slope * unit_(slopes_);
+            const std::span<const double> measured = measured_index(body, s, flanks.teeth);
+            for (int t = 0; t < flanks.teeth; ++t) {
+                const auto at = static_cast<std::size_t>(t) * lanes_ + lane_;
+                const auto tooth = static_cast<std::size_t>((t + body.first[s]) % flanks.teeth);
+                const double scatter = scales.pitch * scatter_(pitch_);
+                const double own_slope = common + scales.slope * unit_(slopes_);
+                const bool drawn = measured.empty();
+                const double drift = drawn ? wave.drift_m[tooth] : 0.0;
+                flanks.error_m[at] =
+                    drawn ? wave.index_m[tooth] + ahead * drift + scatter : measured[tooth];
+                flanks.slope_m[at] = own_slope + engagement.outwards * drift;
+            }
+        }
+    }
+
+  private:
+    // Of one gear's side; empty where it is drawn.
+    std::span<const double> measured_index(const ToothedBody& body, std::size_t side,
+                                           int teeth) const {
+        const MemberValues& given = scene_.study().gearbox.bodies[body.member];
+        const std::span<const double> all = side == 0 ? given.index_m : given.ring_side_index_m;
+        return all.empty() ? all
+                           : all.subspan(static_cast<std::size_t>(body.which * teeth),
+                                         static_cast<std::size_t>(teeth));
+    }
+
+    // Mesh periods from the contact at the pitch point to the middle of the engagement, and those
+    // of all of it from the root to the tip: negative if it runs the other way.
+    struct Engagement {
+        double from_pitch = 0.0, outwards = 0.0;
+    };
+    Engagement engagement_of(std::size_t side) const {
+        for (std::size_t p = 0; p < errors_.pairs.size(); ++p) {
+            const lockstep::PairTeeth& teeth = errors_.pairs[p];
+            const int pair = static_cast<int>(p);
+            const lockstep::PairSet& pairs = scene_.pairs();
+            for (const int which : {0, 1}) {
+                if (static_cast<std::size_t>(teeth.gear[which]) == side) {
+                    const double ratio = pairs.curve(pair).contact_ratio();
+                    const bool outwards = (which == teeth.driver) != pairs.reversed;
+                    return {0.5 * ratio - (pairs.pitch_phase(pair) - pairs.start[p]),
+                            outwards ? ratio : -ratio};
+                }
+            }
+        }
+        return {};
+    }
+
+    const Scene& scene_;
+    std::size_t lane_, lanes_;
+    Philox pitch_, waves_, slopes_;
+    Normal scatter_, unit_;
+    lockstep::ToothErrors& errors_;
+};
+
+}  // namespace
+
+std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
+                                                       std::span<const GearboxId> ids,
+                                                       std::span<const InstanceInputs> inputs) {
+    if (!has_tooth_errors(scene.study())) {
+        return std::nullopt;
+    }
+    const std::size_t lanes = inputs.size();
+    const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive());
+    lockstep::ToothErrors errors;
+    errors.pairs =
+        planetary == nullptr
+            ? lockstep::fixed_shaft_teeth()
+            : lockstep::planetary_teeth(scene.pairs(), planetary->train(), planetary->sense());
+    const std::vector<ToothedBody> bodies = toothed_bodies(scene);
+    for (const ToothedBody& body : bodies) {
+        const int teeth = teeth_of(scene.study(), body.member).value();
+        const machine::AlignedVector none(static_cast<std::size_t>(teeth) * lanes);
+        errors.gears.insert(errors.gears.end(), body.sides.size(), {teeth, none, none});
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const auto stream = [&](const char* purpose) {
+            return stream_of(scene, ids, lane, purpose);
+        };
+        LaneTeeth teeth(scene, lane, lanes, stream("gearbox.pitch_error.teeth"),
+                        stream("gearbox.index_wave.gears"), stream("gearbox.profile_slope.teeth"),
+                        errors);
+        for (const ToothedBody& body : bodies) {
+            teeth.draw(body, scales_of_member(scene, body.member, inputs[lane]));
+        }
+    }
+    return errors;
+}
+
+}  // namespace gearpod::mc

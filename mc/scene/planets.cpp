@@ -1,0 +1,56 @@
+#include "mc/scene/planets.hpp"
+
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace gearpod::mc {
+namespace {
+
+double angle_of(const Gearbox& gearbox, std::size_t planet) {
+    return gearbox.planet_positions_rad.empty()
+               ? 2.0 * std::numbers::pi * static_cast<double>(planet) / gearbox.planets
+               : gearbox.planet_positions_rad[planet];
+}
+
+void move_pin(double angle, double tangential_m, double radial_m, PlanetInstance& planet) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    planet.pin_x_m += radial_m * c - tangential_m * s;
+    planet.pin_y_m += radial_m * s + tangential_m * c;
+}
+
+double of_planet(const std::vector<double>& list, std::size_t planet, double otherwise) {
+    return planet < list.size() ? list[planet] : otherwise;
+}
+
+}  // namespace
+
+Planets given_planets(const Study& study) {
+    const UnlikePlanets& given = study.planets;
+    Planets planets;
+    for (std::size_t n = 0; n < planets.size(); ++n) {
+        planets[n] = {of_planet(given.bearing_stiffness, n, 1.0),
+                      of_planet(given.bearing_damping, n, 1.0), of_planet(given.mass, n, 1.0), 0.0,
+                      0.0};
+        if (!given.pin_tangential_m.empty() || !given.pin_radial_m.empty()) {
+            move_pin(angle_of(study.gearbox, n), of_planet(given.pin_tangential_m, n, 0.0),
+                     of_planet(given.pin_radial_m, n, 0.0), planets[n]);
+        }
+    }
+    return planets;
+}
+
+void draw_planets(const Study& study, Philox engine, Planets& planets) {
+    const UnlikePlanets& drawn = study.planets;
+    boost::random::normal_distribution<double> unit;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
+        const double tangential = unit(engine), radial = unit(engine);
+        move_pin(angle_of(study.gearbox, n), drawn.pin_tangential_rms_m * tangential,
+                 drawn.pin_radial_rms_m * radial, planets[n]);
+        planets[n].bearing_stiffness *= std::exp(drawn.bearing_stiffness_scatter * unit(engine));
+        planets[n].bearing_damping *= std::exp(drawn.bearing_damping_scatter * unit(engine));
+        planets[n].mass *= std::exp(drawn.mass_scatter * unit(engine));
+    }
+}
+
+}  // namespace gearpod::mc
