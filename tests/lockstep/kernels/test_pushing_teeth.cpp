@@ -8,6 +8,7 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 #include "lockstep/plan/transmission_error.hpp"
+#include "lockstep/tile/driven_march.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "tests/lockstep/liang_train.hpp"
@@ -278,5 +279,68 @@ TEST_CASE("Teeth with errors move as an independent march moves them, in and out
                 CHECK((q - expected.q).norm() < allowed * expected.q.norm());
             }
         }
+    }
+}
+
+TEST_CASE("Varying forces, an uneven speed and single precision march the same teeth") {
+    const auto& train = LiangTrain::instance();
+    const ToothErrors errors = random_errors(train.pairs, 1e-6, true);
+    FaultCurves faults = train.ring_side_cracks(kDepths);
+    faults.tooth_errors = &errors;
+    const auto trains = light_trains(1.0, 10.0);
+    const auto full = dynamics::Motion::translational_torsional;
+    const auto end_of = [&](const MarchPlan& plan, auto& march) {
+        TileState state = rest_state(plan, trains);
+        MeshRecord record = make_record(plan, 8, false);
+        march(FaultSchedule(plan, faults).all_overrides(0), state, record);
+        return state.q;
+    };
+    // Nothing varies, but their own kernels march.
+    Excitation torque, speed;
+    const machine::AlignedVector none(8, 0.0), one(8, 1.0);
+    torque.torque = Fluctuation{none, one, none, none, {}, {}, {}};
+    speed.speed = Fluctuation{none, one, none, none, {}, {}, {}};
+    for (const auto& [integrator, excitation] :
+         {std::pair{Integrator::rk4, &torque}, std::pair{Integrator::sdirk3, &torque},
+          std::pair{Integrator::rk4, &speed}}) {
+        const MarchPlan plan = plan_for(integrator, MeshLaw::pushing, 2400, full);
+        excitation->driving =
+            std::get<dynamics::PlanetaryLayout>(plan.layout).rotation_index(dynamics::sun);
+        excitation->turning_m_s = one;
+        const auto steady = make_mesh_march<8>(plan, trains);
+        const auto driven = make_driven_march<8>(plan, *excitation, trains);
+        const auto expected = end_of(plan, *steady);
+        const auto varied = [&](const auto& overrides, TileState& state, MeshRecord& record) {
+            (*driven)(0, overrides, state, record);
+        };
+        CHECK(largest_difference(end_of(plan, varied), expected) < 1e-9 * largest(expected));
+    }
+    // Sixteen singles, the eight gearboxes twice.
+    MarchPlan plan = plan_for(Integrator::rk4, MeshLaw::pushing, 2400, full);
+    const auto expected = end_of(plan, *make_mesh_march<8>(plan, trains));
+    plan.precision = Precision::single_precision;
+    ToothErrors twice = errors;
+    for (GearErrors& gear : twice.gears) {
+        for (auto* values : {&gear.error_m, &gear.slope_m}) {
+            const machine::AlignedVector own = *values;
+            values->resize(2 * own.size());
+            for (std::size_t i = 0; i < values->size(); ++i) {
+                (*values)[i] = own[i / 16 * 8 + i % 8];
+            }
+        }
+    }
+    auto sixteen = trains;
+    sixteen.insert(sixteen.end(), trains.begin(), trains.end());
+    auto depths = kDepths;
+    depths.insert(depths.end(), kDepths.begin(), kDepths.end());
+    FaultCurves both = train.ring_side_cracks(depths);
+    both.tooth_errors = &twice;
+    TileState state = rest_state(plan, sixteen);
+    MeshRecord record = make_record(plan, 16, false);
+    (*make_mesh_march<16>(plan, sixteen))(FaultSchedule(plan, both).all_overrides(0), state,
+                                          record);
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+        const double own = expected[i / 16 * 8 + i % 8];
+        CHECK(state.q[i] == Approx(own).margin(1e-4 * largest(expected)));
     }
 }
