@@ -1,7 +1,6 @@
 #include "lockstep/plan/tooth_errors.hpp"
 
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
 #include "lockstep/plan/tooth_pairs.hpp"
@@ -14,23 +13,28 @@ int tooth_of(int mesh_period, int first, int teeth) {
     return tooth < 0 ? tooth + teeth : tooth;
 }
 
-// A gear's tooth in an engagement, and which end of its flank the contact starts from.
-struct Flank {
-    const GearErrors& gear;
-    std::size_t tooth;
-    double sense;  // 1: from the root, -1: from the tip
+// Gaps of one tooth pair, [lane]: at the middle of its engagement, and how much they grow along it.
+struct PairGap {
+    machine::AlignedVector middle, growth;
+};
 
-    // Adds its gaps at a place along the line of action, -1/2 to 1/2 from its start to its end.
-    void add(double place, std::span<double> gap) const {
-        const std::size_t width = gap.size();
+// Of the tooth pair that begins to engage in mesh period m.
+PairGap gap_of(const ToothErrors& errors, const PairTeeth& teeth, int m, bool reversed,
+               std::size_t width) {
+    PairGap gap{machine::AlignedVector(width), machine::AlignedVector(width)};
+    for (const int side : {0, 1}) {
+        const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
+        const auto tooth =
+            static_cast<std::size_t>(tooth_of(m, teeth.first[side], gear.teeth)) * width;
+        // The driver's flank is touched from the root, or from the tip where contact runs back.
+        const double sense = (side == teeth.driver) != reversed ? 1.0 : -1.0;
         for (std::size_t l = 0; l < width; ++l) {
-            gap[l] += gear.error_m[tooth * width + l];
-        }
-        for (std::size_t l = 0; l < width && !gear.slope_m.empty(); ++l) {
-            gap[l] = std::fma(sense * place, gear.slope_m[tooth * width + l], gap[l]);
+            gap.middle[l] += gear.error_m[tooth + l];
+            gap.growth[l] += gear.slope_m.empty() ? 0.0 : sense * gear.slope_m[tooth + l];
         }
     }
-};
+    return gap;
+}
 
 }  // namespace
 
@@ -74,32 +78,33 @@ std::vector<PairOverride> tooth_error_overrides(const MarchPlan& plan, const Pai
     std::vector<PairOverride> all;
     for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
         const PairTeeth& teeth = errors.pairs[static_cast<std::size_t>(pair)];
+        const double start = pairs.start[static_cast<std::size_t>(pair)];
         const double ratio = pairs.curve(pair).contact_ratio();
+        std::vector<PairGap> gaps;  // [age]
+        for (int age = 0; age < start + ratio; ++age) {
+            gaps.push_back(gap_of(errors, teeth, k - age, pairs.reversed, width));
+        }
         PairOverride o{pair, 0, static_cast<int>(plan.grid.steps.size()), {}, {}};
-        o.tooth_error.assign(plan.grid.steps.size() * nodes * slots * width, 0.0);
-        std::size_t at = 0;  // stage node
+        o.tooth_error.resize(plan.grid.steps.size() * nodes * slots * width);
+        double* row = o.tooth_error.data();
         for (const Step& step : plan.grid.steps) {
             const TouchingTeeth touching =
                 touching_teeth(pairs, pair, step.phase + 0.5 * step.length);
-            for (int j = 0; j < touching.count; ++j) {
-                const int age = touching.youngest + j;
-                const double engaged = pairs.start[static_cast<std::size_t>(pair)] - age;
-                for (std::size_t n = 0; n < nodes; ++n) {
-                    const double since =
-                        step.phase + plan.grid.stage_nodes[n] * step.length - engaged;
-                    const double place = (pairs.reversed ? -1.0 : 1.0) * (since / ratio - 0.5);
-                    const std::span gap(
-                        &o.tooth_error[((at + n) * slots + static_cast<std::size_t>(j)) * width],
-                        width);
-                    for (const int side : {0, 1}) {
-                        const auto& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
-                        const int tooth = tooth_of(k - age, teeth.first[side], gear.teeth);
-                        const double sense = side == teeth.driver ? 1.0 : -1.0;
-                        Flank{gear, static_cast<std::size_t>(tooth), sense}.add(place, gap);
+            for (const double part : plan.grid.stage_nodes) {
+                const double since = step.phase + part * step.length - start + touching.youngest;
+                for (int j = 0; j < touching.count; ++j) {
+                    const PairGap& gap = gaps[static_cast<std::size_t>(touching.youngest + j)];
+                    const double place = (since + j) / ratio - 0.5;
+                    const double* middle = gap.middle.data();
+                    const double* growth = gap.growth.data();
+                    double* own = row + static_cast<std::size_t>(j) * width;
+#pragma omp simd
+                    for (std::size_t l = 0; l < width; ++l) {
+                        own[l] = std::fma(place, growth[l], middle[l]);
                     }
                 }
+                row += slots * width;
             }
-            at += nodes;
         }
         all.push_back(std::move(o));
     }

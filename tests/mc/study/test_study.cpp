@@ -207,9 +207,22 @@ TEST_CASE("The resolved text reads back to the same study, bit for bit") {
 TEST_CASE("The resolved text spells out every key that may be given") {
     const std::string text = resolved_text(study_of(kExampleStudy));
     // Those that mean something by not being given.
-    const std::vector<std::string_view> without_default{
-        "inertia", "speed", "size_edges_mm", "planet_positions",   "ring_to_sun_phase", "bore",
-        "outer",   "error", "tones",         "torque_fluctuation", "torque_noise",      "until"};
+    const std::vector<std::string_view> without_default{"inertia",
+                                                        "speed",
+                                                        "size_edges_mm",
+                                                        "planet_positions",
+                                                        "ring_to_sun_phase",
+                                                        "bore",
+                                                        "outer",
+                                                        "error",
+                                                        "tones",
+                                                        "torque_fluctuation",
+                                                        "torque_noise",
+                                                        "until",
+                                                        "pin_",
+                                                        "_factors",
+                                                        "index_um",
+                                                        "quality"};
     for (const Key& key : schema()) {
         const bool optional_here =
             key.presence(study_of(kExampleStudy)).need == Need::optional &&
