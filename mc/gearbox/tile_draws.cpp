@@ -61,9 +61,7 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
 }  // namespace
 
 int run_in_meshes(const Scene& scene) {
-    const bool orbit =
-        !has_tooth_errors(scene.study()) && why_no_mesh_repeats(scene.study()).empty();
-    return orbit ? 0 : scene.max_meshes() / 2;
+    return why_no_mesh_repeats(scene.study()).empty() ? 0 : scene.max_meshes() / 2;
 }
 
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mc/study/gears.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -42,6 +44,7 @@ std::string why_no_mesh_repeats(const Study& study) {
     return torque_fluctuates(study)  ? "the torque fluctuates"
            : speed_fluctuates(study) ? "the speed fluctuates"
            : gravity_turns(study)    ? "gravity turns past the carrier"
+           : has_tooth_errors(study) ? "every tooth has errors of its own"
                                      : "";
 }
 

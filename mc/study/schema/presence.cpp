@@ -133,17 +133,8 @@ Presence backlash(const Study& s) {
                           {"effects.separation"}};
 }
 
-Presence tooth_errors(const Study& s) {
-    return s.numerics.horizon == Horizon::march
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only for numerics.horizon = \"march\": every tooth differs, so that "
-                          "no mesh repeats",
-                          {"numerics.horizon"}};
-}
-
 Presence tooth_quality(const Study& s) {
-    return has_gears(s) ? tooth_errors(s)
+    return has_gears(s) ? kOptional
                         : Presence{Need::forbidden,
                                    "tolerances need the gears' teeth and module",
                                    {"gearbox.module_mm"}};

@@ -29,7 +29,6 @@ Presence square_wave(const Study&);         // only if it is
 Presence foundation(const Study&);          // required for one
 Presence ring_foundation(const Study&);     // required for one of which rings have one
 Presence backlash(const Study&);            // only for two-sided separation
-Presence tooth_errors(const Study&);        // only where every mesh is marched
 Presence tooth_quality(const Study&);       // and the gears are known
 Presence bearings_move(const Study&);       // only where planets move on their bearings
 Presence bearings_damp(const Study&);       // and not without inertia

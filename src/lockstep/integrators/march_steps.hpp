@@ -81,6 +81,7 @@ GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
     const double* shared =
         plan.nodes.tooth_stiffness.data() + (step * nodes + node) * known * pairs;
+    const double* places = plan.nodes.tooth_place.data() + (step * nodes + node) * known * pairs;
     for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
         for (int pair = 0; pair < pairs; ++pair) {
             const int row = j * kRows + pair * W;
@@ -102,8 +103,13 @@ GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
             if (!o.tooth_stiffness.empty()) {
                 round_row<W>(o.tooth_stiffness.data() + at + j * W, m.tooth_k + row);
             }
-            if (!o.tooth_error.empty()) {
-                round_row<W>(o.tooth_error.data() + at + j * W, m.tooth_e + row);
+            if (!o.gap.empty()) {
+                const double place = places[j * pairs + o.pair];
+                const double *gap = o.gap.data() + j * W, *growth = o.gap_growth.data() + j * W;
+                for (int l = 0; l < W; ++l) {
+                    m.tooth_e[row + l] =
+                        static_cast<RealOf<Model>>(std::fma(place, growth[l], gap[l]));
+                }
             }
         }
     }

@@ -54,9 +54,12 @@ struct PairOverride {
     machine::AlignedVector damping_shape;    // likewise
     machine::AlignedVector error = {};       // likewise, m
     machine::AlignedVector error_rate = {};  // likewise, m per mesh period
-    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m and m; as many
+    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m; as many
     // tooth pairs as the plan's nodes know, or one.
-    machine::AlignedVector tooth_stiffness = {}, tooth_error = {};
+    machine::AlignedVector tooth_stiffness = {};
+    // Likewise, but the same during all these steps, [tooth pair][lane], m: the gap in the middle
+    // of an engagement, and how much it grows along it (StiffnessNodes::tooth_place).
+    machine::AlignedVector gap = {}, gap_growth = {};
 };
 
 // A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in

@@ -48,6 +48,9 @@ struct StiffnessNodes {
     // 0 where fewer touch: how many of them, and their stiffness. 0 and empty unless asked for.
     int tooth_pairs = 0;
     std::vector<double> tooth_stiffness;
+    // Likewise: where along the line of action each stands, -1/2 to 1/2 from the start to the end
+    // of contact in the sense of gears::MeshGeometry.
+    std::vector<double> tooth_place;
 };
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);

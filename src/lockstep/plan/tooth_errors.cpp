@@ -1,6 +1,7 @@
 #include "lockstep/plan/tooth_errors.hpp"
 
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "lockstep/plan/tooth_pairs.hpp"
@@ -13,27 +14,26 @@ int tooth_of(int mesh_period, int first, int teeth) {
     return tooth < 0 ? tooth + teeth : tooth;
 }
 
-// Gaps of one tooth pair, [lane]: at the middle of its engagement, and how much they grow along it.
-struct PairGap {
-    machine::AlignedVector middle, growth;
+// Of a tooth pair in one lane, m.
+struct TouchingGap {
+    double gap = 0.0, growth = 0.0;
 };
 
-// Of the tooth pair that begins to engage in mesh period m.
-PairGap gap_of(const ToothErrors& errors, const PairTeeth& teeth, int m, bool reversed,
-               std::size_t width) {
-    PairGap gap{machine::AlignedVector(width), machine::AlignedVector(width)};
+TouchingGap touching_gap(const ToothErrors& errors, int pair, int k, std::size_t lane,
+                         std::size_t width) {
+    const PairTeeth& teeth = errors.pairs[static_cast<std::size_t>(pair)];
+    TouchingGap sum;
     for (const int side : {0, 1}) {
         const GearErrors& gear = errors.gears[static_cast<std::size_t>(teeth.gear[side])];
-        const auto tooth =
-            static_cast<std::size_t>(tooth_of(m, teeth.first[side], gear.teeth)) * width;
-        // The driver's flank is touched from the root, or from the tip where contact runs back.
-        const double sense = (side == teeth.driver) != reversed ? 1.0 : -1.0;
-        for (std::size_t l = 0; l < width; ++l) {
-            gap.middle[l] += gear.error_m[tooth + l];
-            gap.growth[l] += gear.slope_m.empty() ? 0.0 : sense * gear.slope_m[tooth + l];
+        const auto tooth = static_cast<std::size_t>(tooth_of(k, teeth.first[side], gear.teeth));
+        sum.gap += gear.error_m[tooth * width + lane];
+        if (!gear.slope_m.empty()) {
+            // The driver's flank is touched from the root to the tip.
+            const double slope = gear.slope_m[tooth * width + lane];
+            sum.growth += side == teeth.driver ? slope : -slope;
         }
     }
-    return gap;
+    return sum;
 }
 
 }  // namespace
@@ -71,44 +71,52 @@ void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int ma
 
 std::vector<PairOverride> tooth_error_overrides(const MarchPlan& plan, const PairSet& pairs,
                                                 const ToothErrors& errors, int k) {
-    const std::size_t nodes = plan.grid.stage_nodes.size();
-    const GearErrors& any = errors.gears.front();
-    const std::size_t width = any.error_m.size() / static_cast<std::size_t>(any.teeth);
+    const std::size_t width = errors.lanes();
     const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
+    const auto& steps = plan.grid.steps;
     std::vector<PairOverride> all;
     for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
-        const PairTeeth& teeth = errors.pairs[static_cast<std::size_t>(pair)];
-        const double start = pairs.start[static_cast<std::size_t>(pair)];
-        const double ratio = pairs.curve(pair).contact_ratio();
-        std::vector<PairGap> gaps;  // [age]
-        for (int age = 0; age < start + ratio; ++age) {
-            gaps.push_back(gap_of(errors, teeth, k - age, pairs.reversed, width));
-        }
-        PairOverride o{pair, 0, static_cast<int>(plan.grid.steps.size()), {}, {}};
-        o.tooth_error.resize(plan.grid.steps.size() * nodes * slots * width);
-        double* row = o.tooth_error.data();
-        for (const Step& step : plan.grid.steps) {
-            const TouchingTeeth touching =
-                touching_teeth(pairs, pair, step.phase + 0.5 * step.length);
-            for (const double part : plan.grid.stage_nodes) {
-                const double since = step.phase + part * step.length - start + touching.youngest;
-                for (int j = 0; j < touching.count; ++j) {
-                    const PairGap& gap = gaps[static_cast<std::size_t>(touching.youngest + j)];
-                    const double place = (since + j) / ratio - 0.5;
-                    const double* middle = gap.middle.data();
-                    const double* growth = gap.growth.data();
-                    double* own = row + static_cast<std::size_t>(j) * width;
-#pragma omp simd
-                    for (std::size_t l = 0; l < width; ++l) {
-                        own[l] = std::fma(place, growth[l], middle[l]);
-                    }
-                }
-                row += slots * width;
+        // The slots hold other teeth from the step on with which the next one begins to engage.
+        const auto youngest = [&](const Step& step) {
+            return touching_teeth(pairs, pair, step.phase + 0.5 * step.length).youngest;
+        };
+        for (std::size_t first = 0; first < steps.size();) {
+            const int age = youngest(steps[first]);
+            std::size_t last = first;
+            while (last < steps.size() && youngest(steps[last]) == age) {
+                ++last;
             }
+            PairOverride o{pair, static_cast<int>(first), static_cast<int>(last), {}, {}};
+            for (std::size_t j = 0; j < slots; ++j) {
+                for (std::size_t l = 0; l < width; ++l) {
+                    const TouchingGap own =
+                        touching_gap(errors, pair, k - age - static_cast<int>(j), l, width);
+                    o.gap.push_back(own.gap);
+                    o.gap_growth.push_back(own.growth);
+                }
+            }
+            all.push_back(std::move(o));
+            first = last;
         }
-        all.push_back(std::move(o));
     }
     return all;
+}
+
+double tooth_gap(const MarchPlan& plan, std::span<const PairOverride> overrides, int pair, int step,
+                 int node, int slot, int lane) {
+    const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const int slots = plan.nodes.tooth_pairs;
+    for (const PairOverride& o : overrides) {
+        if (o.pair == pair && o.first_step <= step && step < o.last_step && !o.gap.empty()) {
+            const auto at =
+                static_cast<std::size_t>(slot) * (o.gap.size() / static_cast<std::size_t>(slots)) +
+                static_cast<std::size_t>(lane);
+            const double place = plan.nodes.tooth_place[static_cast<std::size_t>(
+                ((step * nodes + node) * slots + slot) * plan.nodes.pairs + pair)];
+            return std::fma(place, o.gap_growth[at], o.gap[at]);
+        }
+    }
+    return 0.0;
 }
 
 }  // namespace gearpod::lockstep

@@ -3,6 +3,7 @@
 // meshes, so every mesh is marched for itself (TileSettings::march_meshes).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gears/planetary.hpp"
@@ -20,8 +21,8 @@ struct GearErrors {
 };
 
 // Of a pair's two gears: which, and in which mesh period its tooth 0 begins to engage there; and
-// which of the two drives in the mesh's geometry (gears::MeshGeometry): that one's teeth are touched
-// from the root to the tip, the other one's from the tip to the root.
+// which of the two drives in the mesh's geometry (gears::MeshGeometry): that one's teeth are
+// touched from the root to the tip, the other one's from the tip to the root.
 struct PairTeeth {
     int gear[2] = {};
     int first[2] = {};
@@ -31,6 +32,10 @@ struct PairTeeth {
 struct ToothErrors {
     std::vector<GearErrors> gears;
     std::vector<PairTeeth> pairs;
+
+    std::size_t lanes() const {
+        return gears.front().error_m.size() / static_cast<std::size_t>(gears.front().teeth);
+    }
 };
 
 // Whose teeth meet in a planetary train's pairs. Gears: the sun, the ring, then each planet's sun
@@ -47,5 +52,9 @@ void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int ma
 // The gaps of all pairs' tooth pairs in mesh k, which counts from any integer.
 std::vector<PairOverride> tooth_error_overrides(const MarchPlan& plan, const PairSet& pairs,
                                                 const ToothErrors& errors, int k);
+
+// The gap of one of a pair's tooth pairs at a stage node, m, as the march sees it.
+double tooth_gap(const MarchPlan& plan, std::span<const PairOverride> overrides, int pair, int step,
+                 int node, int slot, int lane);
 
 }  // namespace gearpod::lockstep

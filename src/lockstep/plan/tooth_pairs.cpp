@@ -27,6 +27,11 @@ double share_at(const PairSet& pairs, int pair, double since, double inside) {
 
 }  // namespace
 
+double engagement_place(const PairSet& pairs, int pair, double since) {
+    const double place = since / pairs.curve(pair).contact_ratio() - 0.5;
+    return pairs.reversed ? -place : place;
+}
+
 TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
     const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
     const int youngest = static_cast<int>(std::floor(-since)) + 1;
@@ -51,6 +56,7 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
     const auto count = static_cast<std::size_t>(nodes.pairs);
     const auto slots = static_cast<std::size_t>(nodes.tooth_pairs);
     nodes.tooth_stiffness.assign(nodes.stiffness.size() * slots, 0.0);
+    nodes.tooth_place.assign(nodes.stiffness.size() * slots, 0.0);
     std::size_t at = 0;  // stage node
     for (const Step& step : grid.steps) {
         const double middle = step.phase + 0.5 * step.length;
@@ -60,10 +66,11 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
                 const TouchingTeeth teeth = touching_teeth(pairs, pair, middle);
                 for (int j = 0; j < teeth.count; ++j) {
                     const double engaged = pairs.start[p] - teeth.youngest - j;
-                    nodes.tooth_stiffness[(at * slots + static_cast<std::size_t>(j)) * count + p] =
-                        nodes.stiffness[at * count + p] *
-                        share_at(pairs, pair, step.phase + part * step.length - engaged,
-                                 middle - engaged);
+                    const double since = step.phase + part * step.length - engaged;
+                    const std::size_t slot = (at * slots + static_cast<std::size_t>(j)) * count + p;
+                    nodes.tooth_stiffness[slot] = nodes.stiffness[at * count + p] *
+                                                  share_at(pairs, pair, since, middle - engaged);
+                    nodes.tooth_place[slot] = engagement_place(pairs, pair, since);
                 }
             }
             ++at;

@@ -16,6 +16,10 @@ struct TouchingTeeth {
 };
 TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase);
 
+// Where along the line of action a tooth pair stands, `since` mesh periods after it began to
+// engage: -1/2 to 1/2 from the start to the end of contact in the sense of MeshGeometry.
+double engagement_place(const PairSet& pairs, int pair, double since);
+
 // Adds the columns of the tooth pairs: each carries its share of its pair's total. Throws
 // std::invalid_argument where more than dynamics::kMostToothPairs touch at once.
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes);

@@ -109,6 +109,8 @@ class QuasiStatic {
         const std::size_t pairs = static_cast<std::size_t>(plan_.nodes.pairs), rows = pairs * W;
         const double* shared = plan_.nodes.tooth_stiffness.data() +
                                static_cast<std::size_t>(step * nodes) * known * pairs;
+        const double* places =
+            plan_.nodes.tooth_place.data() + static_cast<std::size_t>(step * nodes) * known * pairs;
         for (std::size_t i = 0; i < known * rows; ++i) {
             state_.tooth_k[i] = shared[i / W];
         }
@@ -130,8 +132,10 @@ class QuasiStatic {
                 if (!o.tooth_stiffness.empty()) {
                     std::copy_n(o.tooth_stiffness.begin() + from, W, state_.tooth_k.begin() + row);
                 }
-                if (!o.tooth_error.empty()) {
-                    std::copy_n(o.tooth_error.begin() + from, W, state_.tooth_e.begin() + row);
+                for (std::size_t l = 0; l < W && !o.gap.empty(); ++l) {
+                    const double place = places[j * pairs + static_cast<std::size_t>(o.pair)];
+                    state_.tooth_e[static_cast<std::size_t>(row) + l] =
+                        std::fma(place, o.gap_growth[j * W + l], o.gap[j * W + l]);
                 }
             }
         }

@@ -47,11 +47,8 @@ TEST_CASE("Equal errors of all teeth are one error, of both gears, while a tooth
     for (const int k : {-3, 0, 1000}) {
         for (const PairOverride& o : tooth_error_overrides(plan, pairs, errors, k)) {
             CHECK((o.stiffness.empty() && o.error.empty() && o.tooth_stiffness.empty()));
-            for (std::size_t i = 0; i < o.tooth_error.size(); ++i) {
-                const double k_j =
-                    plan.nodes.tooth_stiffness[i * 8 + static_cast<std::size_t>(o.pair)];
-                CHECK(o.tooth_error[i] == (k_j > 0.0 ? 4e-6 : 0.0));
-            }
+            CHECK(o.gap == machine::AlignedVector(2, 4e-6));
+            CHECK(o.gap_growth == machine::AlignedVector(2, 0.0));
         }
     }
 }
@@ -72,7 +69,6 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
         const int first = errors.pairs[1].first[on_sun ? 0 : 1];
         for (int k = 0; k < 2 * gear.teeth; ++k) {
             const auto all = tooth_error_overrides(plan, pairs, errors, k);
-            const PairOverride& o = all[1];  // planet 2's mesh with the sun
             for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
                 const Step& step = plan.grid.steps[s];
                 const double middle = k + step.phase + 0.5 * step.length;
@@ -80,7 +76,10 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
                     middle - (tooth + first + pairs.start[1]) + 10.0 * gear.teeth, gear.teeth);
                 double sum = 0.0;
                 for (std::size_t j = 0; j < 2; ++j) {
-                    sum += o.tooth_error[(3 * s + 1) * 2 + j];
+                    const auto k_j = plan.nodes.tooth_stiffness[((3 * s + 1) * 2 + j) * 8 + 1];
+                    const double gap =
+                        tooth_gap(plan, all, 1, static_cast<int>(s), 1, static_cast<int>(j), 0);
+                    sum += k_j > 0.0 ? gap : 0.0;
                 }
                 // The sun drives: its flank is touched from the root to the tip.
                 const double place = (on_sun ? 1.0 : -1.0) * (since / ratio - 0.5);
@@ -100,13 +99,15 @@ TEST_CASE("A sun tooth carries its error from planet to planet, a ring tooth the
         std::vector<double> met(4, -1.0);  // phase at which the tooth begins to touch
         for (int k = 0; k < teeth; ++k) {
             const auto all = tooth_error_overrides(plan, pairs, errors, k);
+            const auto before = tooth_error_overrides(plan, pairs, errors, k - 1);
+            const int last_step = static_cast<int>(plan.grid.steps.size()) - 1;
             for (std::size_t n = 0; n < 4; ++n) {
                 const auto pair = n + (on_sun ? 0 : 4);
-                const auto& e = all[pair].tooth_error;
-                const auto before =
-                    tooth_error_overrides(plan, pairs, errors, k - 1)[pair].tooth_error;
                 // The youngest tooth pair of the last node.
-                if (before[before.size() - 2] == 0.0 && e[e.size() - 2] > 0.0) {
+                const auto youngest = [&](const auto& overrides) {
+                    return tooth_gap(plan, overrides, static_cast<int>(pair), last_step, 2, 0, 0);
+                };
+                if (youngest(before) == 0.0 && youngest(all) > 0.0) {
                     met[n] = k + pairs.start[pair];
                 }
             }

@@ -35,23 +35,22 @@ struct Gaps {
 Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, int meshes) {
     Gaps gaps;
     const lockstep::MarchPlan& plan = scene.plan();
-    const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
-    const std::size_t nodes = plan.grid.stage_nodes.size();
     for (int k = 0; k < meshes; ++k) {
         const auto all = lockstep::tooth_error_overrides(plan, scene.pairs(), errors, k);
-        const auto& gap = all[static_cast<std::size_t>(pair)].tooth_error;
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
             const lockstep::Step& step = plan.grid.steps[s];
+            const auto gap = [&](std::size_t at, int slot) {
+                return lockstep::tooth_gap(plan, all, pair, static_cast<int>(at), 0, slot, 0);
+            };
             const double middle = step.phase + 0.5 * step.length;
             const int count = lockstep::touching_teeth(scene.pairs(), pair, middle).count;
             if (count == 2) {
-                gaps.apart = std::max(
-                    gaps.apart, std::abs(gap[s * nodes * slots] - gap[s * nodes * slots + 1]));
+                gaps.apart = std::max(gaps.apart, std::abs(gap(s, 0) - gap(s, 1)));
             }
             if (step.phase <= 0.5 && step.phase + step.length > 0.5) {
                 double sum = 0.0;
                 for (int j = 0; j < count; ++j) {
-                    sum += gap[s * nodes * slots + static_cast<std::size_t>(j)] / count;
+                    sum += gap(s, j) / count;
                 }
                 gaps.mean.push_back(sum);
             }
