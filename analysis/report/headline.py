@@ -201,6 +201,8 @@ def facts(report):
 
 def html_of(report):
     parts = [f'<p class="answer">{escape(sentence(report))}</p>']
+    if report.data.get("assumptions"):
+        parts.append(f'<p class="answer">{escape(report.data.get("assumptions"))}</p>')
     texts = limits(report)
     if report.silence() is None:
         parts.append(table(report))

@@ -10,6 +10,7 @@
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/layout.hpp"
+#include "mc/study/assumptions.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -116,6 +117,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     Json json = examples_json(frame, rows);
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     json["title"] = study ? study->title : "";
+    json["assumptions"] = study ? assumptions(*study) : "";
     json["detection"] = analysis::detection_json(frame.detection, frame.request);
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);

@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "analysis/report/detection_text.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/study/assumptions.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -60,8 +62,14 @@ RowCounts count_rows(const RowSource& rows) {
 
 std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability) {
-    std::string text = analysis::detection_text(frame.detection, frame.request) + "\n" +
-                       reliability_text(reliability, frame);
+    const auto study = read_study_text(frame.provenance_value("study"), "").study;
+    std::string text;
+    if (const std::string holds = study ? assumptions(*study) : ""; !holds.empty()) {
+        analysis::add_wrapped(text, holds, 2);
+        text += "\n";
+    }
+    text += analysis::detection_text(frame.detection, frame.request) + "\n" +
+            reliability_text(reliability, frame);
     const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
     return numerical.empty() ? text : text + "\n" + numerical;
 }

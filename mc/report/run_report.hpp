@@ -19,7 +19,8 @@ struct RowCounts {
 
 RowCounts count_rows(const RowSource& rows);
 
-// Detection rates, reliability and, if it was verified, the numerical error.
+// What the answer takes for granted, detection rates, reliability and, if it was verified, the
+// numerical error.
 std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability);
 

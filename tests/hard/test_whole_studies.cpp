@@ -39,7 +39,8 @@ std::string on_command_line(const Overrides& overrides) {
 }
 
 Outcome run_program(const std::string& study, const Folder& folder, const Overrides& overrides) {
-    return program("run " + study + on_command_line(overrides) + " --out " + folder.file("r.h5"));
+    return program("run " + study + on_command_line(overrides) + " --force --out " +
+                   folder.file("r.h5"));
 }
 
 void check_all_worked(const mc::Results& r) {

@@ -1,0 +1,56 @@
+#include "mc/study/assumptions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "mc/study/fluctuations.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string teeth(const Study& study) {
+    if (!has_tooth_errors(study)) {
+        return "identical teeth";
+    }
+    return study.errors.tooth_quality
+               ? fmt::format("teeth of ISO 1328 grade {:g}", *study.errors.tooth_quality)
+               : "teeth that differ";
+}
+
+}  // namespace
+
+std::string assumptions(const Study& study) {
+    if (!has_gears(study)) {
+        return "";
+    }
+    std::vector<std::string> all{teeth(study)};
+    if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
+        all.push_back("planets and pins alike");
+    }
+    if (study.effects.foundation == Foundation::none && !stiffness_given(study)) {
+        all.push_back("rigid gear bodies");
+    }
+    if (!torque_fluctuates(study) && !speed_fluctuates(study)) {
+        all.push_back("steady torque and speed");
+    }
+    std::string text =
+        fmt::format("Holds for {}, and thresholds from other gearboxes.", fmt::join(all, ", "));
+    const bool alike =
+        std::all_of(study.random.begin(), study.random.end(),
+                    [](const RandomInput& input) { return input.key.starts_with("fault."); });
+    if (alike) {
+        text += " Only the fault and the noise vary.";
+    }
+    if (!has_tooth_errors(study)) {
+        text +=
+            " Errors of real teeth hide faults that identical teeth show: gearbox.tooth_quality "
+            "draws them.";
+    }
+    return text;
+}
+
+}  // namespace gearpod::mc

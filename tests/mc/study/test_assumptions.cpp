@@ -1,0 +1,24 @@
+// What an answer says it takes for granted.
+#include <catch2/catch.hpp>
+
+#include "mc/study/assumptions.hpp"
+#include "tests/mc/study_file.hpp"
+
+using gearpod::mc::assumptions;
+using gearpod::test::shipped_study;
+
+TEST_CASE("An answer says which teeth and planets it is for") {
+    const std::string ideal = assumptions(shipped_study("planet-crack.toml"));
+    CHECK_THAT(ideal, Catch::Contains("identical teeth, planets and pins alike, rigid gear bodies, "
+                                      "steady torque and speed"));
+    CHECK_THAT(ideal, Catch::Contains("Errors of real teeth hide faults"));
+
+    const std::string real = assumptions(shipped_study(
+        "planet-crack.toml", {"gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20"}));
+    CHECK_THAT(real, Catch::StartsWith("Holds for teeth of ISO 1328 grade 6, rigid gear bodies"));
+    CHECK_THAT(real, !Catch::Contains("hide faults"));
+    CHECK_THAT(real, !Catch::Contains("alike"));
+
+    CHECK_THAT(assumptions(shipped_study("planet-crack.toml", {"gearbox.pitch_error_um=2"})),
+               Catch::Contains("teeth that differ"));
+}
