@@ -71,6 +71,16 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
+// The gaps of a tooth pair that stands at `place`.
+template <int W, class Real>
+GEARPOD_INLINE void load_gaps(double place, const double* __restrict gap,
+                              const double* __restrict growth, Real* __restrict out) {
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        out[l] = static_cast<Real>(std::fma(place, growth[l], gap[l]));
+    }
+}
+
 // Stiffness and gaps of all pairs' tooth pairs at a stage node, after those of the pairs.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
@@ -104,12 +114,8 @@ GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
                 round_row<W>(o.tooth_stiffness.data() + at + j * W, m.tooth_k + row);
             }
             if (!o.gap.empty()) {
-                const double place = places[j * pairs + o.pair];
-                const double *gap = o.gap.data() + j * W, *growth = o.gap_growth.data() + j * W;
-                for (int l = 0; l < W; ++l) {
-                    m.tooth_e[row + l] =
-                        static_cast<RealOf<Model>>(std::fma(place, growth[l], gap[l]));
-                }
+                load_gaps<W>(places[j * pairs + o.pair], o.gap.data() + j * W,
+                             o.gap_growth.data() + j * W, m.tooth_e + row);
             }
         }
     }
