@@ -1,6 +1,7 @@
 // The data sets that tests share with the reference programs (reference/make_reference.*).
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -11,7 +12,7 @@ namespace gearpod::analysis {
 
 // Columns of reference/<name>, its first line being a heading.
 inline std::vector<std::vector<double>> reference_columns(const std::string& name) {
-    std::ifstream file(std::string(GEARPOD_REFERENCE_DIR) + "/" + name);
+    std::ifstream file(std::filesystem::path(GEARPOD_REFERENCE_DIR) / name);
     std::string line;
     if (!std::getline(file, line)) {
         throw std::runtime_error("cannot read the reference data " + name);
