@@ -107,7 +107,11 @@ struct PushingMesh {
         Real e[kRows], de[kRows];
         // [tooth pair][pair][lane], N/m and m; no stiffness where none touches.
         Real tooth_k[kMostToothPairs * kRows], tooth_e[kMostToothPairs * kRows];
+        // What tooth_e is made from, the same during the steps [kept_from, kept_until): the gap in
+        // the middle of an engagement, and how much it grows along it, m.
+        Real gap[kMostToothPairs * kRows], growth[kMostToothPairs * kRows];
         Real backlash[W];
+        int kept_from = 0, kept_until = 0;
     };
     template <class Pairs, class Real>
     static GEARPOD_INLINE Real force(const Pairs& m, int i, int lane, Real d, Real r) {

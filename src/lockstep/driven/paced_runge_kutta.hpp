@@ -19,8 +19,8 @@ struct PacedRungeKutta4 {
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                    const Filter&, const std::vector<PairOverride>& overrides,
-                                    int i, State& state, Stages<Model>& s) {
+                                    const Filter&, const MeshOverrides& overrides, int i,
+                                    State& state, Stages<Model>& s) {
         const int channels = 2 * Model::sources(lanes);
         const int size = Model::degrees_of_freedom(lanes) * W;
         double* __restrict q = state.q.data();
@@ -95,8 +95,8 @@ struct PacedRungeKutta4 {
     // rates follow the speed.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void load_node(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                         const std::vector<PairOverride>& overrides, int i,
-                                         int node, Stages<Model>& s) {
+                                         const MeshOverrides& overrides, int i, int node,
+                                         Stages<Model>& s) {
         load_pairs<Model>(plan, lanes, overrides, i, node, s.pairs);
         load_length<Model>(plan, lanes, i, node, s);
         if constexpr (Model::Mesh::kHasError) {

@@ -37,9 +37,8 @@ struct BogackiShampine {
 
     template <class Model, class State, class Filter, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                    const Filter& filter,
-                                    const std::vector<PairOverride>& overrides, int i, State& state,
-                                    Stages<Model>& s) {
+                                    const Filter& filter, const MeshOverrides& overrides, int i,
+                                    State& state, Stages<Model>& s) {
         using Real = RealOf<Model>;
         const ExplicitStep<Model, State> x(plan, lanes, i, state);
         alignas(64) Real most[W], ninth[W], sixth[W];
@@ -81,9 +80,8 @@ struct BogackiShampine {
     // up s.q and s.v.
     template <class Model, class Real, int W = Model::kWidth>
     static GEARPOD_INLINE void estimate(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                        const std::vector<PairOverride>& overrides, int i,
-                                        const Real* h, const Real* q, const Real* v,
-                                        Stages<Model>& s) {
+                                        const MeshOverrides& overrides, int i, const Real* h,
+                                        const Real* q, const Real* v, Stages<Model>& s) {
         const int size = Model::degrees_of_freedom(lanes) * W;
         Real end_q[Model::kMaxDegrees * W], end_v[Model::kMaxDegrees * W],
             a4[Model::kMaxDegrees * W];

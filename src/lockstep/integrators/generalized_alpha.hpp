@@ -81,8 +81,8 @@ struct GeneralizedAlpha {
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
                                     const machine::AlignedVector& filter,
-                                    const std::vector<PairOverride>& overrides, int i,
-                                    TileState& state, Stages<Model>& s) {
+                                    const MeshOverrides& overrides, int i, TileState& state,
+                                    Stages<Model>& s) {
         using C = ChungHulbert;
         // The carried acceleration's part in V and Q of the stage, and in what it adds up to.
         constexpr double kPart = 1.0 - C::kForce;

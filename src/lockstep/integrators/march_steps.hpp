@@ -44,79 +44,103 @@ GEARPOD_INLINE void round_row(const double* __restrict values, Real* __restrict 
     }
 }
 
+template <class Model>
+GEARPOD_INLINE void clear_errors(typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    std::fill(std::begin(m.e), std::end(m.e), Real(0));
+    std::fill(std::begin(m.de), std::end(m.de), Real(0));
+}
+
 // Static transmission error of all pairs at a stage node.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                const std::vector<PairOverride>& overrides, int step, int node,
-                                typename Model::Pairs& m) {
+GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes, int step,
+                                int node, typename Model::Pairs& m) {
     using Real = RealOf<Model>;
     const int pairs = plan.nodes.pairs;
+    if (plan.nodes.error.empty()) {
+        clear_errors<Model>(m);
+        return;
+    }
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
     const int at = (step * nodes + node) * pairs;
     alignas(64) Real rate[W];
     for (int pair = 0; pair < pairs; ++pair) {
-        const bool none = plan.nodes.error.empty();
-        spread<W>(none ? 0.0 : plan.nodes.error.data()[at + pair], m.e + pair * W);
-        spread<W>(none ? 0.0 : plan.nodes.error_rate.data()[at + pair], rate);
+        spread<W>(plan.nodes.error.data()[at + pair], m.e + pair * W);
+        spread<W>(plan.nodes.error_rate.data()[at + pair], rate);
         divide<W>(rate, lanes.mesh_period, m.de + pair * W);
-    }
-    for (const PairOverride& o : overrides) {
-        if (step < o.first_step || step >= o.last_step || o.error.empty()) {
-            continue;
-        }
-        const int row = ((step - o.first_step) * nodes + node) * W;
-        round_row<W>(o.error.data() + row, m.e + o.pair * W);
-        round_row<W>(o.error_rate.data() + row, rate);
-        divide<W>(rate, lanes.mesh_period, m.de + o.pair * W);
     }
 }
 
-// The gaps of a tooth pair that stands at `place`.
+// The rows that stay as they are from this step to the next at which other teeth touch.
+template <class Model, int W = Model::kWidth>
+GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overrides, int step,
+                              typename Model::Pairs& m) {
+    using Real = RealOf<Model>;
+    constexpr int kRows = Model::Pairs::kRows;
+    constexpr int kAll = dynamics::kMostToothPairs * kRows;
+    clear_errors<Model>(m);
+    std::fill_n(m.tooth_k, kAll, Real(0));
+    std::fill_n(m.tooth_e, kAll, Real(0));
+    std::fill_n(m.gap, kAll, Real(0));
+    std::fill_n(m.growth, kAll, Real(0));
+    m.kept_from = step;
+    m.kept_until = static_cast<int>(plan.grid.steps.size());
+    for (const PairGaps& g : overrides.gaps) {
+        if (step < g.last_step) {
+            m.kept_until = std::min(m.kept_until, step < g.first_step ? g.first_step : g.last_step);
+        }
+        if (step < g.first_step || step >= g.last_step) {
+            continue;
+        }
+        for (int j = 0; j < plan.nodes.tooth_pairs; ++j) {
+            const int row = j * kRows + g.pair * W;
+            round_row<W>(g.gap.data() + j * W, m.gap + row);
+            round_row<W>(g.growth.data() + j * W, m.growth + row);
+        }
+    }
+}
+
+// Stiffness and gap of a tooth pair that stands at `place`.
 template <int W, class Real>
-GEARPOD_INLINE void load_gaps(double place, const double* __restrict gap,
-                              const double* __restrict growth, Real* __restrict out) {
+GEARPOD_INLINE void load_tooth_pair(double stiffness, double place, const Real* __restrict gap,
+                                    const Real* __restrict growth, Real* __restrict k,
+                                    Real* __restrict e) {
+    const Real own = static_cast<Real>(stiffness), at = static_cast<Real>(place);
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        out[l] = static_cast<Real>(std::fma(place, growth[l], gap[l]));
+        k[l] = own;
+        e[l] = std::fma(at, growth[l], gap[l]);
     }
 }
 
 // Stiffness and gaps of all pairs' tooth pairs at a stage node, after those of the pairs.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
-                                     const std::vector<PairOverride>& overrides, int step, int node,
-                                     typename Model::Pairs& m) {
+GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan, const MeshOverrides& overrides,
+                                     int step, int node, typename Model::Pairs& m) {
     constexpr int kRows = Model::Pairs::kRows;
     const int pairs = plan.nodes.pairs, known = plan.nodes.tooth_pairs;
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
-    const double* shared =
-        plan.nodes.tooth_stiffness.data() + (step * nodes + node) * known * pairs;
-    const double* places = plan.nodes.tooth_place.data() + (step * nodes + node) * known * pairs;
-    for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
+    const int at = (step * nodes + node) * known * pairs;
+    const double* shared = plan.nodes.tooth_stiffness.data() + at;
+    const double* places = plan.nodes.tooth_place.data() + at;
+    for (int j = 0; j < known; ++j) {
         for (int pair = 0; pair < pairs; ++pair) {
-            const int row = j * kRows + pair * W;
-            spread<W>(j < known ? shared[j * pairs + pair] : 0.0, m.tooth_k + row);
-            spread<W>(0.0, m.tooth_e + row);
+            const int row = j * kRows + pair * W, i = j * pairs + pair;
+            load_tooth_pair<W>(shared[i], places[i], m.gap + row, m.growth + row, m.tooth_k + row,
+                               m.tooth_e + row);
         }
     }
     if (known == 0) {  // one carries all
         std::copy_n(m.k, pairs * W, m.tooth_k);
     }
-    const int count = known > 0 ? known : 1;
-    for (const PairOverride& o : overrides) {
-        if (step < o.first_step || step >= o.last_step) {
+    for (const PairOverride& o : overrides.faults) {
+        if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {
             continue;
         }
-        const int at = ((step - o.first_step) * nodes + node) * count * W;
-        for (int j = 0; j < count; ++j) {
-            const int row = j * kRows + o.pair * W;
-            if (!o.tooth_stiffness.empty()) {
-                round_row<W>(o.tooth_stiffness.data() + at + j * W, m.tooth_k + row);
-            }
-            if (!o.gap.empty()) {
-                load_gaps<W>(places[j * pairs + o.pair], o.gap.data() + j * W,
-                             o.gap_growth.data() + j * W, m.tooth_e + row);
-            }
+        const int from = ((step - o.first_step) * nodes + node) * known * W;
+        for (int j = 0; j < known; ++j) {
+            round_row<W>(o.tooth_stiffness.data() + from + j * W,
+                         m.tooth_k + j * kRows + o.pair * W);
         }
     }
 }
@@ -125,7 +149,7 @@ GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan,
 // where the forces that vary with time (driven_forces.hpp) have their values there.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                               const std::vector<PairOverride>& overrides, int step, int node,
+                               const MeshOverrides& overrides, int step, int node,
                                typename Model::Pairs& m) {
     using Real = RealOf<Model>;
     const int pairs = plan.nodes.pairs;
@@ -143,8 +167,8 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
             c[pair * W + l] = factor[l] * damping;
         }
     }
-    for (const PairOverride& o : overrides) {
-        if (step < o.first_step || step >= o.last_step || o.stiffness.empty()) {
+    for (const PairOverride& o : overrides.faults) {
+        if (step < o.first_step || step >= o.last_step) {
             continue;
         }
         const Real* factor = Model::mesh_damping_factor(lanes, o.pair);
@@ -157,8 +181,15 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
             c[o.pair * W + l] = factor[l] * static_cast<Real>(co[l]);
         }
     }
+    if constexpr (Model::Mesh::kHasTeeth) {
+        if (step < m.kept_from || step >= m.kept_until) {
+            keep_rows<Model>(plan, overrides, step, m);
+        }
+    }
     if constexpr (Model::Mesh::kHasError) {
-        load_errors<Model>(plan, lanes, overrides, step, node, m);
+        if (!Model::Mesh::kHasTeeth || !plan.nodes.error.empty()) {  // else cleared already
+            load_errors<Model>(plan, lanes, step, node, m);
+        }
     }
     if constexpr (Model::Mesh::kSeparates) {
         std::copy_n(lanes.backlash, W, m.backlash);
@@ -314,8 +345,8 @@ GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::La
 // Singles march on grids with a node on every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                const Filter& filter, const std::vector<PairOverride>& overrides,
-                                State& state, MeshRecord& record) {
+                                const Filter& filter, const MeshOverrides& overrides, State& state,
+                                MeshRecord& record) {
     constexpr bool kInterpolates = std::is_same_v<State, TileState>;
     typename Integrator::template Stages<Model> stages;
     TileState before;
@@ -347,9 +378,8 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
 
 template <class Integrator, class Model>
 GEARPOD_INLINE void march(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                          const machine::AlignedVector& filter,
-                          const std::vector<PairOverride>& overrides, TileState& state,
-                          MeshRecord& record) {
+                          const machine::AlignedVector& filter, const MeshOverrides& overrides,
+                          TileState& state, MeshRecord& record) {
     if constexpr (std::is_same_v<RealOf<Model>, float>) {
         const machine::AlignedArray<float> coefficients(filter.begin(), filter.end());
         SingleState own(state);

@@ -32,8 +32,8 @@ struct Newmark {
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const ImplicitLanes<W>& lanes,
                                     const machine::AlignedVector& filter,
-                                    const std::vector<PairOverride>& overrides, int i,
-                                    TileState& state, Stages<Model>& s) {
+                                    const MeshOverrides& overrides, int i, TileState& state,
+                                    Stages<Model>& s) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
         const int size = lanes.degrees * W;
         double* __restrict q = state.q.data();

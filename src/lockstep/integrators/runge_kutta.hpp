@@ -38,9 +38,8 @@ struct RungeKutta4 {
     // kept.
     template <class Model, class State, class Filter, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                    const Filter& filter,
-                                    const std::vector<PairOverride>& overrides, int i, State& state,
-                                    Stages<Model>& s) {
+                                    const Filter& filter, const MeshOverrides& overrides, int i,
+                                    State& state, Stages<Model>& s) {
         using Real = RealOf<Model>;
         const ExplicitStep<Model, State> x(plan, lanes, i, state);
         alignas(64) Real sixth[W];

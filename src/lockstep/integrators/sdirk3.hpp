@@ -53,8 +53,8 @@ struct Sdirk3 {
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                     const machine::AlignedVector& filter,
-                                    const std::vector<PairOverride>& overrides, int i,
-                                    TileState& state, Stages<Model>& s) {
+                                    const MeshOverrides& overrides, int i, TileState& state,
+                                    Stages<Model>& s) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
         const int size = lanes.degrees * W;
         double* __restrict q = state.q.data();
@@ -111,7 +111,7 @@ struct Sdirk3 {
     // sensor's input.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                     const std::vector<PairOverride>& overrides, int i, int node,
+                                     const MeshOverrides& overrides, int i, int node,
                                      const StageSpan<W>& span, Stages<Model>& s,
                                      double* __restrict velocity, double* __restrict acceleration) {
         const int kind = plan.grid.steps[static_cast<std::size_t>(i)].kind;

@@ -11,25 +11,26 @@ namespace gearpod::lockstep {
 template <class Method, class Motion>
 __attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) void march_x86_64_v4(
     const MarchPlan& plan, const typename Motion::Lanes& lanes,
-    const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
-    TileState& state, MeshRecord& record) {
+    const machine::AlignedVector& filter, const MeshOverrides& overrides, TileState& state,
+    MeshRecord& record) {
     march<Method, Motion>(plan, lanes, filter, overrides, state, record);
 }
 
 template <class Method, class Motion>
-__attribute__((target("arch=x86-64-v3"))) void march_x86_64_v3(
-    const MarchPlan& plan, const typename Motion::Lanes& lanes,
-    const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
-    TileState& state, MeshRecord& record) {
+__attribute__((target("arch=x86-64-v3"))) void march_x86_64_v3(const MarchPlan& plan,
+                                                               const typename Motion::Lanes& lanes,
+                                                               const machine::AlignedVector& filter,
+                                                               const MeshOverrides& overrides,
+                                                               TileState& state,
+                                                               MeshRecord& record) {
     march<Method, Motion>(plan, lanes, filter, overrides, state, record);
 }
 #endif
 
 template <class Method, class Motion>
 void march_baseline(const MarchPlan& plan, const typename Motion::Lanes& lanes,
-                    const machine::AlignedVector& filter,
-                    const std::vector<PairOverride>& overrides, TileState& state,
-                    MeshRecord& record) {
+                    const machine::AlignedVector& filter, const MeshOverrides& overrides,
+                    TileState& state, MeshRecord& record) {
     march<Method, Motion>(plan, lanes, filter, overrides, state, record);
 }
 

@@ -44,14 +44,15 @@ std::vector<PairOverride> FaultSchedule::overrides(int k) const {
     return all;
 }
 
-std::vector<PairOverride> FaultSchedule::all_overrides(int k) const {
-    const int length = faults_.pattern.length;
-    std::vector<PairOverride> all = overrides((k % length + length) % length);
+MeshOverrides FaultSchedule::all_overrides(int k) {
+    const int length = faults_.pattern.length, mesh = (k % length + length) % length;
+    auto kept = kept_.find(mesh);
+    if (kept == kept_.end()) {
+        kept = kept_.emplace(mesh, overrides(mesh)).first;
+    }
+    MeshOverrides all{kept->second, {}};
     if (faults_.tooth_errors) {
-        for (PairOverride& error :
-             tooth_error_overrides(plan_, *faults_.pairs, *faults_.tooth_errors, k)) {
-            all.push_back(std::move(error));
-        }
+        all.gaps = tooth_gaps(plan_, *faults_.tooth_errors, k);
     }
     return all;
 }

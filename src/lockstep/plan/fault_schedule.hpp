@@ -1,6 +1,7 @@
 // When a faulty tooth passes which pair, and the stiffness that the lanes then see.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -34,8 +35,9 @@ class FaultSchedule {
     // The pairs whose stiffness the faulty tooth changes during mesh k of the pattern.
     std::vector<PairOverride> overrides(int k) const;
 
-    // The same, and the tooth errors, during mesh k of a march; k counts from any integer.
-    std::vector<PairOverride> all_overrides(int k) const;
+    // The same, and the tooth errors, during mesh k of a march; k counts from any integer. Keeps
+    // the faults of a pattern's meshes, for those come again: not for several threads at once.
+    MeshOverrides all_overrides(int k);
 
     // Is the faulty tooth still in contact at the end of mesh k?
     bool continues_after(int k) const;
@@ -51,6 +53,7 @@ class FaultSchedule {
     const MarchPlan& plan_;
     const FaultCurves& faults_;
     std::vector<double> duration_;  // of each curve, mesh periods; 0 if no lane has it
+    std::map<int, std::vector<PairOverride>> kept_;  // by mesh of the pattern
 };
 
 }  // namespace gearpod::lockstep

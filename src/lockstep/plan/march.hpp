@@ -44,31 +44,39 @@ struct MeshRecord {
     machine::AlignedVector estimate = {};
 };
 
-// A pair whose stiffness, transmission error or tooth pairs differ between lanes during some steps
-// of this mesh. What is left empty stays as it is without the override.
+// A pair whose stiffness differs between lanes during some steps of this mesh.
 struct PairOverride {
     int pair = 0;
     int first_step = 0;
-    int last_step = 0;                       // one past the last
-    machine::AlignedVector stiffness;        // [step - first_step][stage node][lane], N/m
-    machine::AlignedVector damping_shape;    // likewise
-    machine::AlignedVector error = {};       // likewise, m
-    machine::AlignedVector error_rate = {};  // likewise, m per mesh period
-    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m; as many
-    // tooth pairs as the plan's nodes know, or one.
+    int last_step = 0;                     // one past the last
+    machine::AlignedVector stiffness;      // [step - first_step][stage node][lane], N/m
+    machine::AlignedVector damping_shape;  // likewise
+    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m; empty if the
+    // plan's nodes know none.
     machine::AlignedVector tooth_stiffness = {};
-    // Likewise, but the same during all these steps, [tooth pair][lane], m: the gap in the middle
-    // of an engagement, and how much it grows along it (StiffnessNodes::tooth_place).
-    machine::AlignedVector gap = {}, gap_growth = {};
+};
+
+// The gaps of a pair's tooth pairs during some steps of this mesh, [tooth pair][lane], m: in the
+// middle of an engagement, and how much they grow along it (StiffnessNodes::tooth_place).
+struct PairGaps {
+    int pair = 0;
+    int first_step = 0;
+    int last_step = 0;  // one past the last
+    machine::AlignedVector gap, growth;
+};
+
+// What sets a mesh period apart from the plan's.
+struct MeshOverrides {
+    std::vector<PairOverride> faults;
+    std::vector<PairGaps> gaps;  // only of the law `pushing`
 };
 
 // A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in
 // `lanes`. `filter` holds the sensor's coefficients (sensor_filter.hpp).
 template <class Lanes>
 using MarchKernel = void(const MarchPlan& plan, const Lanes& lanes,
-                         const machine::AlignedVector& filter,
-                         const std::vector<PairOverride>& overrides, TileState& state,
-                         MeshRecord& record);
+                         const machine::AlignedVector& filter, const MeshOverrides& overrides,
+                         TileState& state, MeshRecord& record);
 
 // Allocates a record of W lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);

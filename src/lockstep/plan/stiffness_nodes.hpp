@@ -37,6 +37,15 @@ double phase_in_period(double phase);
 // Phases in [0, 1), ascending, that bound the stretches of all pairs.
 std::vector<double> contact_transitions(const PairSet& pairs);
 
+// Steps in which the same tooth pairs of a gear pair touch; the one that begins to engage in the
+// same mesh period has age 0, the one before it 1, and so on.
+struct ToothEngagement {
+    int pair = 0;
+    int first_step = 0;
+    int last_step = 0;  // one past the last
+    int youngest = 0;   // its age; further ones are a period older each
+};
+
 // Stiffness and damping shape (dynamics::MeshDamping), [step][stage node][pair].
 struct StiffnessNodes {
     int pairs = 0;
@@ -51,6 +60,7 @@ struct StiffnessNodes {
     // Likewise: where along the line of action each stands, -1/2 to 1/2 from the start to the end
     // of contact in the sense of gears::MeshGeometry.
     std::vector<double> tooth_place;
+    std::vector<ToothEngagement> engagements;  // every pair's, in order
 };
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid, dynamics::MeshDamping damping);

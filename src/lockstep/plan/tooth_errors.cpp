@@ -69,51 +69,38 @@ void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int ma
     }
 }
 
-std::vector<PairOverride> tooth_error_overrides(const MarchPlan& plan, const PairSet& pairs,
-                                                const ToothErrors& errors, int k) {
+std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k) {
     const std::size_t width = errors.lanes();
     const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
-    const auto& steps = plan.grid.steps;
-    std::vector<PairOverride> all;
-    for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
-        // The slots hold other teeth from the step on with which the next one begins to engage.
-        const auto youngest = [&](const Step& step) {
-            return touching_teeth(pairs, pair, step.phase + 0.5 * step.length).youngest;
-        };
-        for (std::size_t first = 0; first < steps.size();) {
-            const int age = youngest(steps[first]);
-            std::size_t last = first;
-            while (last < steps.size() && youngest(steps[last]) == age) {
-                ++last;
+    std::vector<PairGaps> all;
+    for (const ToothEngagement& engaged : plan.nodes.engagements) {
+        PairGaps g{engaged.pair, engaged.first_step, engaged.last_step,
+                   machine::AlignedVector(slots * width), machine::AlignedVector(slots * width)};
+        for (std::size_t j = 0; j < slots; ++j) {
+            for (std::size_t l = 0; l < width; ++l) {
+                const TouchingGap own = touching_gap(
+                    errors, engaged.pair, k - engaged.youngest - static_cast<int>(j), l, width);
+                g.gap[j * width + l] = own.gap;
+                g.growth[j * width + l] = own.growth;
             }
-            PairOverride o{pair, static_cast<int>(first), static_cast<int>(last), {}, {}};
-            for (std::size_t j = 0; j < slots; ++j) {
-                for (std::size_t l = 0; l < width; ++l) {
-                    const TouchingGap own =
-                        touching_gap(errors, pair, k - age - static_cast<int>(j), l, width);
-                    o.gap.push_back(own.gap);
-                    o.gap_growth.push_back(own.growth);
-                }
-            }
-            all.push_back(std::move(o));
-            first = last;
         }
+        all.push_back(std::move(g));
     }
     return all;
 }
 
-double tooth_gap(const MarchPlan& plan, std::span<const PairOverride> overrides, int pair, int step,
+double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int slot, int lane) {
     const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
     const int slots = plan.nodes.tooth_pairs;
-    for (const PairOverride& o : overrides) {
-        if (o.pair == pair && o.first_step <= step && step < o.last_step && !o.gap.empty()) {
-            const auto at =
-                static_cast<std::size_t>(slot) * (o.gap.size() / static_cast<std::size_t>(slots)) +
+    for (const PairGaps& g : gaps) {
+        if (g.pair == pair && g.first_step <= step && step < g.last_step) {
+            const auto own =
+                static_cast<std::size_t>(slot) * (g.gap.size() / static_cast<std::size_t>(slots)) +
                 static_cast<std::size_t>(lane);
             const double place = plan.nodes.tooth_place[static_cast<std::size_t>(
                 ((step * nodes + node) * slots + slot) * plan.nodes.pairs + pair)];
-            return std::fma(place, o.gap_growth[at], o.gap[at]);
+            return std::fma(place, g.growth[own], g.gap[own]);
         }
     }
     return 0.0;

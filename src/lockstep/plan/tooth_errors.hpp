@@ -50,11 +50,10 @@ std::vector<PairTeeth> fixed_shaft_teeth();
 void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int march_meshes);
 
 // The gaps of all pairs' tooth pairs in mesh k, which counts from any integer.
-std::vector<PairOverride> tooth_error_overrides(const MarchPlan& plan, const PairSet& pairs,
-                                                const ToothErrors& errors, int k);
+std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k);
 
 // The gap of one of a pair's tooth pairs at a stage node, m, as the march sees it.
-double tooth_gap(const MarchPlan& plan, std::span<const PairOverride> overrides, int pair, int step,
+double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int slot, int lane);
 
 }  // namespace gearpod::lockstep

@@ -40,11 +40,15 @@ TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
 }
 
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
-    for (const Step& step : grid.steps) {
-        for (int pair = 0; pair < nodes.pairs; ++pair) {
-            const double middle = step.phase + 0.5 * step.length;
-            nodes.tooth_pairs =
-                std::max(nodes.tooth_pairs, touching_teeth(pairs, pair, middle).count);
+    for (int pair = 0; pair < nodes.pairs; ++pair) {
+        for (int i = 0; const Step& step : grid.steps) {
+            const auto [youngest, count] =
+                touching_teeth(pairs, pair, step.phase + 0.5 * step.length);
+            nodes.tooth_pairs = std::max(nodes.tooth_pairs, count);
+            if (i == 0 || youngest != nodes.engagements.back().youngest) {
+                nodes.engagements.push_back({pair, i, i, youngest});
+            }
+            nodes.engagements.back().last_step = ++i;
         }
     }
     if (nodes.tooth_pairs > dynamics::kMostToothPairs) {

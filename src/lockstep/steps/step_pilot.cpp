@@ -34,9 +34,9 @@ class PilotMarch {
 
     // From the orbit: a healthy mesh period, then those of the fault's first passage and one more.
     std::vector<MeshRecord> records(TileState state, bool with_estimate) const {
-        const FaultSchedule schedule(plan_, pilot_.faults);
+        FaultSchedule schedule(plan_, pilot_.faults);
         std::vector<MeshRecord> all;
-        const auto add = [&](const std::vector<PairOverride>& overrides) {
+        const auto add = [&](const MeshOverrides& overrides) {
             all.push_back(make_record(plan_, kPilotLanes, false));
             if (with_estimate) {
                 all.back().estimate.resize(plan_.grid.steps.size() * kEstimateRows * kLanes);
@@ -60,8 +60,7 @@ class PilotMarch {
     }
 
   private:
-    void step(const std::vector<PairOverride>& overrides, TileState& state,
-              MeshRecord& record) const {
+    void step(const MeshOverrides& overrides, TileState& state, MeshRecord& record) const {
         (*march_)(overrides, state, record);
         rotation_.remove(state);
     }

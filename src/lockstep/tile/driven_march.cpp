@@ -26,7 +26,7 @@ class DrivenKernelMarch final : public DrivenMarch<W> {
         lanes_.drive.rows = rows_.rows().data();
     }
 
-    void operator()(int mesh, const std::vector<PairOverride>& overrides, TileState& state,
+    void operator()(int mesh, const MeshOverrides& overrides, TileState& state,
                     MeshRecord& record) override {
         machine::leave_if_stopped();
         rows_.fill(mesh);

@@ -18,7 +18,7 @@ class DrivenMarch {
     // Marches `state` through mesh period `mesh` and records it. `record` must have its sizes
     // (make_record). Mesh periods of which one is marched after the other must ascend by one, or
     // time does not run on (ExcitationRows::fill).
-    virtual void operator()(int mesh, const std::vector<PairOverride>& overrides, TileState& state,
+    virtual void operator()(int mesh, const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) = 0;
 };
 

@@ -19,7 +19,7 @@ class KernelMarch final : public MeshMarch<W> {
                 MarchKernel<Lanes>* kernel)
         : plan_(plan), lanes_(std::move(lanes)), filter_(std::move(filter)), kernel_(kernel) {}
 
-    void operator()(const std::vector<PairOverride>& overrides, TileState& state,
+    void operator()(const MeshOverrides& overrides, TileState& state,
                     MeshRecord& record) const override {
         machine::leave_if_stopped();
         kernel_(plan_, lanes_, filter_, overrides, state, record);

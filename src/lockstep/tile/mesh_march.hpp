@@ -17,7 +17,7 @@ class MeshMarch {
     virtual ~MeshMarch() = default;
     // Marches `state` through one mesh period that begins at an integer phase and records it.
     // `record` must have its sizes (make_record).
-    virtual void operator()(const std::vector<PairOverride>& overrides, TileState& state,
+    virtual void operator()(const MeshOverrides& overrides, TileState& state,
                             MeshRecord& record) const = 0;
 };
 

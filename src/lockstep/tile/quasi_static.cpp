@@ -68,7 +68,7 @@ class QuasiStatic {
         const int length = faults_.pattern.length;
         for (int k = 0; k < length; ++k) {
             const std::vector<PairOverride> passages = schedule_.overrides(k);
-            result_.content.push_back(passages.empty() ? 0 : add_record(0, passages));
+            result_.content.push_back(passages.empty() ? 0 : add_record(0, {passages, {}}));
         }
         for (int k = length; k < settings_.march_meshes; ++k) {
             result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
@@ -78,7 +78,7 @@ class QuasiStatic {
         }
     }
 
-    void load_meshes(const std::vector<PairOverride>& overrides, int step) {
+    void load_meshes(const MeshOverrides& overrides, int step) {
         const int pairs = plan_.nodes.pairs;
         const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
         const auto shared = static_cast<std::size_t>(step * nodes * pairs);
@@ -86,16 +86,10 @@ class QuasiStatic {
             state_.k[i] = plan_.nodes.stiffness[shared + i / W];
             state_.e[i] = plan_.nodes.error.empty() ? 0.0 : plan_.nodes.error[shared + i / W];
         }
-        for (const PairOverride& o : overrides) {
-            if (step < o.first_step || step >= o.last_step) {
-                continue;
-            }
-            const int row = (step - o.first_step) * nodes * W;
-            if (!o.stiffness.empty()) {
-                std::copy_n(o.stiffness.begin() + row, W, state_.k.begin() + o.pair * W);
-            }
-            if (!o.error.empty()) {
-                std::copy_n(o.error.begin() + row, W, state_.e.begin() + o.pair * W);
+        for (const PairOverride& o : overrides.faults) {
+            if (o.first_step <= step && step < o.last_step) {
+                std::copy_n(o.stiffness.begin() + (step - o.first_step) * nodes * W, W,
+                            state_.k.begin() + o.pair * W);
             }
         }
         if (lanes_.teeth_push) {
@@ -103,7 +97,7 @@ class QuasiStatic {
         }
     }
 
-    void load_tooth_pairs(const std::vector<PairOverride>& overrides, int step) {
+    void load_tooth_pairs(const MeshOverrides& overrides, int step) {
         const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
         const std::size_t known = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
         const std::size_t pairs = static_cast<std::size_t>(plan_.nodes.pairs), rows = pairs * W;
@@ -118,27 +112,36 @@ class QuasiStatic {
             std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
         }
         std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
-        const std::size_t count = std::max<std::size_t>(known, 1);
-        for (const PairOverride& o : overrides) {
-            if (step < o.first_step || step >= o.last_step) {
+        for (const PairOverride& o : overrides.faults) {
+            if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {
                 continue;
             }
-            const auto at = static_cast<std::ptrdiff_t>(
-                static_cast<std::size_t>((step - o.first_step) * nodes) * count * W);
-            for (std::size_t j = 0; j < count; ++j) {
-                const auto from = at + static_cast<std::ptrdiff_t>(j * W);
-                const auto row =
-                    static_cast<std::ptrdiff_t>(j * rows + static_cast<std::size_t>(o.pair) * W);
-                if (!o.tooth_stiffness.empty()) {
-                    std::copy_n(o.tooth_stiffness.begin() + from, W, state_.tooth_k.begin() + row);
-                }
-                for (std::size_t l = 0; l < W && !o.gap.empty(); ++l) {
-                    const double place = places[j * pairs + static_cast<std::size_t>(o.pair)];
-                    state_.tooth_e[static_cast<std::size_t>(row) + l] =
-                        std::fma(place, o.gap_growth[j * W + l], o.gap[j * W + l]);
+            const auto at = static_cast<std::size_t>((step - o.first_step) * nodes) * known * W;
+            for (std::size_t j = 0; j < known; ++j) {
+                std::copy_n(o.tooth_stiffness.data() + at + j * W, W,
+                            tooth_row(state_.tooth_k, j, o.pair));
+            }
+        }
+        for (const PairGaps& g : overrides.gaps) {
+            if (step < g.first_step || step >= g.last_step) {
+                continue;
+            }
+            for (std::size_t j = 0; j < known; ++j) {
+                const double place = places[j * pairs + static_cast<std::size_t>(g.pair)];
+                double* const row = tooth_row(state_.tooth_e, j, g.pair);
+                for (std::size_t l = 0; l < W; ++l) {
+                    row[l] = std::fma(place, g.growth[j * W + l], g.gap[j * W + l]);
                 }
             }
         }
+    }
+
+    // [tooth pair][pair][lane]
+    template <class Rows>
+    double* tooth_row(Rows& rows, std::size_t slot, int pair) const {
+        return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) +
+                              static_cast<std::size_t>(pair)) *
+                                 W;
     }
 
     // The varying forces; there is no speed for inertia to feel.
@@ -167,7 +170,7 @@ class QuasiStatic {
         }
     }
 
-    int add_record(int mesh, const std::vector<PairOverride>& overrides) {
+    int add_record(int mesh, const MeshOverrides& overrides) {
         machine::leave_if_stopped();
         if (rows_ != nullptr) {
             rows_->fill(mesh);
@@ -233,7 +236,7 @@ class QuasiStatic {
 
     const MarchPlan& plan_;
     const FaultCurves& faults_;
-    const FaultSchedule schedule_;
+    FaultSchedule schedule_;
     const TileSettings& settings_;
     StaticLanes<W> lanes_;
     const machine::AlignedVector steady_force_;

@@ -97,7 +97,7 @@ class TileMarch {
     }
 
     // Mesh period `mesh` as it is driven.
-    void march(int mesh, const std::vector<PairOverride>& overrides, MeshRecord& record) {
+    void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         if (driven_ != nullptr) {
             (*driven_)(mesh, overrides, state_, record);
         } else {
@@ -234,7 +234,7 @@ class TileMarch {
             return;
         }
         MeshRecord record = new_record();
-        march(0, passages, record);
+        march(0, {passages, {}}, record);
         int& id = result_.content[static_cast<std::size_t>(k)];
         if (id == 0) {
             id = static_cast<int>(result_.records.size());
@@ -314,7 +314,7 @@ class TileMarch {
 
     const MarchPlan& plan_;
     const FaultCurves& faults_;
-    const FaultSchedule schedule_;
+    FaultSchedule schedule_;
     const TileSettings& settings_;
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly

@@ -252,7 +252,7 @@ TEST_CASE("Teeth with errors move as an independent march moves them, in and out
               std::pair{Integrator::central_difference, 1e-3}}) {
             const MarchPlan plan = plan_for(integrator, MeshLaw::pushing, 2400,
                                             dynamics::Motion::translational_torsional);
-            const FaultSchedule schedule(plan, faults);
+            FaultSchedule schedule(plan, faults);
             TileState state = rest_state(plan, trains);
             const TileState start = state;
             MeshRecord record = make_record(plan, 8, false);

@@ -45,10 +45,9 @@ TEST_CASE("Equal errors of all teeth are one error, of both gears, while a tooth
         std::fill(gear.error_m.begin(), gear.error_m.end(), 2e-6);
     }
     for (const int k : {-3, 0, 1000}) {
-        for (const PairOverride& o : tooth_error_overrides(plan, pairs, errors, k)) {
-            CHECK((o.stiffness.empty() && o.error.empty() && o.tooth_stiffness.empty()));
-            CHECK(o.gap == machine::AlignedVector(2, 4e-6));
-            CHECK(o.gap_growth == machine::AlignedVector(2, 0.0));
+        for (const PairGaps& g : tooth_gaps(plan, errors, k)) {
+            CHECK(g.gap == machine::AlignedVector(2, 4e-6));
+            CHECK(g.growth == machine::AlignedVector(2, 0.0));
         }
     }
 }
@@ -68,7 +67,7 @@ TEST_CASE("A tooth's error is its own while it touches, and follows its slope al
         gear.slope_m[tooth] = 2e-6;
         const int first = errors.pairs[1].first[on_sun ? 0 : 1];
         for (int k = 0; k < 2 * gear.teeth; ++k) {
-            const auto all = tooth_error_overrides(plan, pairs, errors, k);
+            const auto all = tooth_gaps(plan, errors, k);
             for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
                 const Step& step = plan.grid.steps[s];
                 const double middle = k + step.phase + 0.5 * step.length;
@@ -98,8 +97,8 @@ TEST_CASE("A sun tooth carries its error from planet to planet, a ring tooth the
         const int teeth = on_sun ? 19 : 81;
         std::vector<double> met(4, -1.0);  // phase at which the tooth begins to touch
         for (int k = 0; k < teeth; ++k) {
-            const auto all = tooth_error_overrides(plan, pairs, errors, k);
-            const auto before = tooth_error_overrides(plan, pairs, errors, k - 1);
+            const auto all = tooth_gaps(plan, errors, k);
+            const auto before = tooth_gaps(plan, errors, k - 1);
             const int last_step = static_cast<int>(plan.grid.steps.size()) - 1;
             for (std::size_t n = 0; n < 4; ++n) {
                 const auto pair = n + (on_sun ? 0 : 4);

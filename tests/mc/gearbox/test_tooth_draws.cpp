@@ -36,7 +36,7 @@ Gaps gaps_of(const Scene& scene, const lockstep::ToothErrors& errors, int pair, 
     Gaps gaps;
     const lockstep::MarchPlan& plan = scene.plan();
     for (int k = 0; k < meshes; ++k) {
-        const auto all = lockstep::tooth_error_overrides(plan, scene.pairs(), errors, k);
+        const auto all = lockstep::tooth_gaps(plan, errors, k);
         for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
             const lockstep::Step& step = plan.grid.steps[s];
             const auto gap = [&](std::size_t at, int slot) {
