@@ -144,8 +144,10 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                                 "{:g} (asked for: {:g})",
                                 settle_tolerance(study), study.numerics.settle_tolerance));
     }
-    print_entry("mesh periods marched", fmt::format("about {:.0f} of the {} looked at",
-                                                    marched_meshes(scene), scene.span_meshes()));
+    print_entry("mesh periods marched",
+                fmt::format("about {:.0f} of the {} looked at{}", marched_meshes(scene),
+                            scene.span_meshes(),
+                            compares_records(study) ? ", and those of the baseline record" : ""));
     print_entry("gearboxes",
                 fmt::format("{} graded and {} for the thresholds, {} noise levels",
                             study.ensemble.instances, study.ensemble.threshold_instances,

@@ -192,6 +192,9 @@ std::vector<Measured> measure(const Scene& scene, const MeasuredSignal& signal,
     std::vector<Measured> all;
     unsigned needs = 0;
     for (const Feature& feature : features::all_features()) {
+        if (feature.compared != features::Compared::nothing) {
+            continue;  // one recording has no baseline
+        }
         all.push_back({&feature, 0.0, missing(feature, scene, signal, !healthy.amplitude.empty())});
         needs |= all.back().missing.empty() ? feature.needs : 0U;
     }
@@ -202,7 +205,7 @@ std::vector<Measured> measure(const Scene& scene, const MeasuredSignal& signal,
     }
     for (Measured& one : all) {
         if (one.missing.empty()) {
-            one.value = one.feature->compute(input);
+            one.value = one.feature->value(input);
             if (!std::isfinite(one.value)) {
                 one.missing = why_no_value(*one.feature, input, scene);
             }

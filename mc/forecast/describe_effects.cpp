@@ -331,6 +331,11 @@ void print_effects(const Scene& scene) {
         print_entry("encoder noise", fmt::format("{:.4g} rad rms times the noise level",
                                                  study.sensor.encoder_noise_rad));
     }
+    if (compares_records(study)) {
+        print_entry("baseline", fmt::format("every gearbox also before its fault, at a torque {:g} "
+                                            "% off (rms)",
+                                            100.0 * study.features.baseline_torque_scatter));
+    }
     print_left_out(scene);
 }
 

@@ -8,6 +8,7 @@
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 #include "mc/gearbox/tooth_draws.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
@@ -127,7 +128,7 @@ GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids,
     auto start = WallClock::now();
     GearboxTile tile;
     for (const GearboxId& id : ids) {
-        tile.inputs.push_back(sampler.sample(id.group, id.index));
+        tile.inputs.push_back(sampler.sample(id));
     }
     tile.inputs.resize(static_cast<std::size_t>(lanes), tile.inputs.back());
     tile.sampling_s = lap(start);
@@ -165,11 +166,9 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
     tile.signals_s = lap(start);
 }
 
-}  // namespace
-
-GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int fewest, bool with_motion,
-                          const MarchCache* marches) {
+GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                        std::span<const GearboxId> ids, int fewest, bool with_motion,
+                        const MarchCache* marches) {
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     GearboxTile tile = sampled_tile(sampler, ids, lanes);
     const MarchCache* const kept = with_motion ? nullptr : marches;
@@ -187,11 +186,72 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     return tile;
 }
 
+// The baseline records' signals, status and times; their motion is freed before the judged ones are
+// marched.
+GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::vector<GearboxId> ids, int fewest, const MarchCache* marches) {
+    for (GearboxId& id : ids) {
+        id.record = Record::baseline;
+    }
+    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, false, marches);
+    auto start = WallClock::now();
+    const unsigned needs = needs_of(used_features(scene.study()));
+    const int meshes = needs_samples(needs) ? scene.signal_meshes() : 0;
+    std::vector<LaneSignals> signals(ids.size());
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        if (tile.status[lane] == Status::ok) {
+            signals[lane] = lane_signals(scene, path, tile, static_cast<int>(lane), meshes);
+        }
+    }
+    tile.baseline = std::move(signals);
+    tile.signals_s += lap(start);
+    tile.march = {};
+    tile.views = {};
+    tile.folded = {};
+    tile.te_turn = {};
+    return tile;
+}
+
+void add_baselines(GearboxTile earlier, GearboxTile& tile) {
+    tile.baseline = std::move(earlier.baseline);
+    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
+        if (tile.status[lane] == Status::ok) {
+            tile.status[lane] = earlier.status[lane];
+        }
+    }
+    tile.sampling_s += earlier.sampling_s;
+    tile.stiffness_s += earlier.stiffness_s;
+    tile.march_s += earlier.march_s;
+    tile.signals_s += earlier.signals_s;
+    tile.march_cpu_s += earlier.march_cpu_s;
+    tile.meshes += earlier.meshes;
+}
+
+}  // namespace
+
+GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                          std::span<const GearboxId> ids, int fewest, bool with_motion,
+                          const MarchCache* marches) {
+    if (!compares_records(scene.study())) {
+        return run_records(scene, sampler, path, ids, fewest, with_motion, marches);
+    }
+    GearboxTile earlier =
+        run_baselines(scene, sampler, path, {ids.begin(), ids.end()}, fewest, marches);
+    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, with_motion, marches);
+    add_baselines(std::move(earlier), tile);
+    return tile;
+}
+
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult march) {
     GearboxTile tile = sampled_tile(sampler, ids, static_cast<int>(march.status.size()));
     tile.march = std::move(march);
     add_signals(scene, path, ids, tile);
+    if (compares_records(scene.study())) {
+        add_baselines(run_baselines(scene, sampler, path, {ids.begin(), ids.end()},
+                                    static_cast<int>(tile.inputs.size()), nullptr),
+                      tile);
+    }
     return tile;
 }
 
@@ -203,6 +263,9 @@ LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, cons
     own.te_turn.resize(tile.te_turn.size() / lanes);
     signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
     signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    if (!tile.baseline.empty()) {
+        own.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
+    }
     if (meshes > 0) {
         own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
                                          tile.inputs[static_cast<std::size_t>(lane)].path_exponent,

@@ -16,6 +16,15 @@ namespace gearpod::mc {
 
 class MarchCache;  // march_cache.hpp
 
+// One lane of a tile.
+struct LaneSignals {
+    std::vector<double> folded;   // as GearboxTile::folded
+    std::vector<double> te_turn;  // as GearboxTile::te_turn
+    std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
+    // Of the gearbox's baseline record, kept by the tile; null unless features compare with it.
+    const LaneSignals* baseline = nullptr;
+};
+
 // A tile's results; `march.records` owns what `views` shows.
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
@@ -25,6 +34,8 @@ struct GearboxTile {
     signals::Tones tones;            // interfering; empty without
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
+    // Of the gearboxes asked for; none unless features compare with it.
+    std::vector<LaneSignals> baseline;
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
     int meshes = 0;            // mesh periods marched for it, 0 if `march` was there before
@@ -34,9 +45,10 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// Runs the gearboxes in `ids`, at most as many as there are lanes: `fewest` (16, 8, 4 or 1) or the
-// next number that the program has kernels for. Missing lanes repeat the last one. With `marches`,
-// what was marched before is not marched again.
+// Runs the gearboxes in `ids` (and before them their baseline records, where features compare with
+// them: a gearbox whose baseline fails has failed), at most as many as there are lanes: `fewest`
+// (16, 8, 4 or 1) or the next number that the program has kernels for. Missing lanes repeat the
+// last one. With `marches`, what was marched before is not marched again.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, bool with_motion = false,
                           const MarchCache* marches = nullptr);
@@ -45,12 +57,6 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult march);
 
-// One lane of a tile.
-struct LaneSignals {
-    std::vector<double> folded;   // as GearboxTile::folded
-    std::vector<double> te_turn;  // as GearboxTile::te_turn
-    std::vector<double> sensor;   // m/s^2 without noise, [mesh * P + p]
-};
 // `meshes`: mesh periods of sensor signal, 0 for none.
 LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
                          int lane, int meshes);

@@ -64,7 +64,8 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
                                      const signals::PathGrid& path) {
     const int lanes = scene.study().numerics.lanes;
     InstanceSignals records(scene, features::kSensorTurn);
-    HealthyRecordsMean mean(scene.study().sensor.noise_levels.size());
+    const std::size_t levels = scene.study().sensor.noise_levels.size();
+    HealthyRecordsMean mean(levels);
     for (int first = 0; first < HealthyReference::kRecords; first += lanes) {
         std::vector<GearboxId> ids;
         for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
@@ -75,11 +76,11 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
             machine::leave_if_stopped();
             if (tile.status[lane] == Status::ok) {
                 const int l = static_cast<int>(lane);
-                records.each_level(lane_signals(scene, path, tile, l, records.meshes()),
-                                   tile.inputs[lane], ids[lane],
-                                   [&](std::size_t level, const features::FeatureInput& input) {
-                                       mean.add(level, input);
-                                   });
+                const LaneSignals own = lane_signals(scene, path, tile, l, records.meshes());
+                records.load(own, tile.inputs[lane], ids[lane]);
+                for (std::size_t level = 0; level < levels; ++level) {
+                    mean.add(level, records.at(level));
+                }
             }
         }
     }

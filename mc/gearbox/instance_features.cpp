@@ -3,23 +3,58 @@
 #include <cmath>
 #include <limits>
 
+#include "mc/gearbox/record_change.hpp"
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 
 InstanceFeatures::InstanceFeatures(const Scene& scene, const HealthyReference* healthy)
-    : InstanceSignals(scene, needs_of(used_features(scene.study()))),
+    : InstanceSignals(scene, compared_needs(used_features(scene.study())).record),
+      scene_(scene),
       features_(used_features(scene.study())),
       healthy_(healthy),
-      levels_(scene.study().sensor.noise_levels.size()) {}
+      levels_(scene.study().sensor.noise_levels.size()) {
+    const ComparedNeeds needs = compared_needs(features_);
+    if (needs.baseline != 0) {
+        baseline_ = std::make_unique<InstanceSignals>(scene, needs.baseline);
+    }
+    if (needs.change != 0) {
+        change_ = std::make_unique<InstanceSignals>(scene, needs.change);
+    }
+}
+
+void InstanceFeatures::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                            const GearboxId& id) {
+    InstanceSignals::load(gearbox, inputs, id);
+    if (baseline_) {
+        baseline_->load(*gearbox.baseline, inputs, {id.group, id.index, Record::baseline});
+    }
+    if (change_) {
+        changed_ = change_since_baseline(scene_, gearbox);
+        change_->load(changed_, inputs,
+                      noise_of_change(scene_, changed_, noise(), baseline_->noise()));
+    }
+}
 
 std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
                                               const InstanceInputs& inputs, const GearboxId& id,
                                               std::vector<LevelSignals>* signals) {
     std::vector<double> values(features_.size() * levels_);
-    each_level(gearbox, inputs, id, [&](std::size_t level, features::FeatureInput input) {
-        if (!healthy_->amplitude.empty()) {
-            input.healthy = healthy_->at(level);
+    load(gearbox, inputs, id);
+    for (std::size_t level = 0; level < levels_; ++level) {
+        features::FeatureInput input = at(level), before, change;
+        if (baseline_) {
+            before = baseline_->at(level);
+            input.baseline = &before;
+        }
+        if (change_) {
+            change = change_->at(level);
+            input.change = &change;
+        }
+        for (features::FeatureInput* of : {&input, &before}) {
+            if (!healthy_->amplitude.empty()) {
+                of->healthy = healthy_->at(level);
+            }
         }
         if (signals != nullptr) {
             const auto own = [](std::span<const double> signal) {
@@ -29,11 +64,11 @@ std::vector<double> InstanceFeatures::compute(const LaneSignals& gearbox,
                                                                            : own(input.tooth_rms)});
         }
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            const double value = features_[f]->compute(input);
+            const double value = features_[f]->value(input);
             values[f * levels_ + level] =
                 std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
         }
-    });
+    }
     return values;
 }
 

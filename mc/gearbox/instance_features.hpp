@@ -1,6 +1,7 @@
 // From one gearbox's signals to its features at every noise level.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mc/gearbox/healthy_reference.hpp"
@@ -26,9 +27,15 @@ class InstanceFeatures : public InstanceSignals {
                                 const GearboxId& id, std::vector<LevelSignals>* signals = nullptr);
 
   private:
+    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+
+    const Scene& scene_;
     std::vector<const features::Feature*> features_;
     const HealthyReference* healthy_;
     std::size_t levels_;
+    // Where features compare with them.
+    std::unique_ptr<InstanceSignals> baseline_, change_;
+    LaneSignals changed_;
 };
 
 }  // namespace gearpod::mc

@@ -25,18 +25,13 @@ class Stopwatch {
     const WallClock::time_point start_ = WallClock::now();
 };
 
-// Every gearbox has one for its sensor noise, one for its encoder noise, and one for the directions
-// that spell a drawn sensor noise out sample by sample.
-Philox stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return {static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
-            parameter_id(purpose)};
-}
-
 }  // namespace
 
 std::vector<double> sample_noise(const Scene& scene, std::span<const double> clean,
                                  const signals::NoiseDraw& draw, const GearboxId& id) {
-    Philox engine = stream(scene.study(), id, "noise.sensor.direction");
+    // A gearbox has a stream for its sensor noise, one for its encoder noise, and this one for the
+    // directions that spell a drawn sensor noise out sample by sample.
+    Philox engine = record_stream(scene.study(), id, "noise.sensor.direction");
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -71,76 +66,82 @@ void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInput
     const Stopwatch watch(noise_s_);
     const std::size_t bins = gearbox.folded.size();
     if (bins > 0 && senses_noise(inputs)) {
-        Philox sensor = stream(scene_.study(), id, "noise.sensor");
+        Philox sensor = record_stream(scene_.study(), id, "noise.sensor");
         sensor_noise_.draw(sensor, bins, noise_.sensor);
         if (!gearbox.sensor.empty()) {
-            unit_noise_ = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
+            noise_.samples = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
         }
     } else {
         noise_.sensor.along.assign(bins, 0.0);
         noise_.sensor.across.assign(bins, 0.0);
-        unit_noise_.assign(gearbox.sensor.size(), 0.0);
+        noise_.samples.assign(gearbox.sensor.size(), 0.0);
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Philox encoder = stream(scene_.study(), id, "noise.encoder");
+        Philox encoder = record_stream(scene_.study(), id, "noise.encoder");
         signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
     }
 }
 
-void InstanceSignals::load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs) {
-    if (senses_noise(inputs)) {
+void InstanceSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                           const GearboxId& id) {
+    draw_noise(gearbox, inputs, id);
+    load_signals(gearbox, inputs);
+}
+
+void InstanceSignals::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                           NoiseOfInstance noise) {
+    noise_ = std::move(noise);
+    load_signals(gearbox, inputs);
+}
+
+void InstanceSignals::load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs) {
+    gearbox_ = &gearbox;
+    sensor_rms_ = inputs.noise_m_s2;
+    encoder_rms_ = inputs.encoder_noise_rad;
+    if (gearbox.folded.empty()) {
+        // A quasi-static gearbox has no sensor.
+    } else if (senses_noise(inputs)) {
         windowing_.load(gearbox.folded, noise_.sensor);
     } else {
         windowing_.load(gearbox.folded);
     }
+    spectrum_.load(gearbox.te_turn, noise_.encoder);
 }
 
-void InstanceSignals::sensor_features(const LaneSignals& gearbox, double noise,
-                                      features::FeatureInput& input) {
+void InstanceSignals::sensor_features(double noise, features::FeatureInput& input) {
     const int offset = windowing_.search(noise, tooth_rms_);
     input.sensor_mean_square = windowing_.mean_square(noise);
     if (needs_samples_) {
-        samples_ = gearbox.sensor;
-        add_noise(unit_noise_, noise, samples_);
+        samples_ = gearbox_->sensor;
+        add_noise(noise_.samples, noise, samples_);
         analysis_.sensor(samples_, offset, input);
     }
 }
 
-void InstanceSignals::te_features(const LaneSignals& gearbox, double noise,
-                                  features::FeatureInput& input) {
-    te_.resize(gearbox.te_turn.size());
+void InstanceSignals::te_features(double noise, features::FeatureInput& input) {
+    te_.resize(gearbox_->te_turn.size());
     for (std::size_t i = 0; i < te_.size(); ++i) {
-        te_[i] = gearbox.te_turn[i] + noise * noise_.encoder[i];
+        te_[i] = gearbox_->te_turn[i] + noise * noise_.encoder[i];
     }
     spectrum_.amplitudes(noise, amplitude_);
     analysis_.te(te_, input);
 }
 
-void InstanceSignals::each_level(
-    const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id,
-    const std::function<void(std::size_t, const features::FeatureInput&)>& visit) {
-    const auto& levels = scene_.study().sensor.noise_levels;
-    const bool sensed = !gearbox.folded.empty();  // a quasi-static gearbox has no sensor
-    draw_noise(gearbox, inputs, id);
-    if (sensed) {
-        load_windows(gearbox, inputs);
+features::FeatureInput InstanceSignals::at(std::size_t level) {
+    machine::leave_if_stopped();
+    const double factor = scene_.study().sensor.noise_levels[level];
+    features::FeatureInput input;
+    if (!gearbox_->folded.empty()) {
+        sensor_features(factor * sensor_rms_, input);
     }
-    spectrum_.load(gearbox.te_turn, noise_.encoder);
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-        machine::leave_if_stopped();
-        features::FeatureInput input;
-        if (sensed) {
-            sensor_features(gearbox, levels[level] * inputs.noise_m_s2, input);
-        }
-        te_features(gearbox, levels[level] * inputs.encoder_noise_rad, input);
-        input.te_turn = te_;
-        input.te_amplitude = amplitude_;
-        input.planet_teeth = scene_.span().planet_teeth;
-        input.te_harmonics = scene_.study().features.te_harmonics;
-        input.tooth_rms = tooth_rms_;
-        visit(level, input);
-    }
+    te_features(factor * encoder_rms_, input);
+    input.te_turn = te_;
+    input.te_amplitude = amplitude_;
+    input.planet_teeth = scene_.span().planet_teeth;
+    input.te_harmonics = scene_.study().features.te_harmonics;
+    input.tooth_rms = tooth_rms_;
+    return input;
 }
 
 }  // namespace gearpod::mc

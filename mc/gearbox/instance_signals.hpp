@@ -1,7 +1,6 @@
 // One gearbox's signals at every noise level, as features look at them.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,6 +25,7 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
 // What the noise adds to one gearbox, for all noise levels.
 struct NoiseOfInstance {
     signals::NoiseDraw sensor;
+    std::vector<double> samples;  // the same of every sample of LaneSignals::sensor, unit rms
     std::vector<double> encoder;  // for a level of 1 rad rms
 };
 
@@ -38,11 +38,13 @@ class InstanceSignals {
     // Mesh periods of sensor signal that LaneSignals must hold, perhaps none.
     int meshes() const { return needs_samples_ ? scene_.signal_meshes() : 0; }
 
-    // visit(level, input) for every noise level; `input` is valid during the call.
-    void each_level(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id,
-                    const std::function<void(std::size_t, const features::FeatureInput&)>& visit);
+    // The next gearbox, which must live as long as at() is asked for it: with noise drawn for it,
+    // or with that noise.
+    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
+    void load(const LaneSignals& gearbox, const InstanceInputs& inputs, NoiseOfInstance noise);
+    // The gearbox at a noise level; valid until the next call.
+    features::FeatureInput at(std::size_t level);
 
-    // The noise that each_level() used last.
     const NoiseOfInstance& noise() const { return noise_; }
     // Seconds that drawing noise has taken so far.
     double noise_s() const { return noise_s_; }
@@ -52,10 +54,10 @@ class InstanceSignals {
     bool senses_noise(const InstanceInputs& inputs) const;
     // Zeros for what no level adds.
     void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
-    void load_windows(const LaneSignals& gearbox, const InstanceInputs& inputs);
+    void load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs);
     // At one noise level, rms in m/s^2 and rad.
-    void sensor_features(const LaneSignals& gearbox, double noise, features::FeatureInput& input);
-    void te_features(const LaneSignals& gearbox, double noise, features::FeatureInput& input);
+    void sensor_features(double noise, features::FeatureInput& input);
+    void te_features(double noise, features::FeatureInput& input);
 
     const Scene& scene_;
     signals::SensorNoise sensor_noise_;
@@ -64,8 +66,9 @@ class InstanceSignals {
     SpanAnalysis analysis_;
     bool needs_samples_;
     const double highest_level_;
+    const LaneSignals* gearbox_ = nullptr;
+    double sensor_rms_ = 0.0, encoder_rms_ = 0.0;  // of the noise at level 1, m/s^2 and rad
     NoiseOfInstance noise_;
-    std::vector<double> unit_noise_;  // of every sample
     std::vector<double> te_, samples_, amplitude_, tooth_rms_;
     double noise_s_ = 0.0;
 };

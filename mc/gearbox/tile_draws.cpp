@@ -11,13 +11,6 @@
 
 namespace gearpod::mc {
 
-Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t lane,
-                 std::string_view purpose) {
-    const GearboxId& id = ids[std::min(lane, ids.size() - 1)];
-    return {static_cast<std::uint64_t>(scene.study().ensemble.seed), id.group, id.index,
-            parameter_id(purpose)};
-}
-
 namespace {
 
 // What a sine and noise are made from.
@@ -85,8 +78,10 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
         add_sine({f.speed, f.speed_order * input_turns, 0.0, f.speed_phase_rad}, speed);
         torque_noise.push_back({f.torque_noise, f.torque_noise_Hz});
         speed_noise.push_back({f.speed_noise, f.speed_noise_Hz});
-        torque_engines.push_back(stream_of(scene, ids, lane, "operation.torque_noise.knots"));
-        speed_engines.push_back(stream_of(scene, ids, lane, "operation.speed_noise.knots"));
+        torque_engines.push_back(
+            record_stream(study, id_of_lane(ids, lane), "operation.torque_noise.knots"));
+        speed_engines.push_back(
+            record_stream(study, id_of_lane(ids, lane), "operation.speed_noise.knots"));
         excitation.turning_m_s.push_back(drive.turning_m_s(inputs[lane]));
     }
     // The sensor's time runs on when the speed drops: some more of the torque's knots.
@@ -125,7 +120,7 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
     tones.phase_rad.resize(wanted.size() * lanes);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         tones.mesh_period_s.push_back(dynamics::mesh_period_s(scene.inputs(inputs[lane])));
-        Philox engine = stream_of(scene, ids, lane, "sensor.tones.phase");
+        Philox engine = record_stream(scene.study(), id_of_lane(ids, lane), "sensor.tones.phase");
         boost::random::uniform_real_distribution<double> turn(0.0, 2.0 * std::numbers::pi);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             tones.phase_rad[i * lanes + lane] = turn(engine);

@@ -14,9 +14,10 @@ namespace gearpod::mc {
 
 // `inputs` holds one gearbox a lane; lanes beyond `ids` repeat the last of them.
 
-// The random numbers of a lane's gearbox for a purpose.
-Philox stream_of(const Scene& scene, std::span<const GearboxId> ids, std::size_t lane,
-                 std::string_view purpose);
+// The gearbox in a lane.
+inline const GearboxId& id_of_lane(std::span<const GearboxId> ids, std::size_t lane) {
+    return ids[lane < ids.size() ? lane : ids.size() - 1];
+}
 
 // Nothing keeps step with the tones: each begins anywhere in its turn. Empty without tones.
 signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,

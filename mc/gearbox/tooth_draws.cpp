@@ -171,7 +171,7 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto stream = [&](const char* purpose) {
-            return stream_of(scene, ids, lane, purpose);
+            return gearbox_stream(scene.study(), id_of_lane(ids, lane), purpose);
         };
         LaneTeeth teeth(scene, lane, lanes, stream("gearbox.pitch_error.teeth"),
                         stream("gearbox.index_wave.gears"), stream("gearbox.profile_slope.teeth"),

@@ -9,7 +9,7 @@ namespace gearpod::mc {
 namespace {
 
 constexpr unsigned kOfSamples = features::kSensorTurn | features::kSun | features::kRing |
-                                features::kPlanetMoments | features::kFiltered;
+                                features::kPlanetMoments | features::kFiltered | features::kChange;
 
 }  // namespace
 
@@ -29,6 +29,27 @@ unsigned needs_of(std::span<const features::Feature* const> features) {
     unsigned needs = 0;
     for (const features::Feature* feature : features) {
         needs |= feature->needs;
+    }
+    return needs;
+}
+
+ComparedNeeds compared_needs(std::span<const features::Feature* const> features) {
+    ComparedNeeds needs;
+    for (const features::Feature* feature : features) {
+        switch (feature->compared) {
+            case features::Compared::nothing:
+                needs.record |= feature->needs;
+                break;
+            case features::Compared::change:
+                needs.record |= features::kChange;
+                needs.baseline |= features::kChange;
+                needs.change |= feature->needs;
+                break;
+            case features::Compared::baseline:
+                needs.record |= feature->needs;
+                needs.baseline |= feature->needs;
+                break;
+        }
     }
     return needs;
 }

@@ -15,6 +15,12 @@ namespace gearpod::mc {
 std::vector<const features::Feature*> used_features(const Study& study);
 unsigned needs_of(std::span<const features::Feature* const> features);
 
+// Needs by the signals that they are of.
+struct ComparedNeeds {
+    unsigned record = 0, baseline = 0, change = 0;
+};
+ComparedNeeds compared_needs(std::span<const features::Feature* const> features);
+
 // Whether features with these needs look at the sensor's samples.
 bool needs_samples(unsigned needs);
 // Mesh periods of sensor signal that features with these needs look at.

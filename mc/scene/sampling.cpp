@@ -1,5 +1,6 @@
 #include "mc/scene/sampling.hpp"
 
+#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <limits>
 
@@ -165,14 +166,24 @@ InstanceInputs resolve_inputs(const Study& study) {
     return inputs;
 }
 
+Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+    return {static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
+            parameter_id(purpose)};
+}
+
+Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+    return id.record == Record::judged
+               ? gearbox_stream(study, id, purpose)
+               : gearbox_stream(study, id, std::string(purpose).append(".baseline"));
+}
+
 Sampler::Sampler(const Study& study) : study_(study), turn_lengths_(turn_lengths(study.random)) {}
 
 Study Sampler::draw(Group group, std::uint64_t index) const {
     Study drawn = study_;
     for (std::size_t i = 0; i < study_.random.size(); ++i) {
         const RandomInput& input = study_.random[i];
-        Philox engine(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
-                      parameter_id(input.key));
+        Philox engine = gearbox_stream(study_, {group, index}, input.key);
         const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
@@ -186,10 +197,21 @@ InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
     const Study drawn = draw(group, index);
     InstanceInputs inputs = resolve_inputs(drawn);
     if (draws_planets(study_)) {
-        draw_planets(drawn,
-                     Philox(static_cast<std::uint64_t>(study_.ensemble.seed), group, index,
-                            parameter_id("gearbox.planets")),
+        draw_planets(drawn, gearbox_stream(study_, {group, index}, "gearbox.planets"),
                      inputs.planets);
+    }
+    return inputs;
+}
+
+InstanceInputs Sampler::sample(const GearboxId& id) const {
+    InstanceInputs inputs = sample(id.group, id.index);
+    if (id.record == Record::baseline) {
+        inputs.fault_size = 0.0;
+        Philox engine = record_stream(study_, id, "operation.torque");
+        boost::random::normal_distribution<double> unit;
+        const double share = std::exp(study_.features.baseline_torque_scatter * unit(engine));
+        inputs.torque_N_m *= share;
+        inputs.fixed_shaft.load_torque_N_m *= share;
     }
     return inputs;
 }

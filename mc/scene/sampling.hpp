@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mc/random/philox.hpp"
@@ -57,11 +58,20 @@ struct InstanceInputs {
     double fault_size;         // 0 in the threshold group and without a fault
 };
 
-// Which gearbox: row `index` of its group.
+// Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.
+enum class Record { judged, baseline };
+
+// Which gearbox: row `index` of its group; and which record of it.
 struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
+    Record record = Record::judged;
 };
+
+// The random numbers for a purpose that belong to the gearbox, the same in all its records.
+Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+// Those that every record has of its own.
+Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 
 struct ParameterColumn {
     std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
@@ -80,6 +90,9 @@ class Sampler {
 
     // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
     InstanceInputs sample(Group group, std::uint64_t index) const;
+    // Of a record: the baseline has no fault yet, and another torque by
+    // features.baseline_torque_scatter.
+    InstanceInputs sample(const GearboxId& id) const;
     // Nominal values; fault_size is the nominal size.
     InstanceInputs nominal() const;
 

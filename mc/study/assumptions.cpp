@@ -39,6 +39,13 @@ std::string assumptions(const Study& study) {
     }
     std::string text =
         fmt::format("Holds for {}, and thresholds from other gearboxes.", fmt::join(all, ", "));
+    if (compares_records(study)) {
+        text += fmt::format(
+            " own_ and change_ features also take a healthy record of the same gearbox, at a "
+            "torque "
+            "{:g} % (rms) off.",
+            100.0 * study.features.baseline_torque_scatter);
+    }
     const bool alike =
         std::all_of(study.random.begin(), study.random.end(),
                     [](const RandomInput& input) { return input.key.starts_with("fault."); });

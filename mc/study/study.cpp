@@ -2,12 +2,22 @@
 
 #include <algorithm>
 
+#include "features/feature.hpp"
+
 namespace gearpod::mc {
 
 const RandomInput* Study::find_random(const std::string& key) const {
     const auto found = std::find_if(random.begin(), random.end(),
                                     [&](const RandomInput& input) { return input.key == key; });
     return found == random.end() ? nullptr : &*found;
+}
+
+bool compares_records(const Study& study) {
+    return std::any_of(
+        study.features.use.begin(), study.features.use.end(), [](const std::string& name) {
+            const features::Feature* feature = features::find_feature(name);
+            return feature != nullptr && feature->compared != features::Compared::nothing;
+        });
 }
 
 }  // namespace gearpod::mc

@@ -236,6 +236,9 @@ struct Features {
     std::vector<std::string> use;  // as in the file; the basic ones by default
     double tukey_taper = 0.1;
     int te_harmonics = 8;
+    // Of the logarithm of the torque in a gearbox's baseline record, normal about that of the
+    // record that is judged.
+    double baseline_torque_scatter = 0.0;
 
     bool operator==(const Features&) const = default;
 };
@@ -321,6 +324,9 @@ struct Study {
     const RandomInput* find_random(const std::string& key) const;
     bool operator==(const Study&) const = default;
 };
+
+// Whether a feature compares a gearbox with its own baseline record.
+bool compares_records(const Study& study);
 
 struct StudyReading {
     std::optional<Study> study;  // only without problems

@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <array>
+#include <deque>
+#include <string>
+#include <vector>
 
 #include "features/feature.hpp"
 
@@ -102,14 +106,64 @@ constexpr std::array kFeatures{
             &ring_window_m8a, true, kRingMoments},
 };
 
+// Of the change since the baseline record: the energy of what changed, and where on the gears.
+constexpr std::string_view kOfChange[] = {"sensor_rms",       "window_ratio", "window_z",
+                                          "sun_window_ratio", "sun_window_z", "ring_window_ratio",
+                                          "ring_window_z"};
+
+class Catalogue {
+  public:
+    Catalogue() : all_(kFeatures.begin(), kFeatures.end()) {
+        for (const std::string_view name : kOfChange) {
+            Feature own = *std::find_if(kFeatures.begin(), kFeatures.end(),
+                                        [&](const Feature& f) { return f.name == name; });
+            own.name = text("change_", own.name, "");
+            own.doc = text("", own.doc, ", of the record less the gearbox's own baseline record");
+            own.needs |= kChange;
+            own.compared = Compared::change;
+            all_.push_back(own);
+        }
+        for (Feature own : kFeatures) {
+            own.name = text("own_", own.name, "");
+            own.doc =
+                text("", own.name.substr(4), " over that of the gearbox's own baseline record");
+            own.unit = "1";
+            own.needs |= kBaseline;
+            own.compared = Compared::baseline;
+            all_.push_back(own);
+        }
+    }
+    std::span<const Feature> all() const { return all_; }
+
+  private:
+    std::string_view text(std::string_view before, std::string_view of, std::string_view behind) {
+        return texts_.emplace_back(std::string(before).append(of).append(behind));
+    }
+    std::deque<std::string> texts_;  // which keeps its strings in place
+    std::vector<Feature> all_;
+};
+
 }  // namespace
 
+double Feature::value(const FeatureInput& input) const {
+    switch (compared) {
+        case Compared::change:
+            return compute(*input.change);
+        case Compared::baseline:
+            return compute(input) / compute(*input.baseline);
+        case Compared::nothing:
+            break;
+    }
+    return compute(input);
+}
+
 std::span<const Feature> all_features() {
-    return kFeatures;
+    static const Catalogue catalogue;
+    return catalogue.all();
 }
 
 const Feature* find_feature(std::string_view name) {
-    for (const Feature& feature : kFeatures) {
+    for (const Feature& feature : all_features()) {
         if (feature.name == name) {
             return &feature;
         }

@@ -31,6 +31,11 @@ struct HealthyRecords {
 
 // The signals of one gearbox at one noise level. Empty where nobody asked for them.
 struct FeatureInput {
+    // The same of the gearbox's own earlier record, and of what has changed since: record less
+    // baseline, sample by sample. Null where nobody asked for them.
+    const FeatureInput* baseline = nullptr;
+    const FeatureInput* change = nullptr;
+
     std::span<const double> te_turn;       // rad, one planet turn, averaged, mean removed
     std::span<const double> te_amplitude;  // rad, [order], order 0 to the Nyquist order of te_turn
     int planet_teeth = 0;                  // Z_p, the mesh order
@@ -57,9 +62,15 @@ enum Need : unsigned {
     kRingMoments = 64,    // ring but for its rms
     kFiltered = 128,      // filtered_rms
     kHealthy = 256,       // healthy
+    kBaseline = 512,      // baseline
+    kChange = 1024,       // change
 };
 inline constexpr unsigned kSun = kSunRms | kSunMoments;
 inline constexpr unsigned kRing = kRingRms | kRingMoments;
+
+// Of which signals: the gearbox's; those of its change since the baseline record; or the feature of
+// the gearbox's over that of its baseline's.
+enum class Compared { nothing, change, baseline };
 
 struct Feature {
     std::string_view name;
@@ -69,11 +80,15 @@ struct Feature {
     // NaN where the definition divides by zero (a signal that is exactly constant, say).
     double (*compute)(const FeatureInput& input) = nullptr;
     bool from_sensor = false;  // whether it needs the sensor's signal
-    unsigned needs = 0;        // of Need
+    unsigned needs = 0;        // of Need; with a baseline those of the feature compared beside it
+    Compared compared = Compared::nothing;
 
     bool basic() const { return needs == 0; }
+    // NaN as `compute`, and where the baseline's is zero.
+    double value(const FeatureInput& input) const;
 };
 
+// Those of the record alone come first, then those of its change, then those over the baseline's.
 std::span<const Feature> all_features();
 
 // nullptr if there is none of this name.

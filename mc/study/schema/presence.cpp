@@ -31,6 +31,13 @@ Presence with(const std::optional<double>& given, const std::string& because,
 
 }  // namespace
 
+Presence with_baseline(const Study& s) {
+    return compares_records(s) ? kOptional
+                               : Presence{Need::forbidden,
+                                          "only with features of the change since the gearbox's "
+                                          "baseline record (change_...) or over its (own_...)",
+                                          {"features.use"}};
+}
 Presence always(const Study&) {
     return {Need::required, "", {}};
 }

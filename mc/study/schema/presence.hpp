@@ -53,6 +53,8 @@ Presence acceleration(const Study&);         // required unless the motion is qu
 Presence acceleration_detail(const Study&);  // has no place where it is
 Presence integration(const Study&);          // has no place where nothing is integrated
 
+Presence with_baseline(const Study&);  // only with features that compare with one
+
 Presence length_edges(const Study&);  // only if the fault's size is a length
 Presence number_edges(const Study&);  // only if it is none
 

@@ -57,9 +57,10 @@ const Key kKeys[] = {
     {"sensor", "encoder_noise_arcsec", number<&Sensor::encoder_noise_rad>, kArcsec, kNotNegative, may, kRandom, "rms noise of the transmission error"},
     {"sensor", "noise_levels", ascending<&Sensor::noise_levels>, kNone, kNotNegative, may, kSampling, "factors on both noises, ascending"},
 
-    {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z"},
+    {"features", "use", list<&Features::use>, kNone, kAny, may, kShared, "features to compute; by default the basic ones: te_rms te_kurtosis te_fc te_fm0 sensor_rms window_ratio window_z; change_... and own_... compare with the gearbox's own healthy record"},
     {"features", "tukey_taper", number<&Features::tukey_taper>, kNone, from_to(0, 1), may, kShared, "tapered fraction of the mesh window"},
     {"features", "te_harmonics", integer<&Features::te_harmonics>, kNone, from_to(1, 1000), may, kShared, "mesh harmonics in te_fm0"},
+    {"features", "baseline_torque_scatter", number<&Features::baseline_torque_scatter>, kNone, from_to(0, 1), with_baseline, kShared, "rms by which the torque of a gearbox's baseline record, healthy, differs from the judged one's: of its logarithm, a share"},
 
     {"detection", "false_alarm_rate", number<&Detection::false_alarm_rate>, kNone, kShare, may, kShared, "share of healthy gearboxes that may alarm"},
     {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence of the intervals"},

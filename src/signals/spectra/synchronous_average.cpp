@@ -30,16 +30,23 @@ std::vector<double> synchronous_average(std::span<const double> samples, std::si
     return mean;
 }
 
-std::vector<double> fold_of_squares(std::span<const double> samples, std::size_t bins) {
-    const std::size_t turns = whole_turns(samples, bins);
+std::vector<double> fold_of_products(std::span<const double> a, std::span<const double> b,
+                                     std::size_t bins) {
+    const std::size_t turns = whole_turns(a, bins);
+    if (b.size() != a.size()) {
+        throw std::invalid_argument("fold of products: the signals differ in length");
+    }
     std::vector<double> sum(bins, 0.0);
     for (std::size_t i = 0; i < turns; ++i) {
-        const double* turn = samples.data() + i * bins;
-        for (std::size_t b = 0; b < bins; ++b) {
-            sum[b] += turn[b] * turn[b];
+        for (std::size_t k = 0; k < bins; ++k) {
+            sum[k] += a[i * bins + k] * b[i * bins + k];
         }
     }
     return sum;
+}
+
+std::vector<double> fold_of_squares(std::span<const double> samples, std::size_t bins) {
+    return fold_of_products(samples, samples, bins);
 }
 
 double rms_without_average(std::span<const double> samples, std::size_t bins) {

@@ -15,7 +15,10 @@ namespace gearpod::signals {
 // std::invalid_argument if there is none.
 std::vector<double> synchronous_average(std::span<const double> samples, std::size_t bins);
 
-// Sum of squares over the same turns (folded_signal.hpp). Throws likewise.
+// Sum over the same turns of the products of two signals as long as each other, and of squares
+// (folded_signal.hpp). Throws likewise.
+std::vector<double> fold_of_products(std::span<const double> a, std::span<const double> b,
+                                     std::size_t bins);
 std::vector<double> fold_of_squares(std::span<const double> samples, std::size_t bins);
 
 // Root mean square, over the same turns, of what the average leaves: of the signal without all

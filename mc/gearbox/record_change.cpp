@@ -1,0 +1,62 @@
+#include "mc/gearbox/record_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "signals/spectra/synchronous_average.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::vector<double> less(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> difference(a.size());
+    std::transform(a.begin(), a.end(), b.begin(), difference.begin(), std::minus<>());
+    return difference;
+}
+
+// The turns that fold, of a signal that may go on behind them.
+std::span<const double> folding(const Scene& scene, std::span<const double> samples) {
+    return samples.first(static_cast<std::size_t>(scene.span_meshes()) *
+                         static_cast<std::size_t>(scene.samples_per_mesh()));
+}
+
+std::size_t turn_samples(const Scene& scene) {
+    return static_cast<std::size_t>(scene.span().planet_teeth) *
+           static_cast<std::size_t>(scene.samples_per_mesh());
+}
+
+// The draw that a noise of every sample comes to; Z is 0 where the signal is.
+signals::NoiseDraw draw_of(std::span<const double> signal, std::span<const double> noise,
+                           std::size_t bins) {
+    const std::vector<double> squares = signals::fold_of_squares(signal, bins);
+    signals::NoiseDraw draw{signals::fold_of_products(signal, noise, bins),
+                            signals::fold_of_squares(noise, bins)};
+    for (std::size_t b = 0; b < bins; ++b) {
+        draw.along[b] = squares[b] > 0.0 ? draw.along[b] / std::sqrt(squares[b]) : 0.0;
+        draw.across[b] = std::max(0.0, draw.across[b] - draw.along[b] * draw.along[b]);
+    }
+    return draw;
+}
+
+}  // namespace
+
+LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record) {
+    LaneSignals change;
+    change.te_turn = less(record.te_turn, record.baseline->te_turn);
+    change.sensor = less(record.sensor, record.baseline->sensor);
+    change.folded = signals::fold_of_squares(folding(scene, change.sensor), turn_samples(scene));
+    return change;
+}
+
+NoiseOfInstance noise_of_change(const Scene& scene, const LaneSignals& change,
+                                const NoiseOfInstance& record, const NoiseOfInstance& baseline) {
+    NoiseOfInstance noise;
+    noise.samples = less(record.samples, baseline.samples);
+    noise.encoder = less(record.encoder, baseline.encoder);
+    noise.sensor =
+        draw_of(folding(scene, change.sensor), folding(scene, noise.samples), turn_samples(scene));
+    return noise;
+}
+
+}  // namespace gearpod::mc

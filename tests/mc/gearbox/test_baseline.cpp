@@ -1,0 +1,147 @@
+// A gearbox against its own record from before the fault: ratios, changes, and what the two records
+// share.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "mc/gearbox/healthy_reference.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+Study study_with(std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
+                                       "numerics.steps_per_mesh=9600"});
+    return test::shipped_study("planet-crack.toml", overrides);
+}
+
+const std::string kCompared =
+    "features.use=[\"sensor_rms\",\"window_ratio\",\"te_rms\",\"own_sensor_rms\","
+    "\"own_window_ratio\",\"own_te_rms\",\"change_sensor_rms\",\"change_window_ratio\"]";
+enum : std::size_t { kRms, kRatio, kTe, kOwnRms, kOwnRatio, kOwnTe, kChangeRms, kChangeRatio };
+
+// A study's gearboxes and their features.
+class Computed {
+  public:
+    Computed(const Study& study, const std::vector<GearboxId>& ids)
+        : scene_(study),
+          levels_(study.sensor.noise_levels.size()),
+          path_(path_grid(scene_)),
+          tile_(run_gearboxes(scene_, Sampler(study), path_, ids, 8)),
+          features_(scene_, &healthy_) {
+        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+            REQUIRE(tile_.status[lane] == Status::ok);
+            values_.push_back(features_.compute(signals(static_cast<int>(lane)),
+                                                tile_.inputs[lane], ids[lane]));
+        }
+    }
+    double value(std::size_t feature, std::size_t level = 0, std::size_t gearbox = 0) const {
+        return values_[gearbox][feature * levels_ + level];
+    }
+    const std::vector<std::vector<double>>& values() const { return values_; }
+    LaneSignals signals(int lane) const {
+        return lane_signals(scene_, path_, tile_, lane, features_.meshes());
+    }
+    double noise_m_s2() const { return tile_.inputs[0].noise_m_s2; }
+
+  private:
+    Scene scene_;
+    std::size_t levels_;
+    signals::PathGrid path_;
+    GearboxTile tile_;
+    HealthyReference healthy_;
+    InstanceFeatures features_;
+    std::vector<std::vector<double>> values_;
+};
+
+const GearboxId kHealthy{Group::threshold, 4}, kFaulty{Group::graded, 4};
+
+double rms(const std::vector<double>& values) {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                     static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+TEST_CASE("Without noise and at the same torque a healthy gearbox is as its baseline") {
+    const Computed own(study_with({kCompared, "sensor.noise_levels=[0]"}), {kHealthy});
+    CHECK(own.value(kOwnRms) == 1.0);
+    CHECK(own.value(kOwnRatio) == 1.0);
+    CHECK(own.value(kOwnTe) == 1.0);
+    CHECK(own.value(kChangeRms) == 0.0);
+    CHECK(std::isnan(own.value(kChangeRatio)));  // no tooth stands out of nothing
+}
+
+TEST_CASE("Over its baseline a feature is that of the gearbox before its fault") {
+    const Study study = study_with({kCompared, "sensor.noise_levels=[0, 1]",
+                                    "features.baseline_torque_scatter=0.03"});
+    const Computed faulty(study, {kFaulty});
+    GearboxId before = kFaulty;
+    before.record = Record::baseline;
+    const Computed healthy(study, {before});
+    for (const std::size_t level : {0, 1}) {
+        for (const auto& [feature, own] :
+             {std::pair{kRms, kOwnRms}, {kRatio, kOwnRatio}, {kTe, kOwnTe}}) {
+            CHECK(faulty.value(own, level) ==
+                  faulty.value(feature, level) / healthy.value(feature, level));
+        }
+    }
+    CHECK(healthy.value(kRatio) == Approx(1.0).margin(1e-6));
+    // What changed is the crack's and the torque's; the crack's stands out at its tooth.
+    const LaneSignals now = faulty.signals(0), then = healthy.signals(0);
+    std::vector<double> change(now.sensor.size());
+    for (std::size_t i = 0; i < change.size(); ++i) {
+        change[i] = now.sensor[i] - then.sensor[i];
+    }
+    CHECK(faulty.value(kChangeRms) == Approx(rms(change)).epsilon(1e-12));
+    CHECK(faulty.value(kChangeRatio) > 2.0 * faulty.value(kRatio));
+}
+
+TEST_CASE("The two records have noise of their own") {
+    const Computed own(study_with({kCompared, "sensor.noise_levels=[0, 100]"}), {kHealthy});
+    const double noise = 100.0 * own.noise_m_s2();
+    // About a million samples: 1e-3 of the mean square is one standard deviation.
+    CHECK(own.value(kChangeRms, 1) == Approx(std::sqrt(2.0) * noise).epsilon(3e-3));
+    CHECK(own.value(kRms, 1) == Approx(noise).epsilon(3e-3));
+    CHECK(own.value(kOwnRms, 1) != 1.0);
+}
+
+TEST_CASE("A baseline's values do not depend on the gearboxes beside it") {
+    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const std::vector<GearboxId> ids{kHealthy, kFaulty, {Group::graded, 5}};
+    const Computed together(study, ids);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        CHECK(Computed(study, {ids[i]}).values()[0] == together.values()[i]);
+    }
+}
+
+TEST_CASE("The torque of baseline records is scattered as asked for, on both shafts") {
+    const Study study = test::shipped_study(
+        "tian-fig-4-9.toml", {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
+    const Sampler sampler(study);
+    double sum = 0.0, squares = 0.0;
+    constexpr int kGearboxes = 4000;
+    for (std::uint64_t i = 0; i < kGearboxes; ++i) {
+        const InstanceInputs now = sampler.sample({Group::graded, i});
+        const InstanceInputs then = sampler.sample({Group::graded, i, Record::baseline});
+        CHECK(then.fault_size == 0.0);
+        const double share = std::log(then.torque_N_m / now.torque_N_m);
+        CHECK(std::log(then.fixed_shaft.load_torque_N_m / now.fixed_shaft.load_torque_N_m) ==
+              Approx(share).margin(1e-12));
+        sum += share;
+        squares += share * share;
+    }
+    CHECK(sum / kGearboxes == Approx(0.0).margin(4.0 * 0.05 / std::sqrt(kGearboxes)));
+    CHECK(std::sqrt(squares / kGearboxes) == Approx(0.05).epsilon(0.05));
+}
+
+TEST_CASE("A torque for baselines that nothing compares with is refused") {
+    const auto reading = read_study(test::study_path("planet-crack.toml"),
+                                    {"features.baseline_torque_scatter=0.05"});
+    REQUIRE_FALSE(reading.study);
+    CHECK(format(reading.problems).find("features.baseline_torque_scatter") != std::string::npos);
+    CHECK(format(reading.problems).find("change_") != std::string::npos);
+}
