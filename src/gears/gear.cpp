@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,22 @@ double involute(double angle_rad) {
     return std::tan(angle_rad) - angle_rad;
 }
 
+double inverse_involute(double value) {
+    if (!(value > 0))
+        return 0;
+    // tan a - a is near a^3 / 3 for small angles and convex: Newton's method falls to the root from
+    // above.
+    double angle = std::min(std::cbrt(3 * value), 1.57);
+    for (int step = 0; step < 60; ++step) {
+        const double slope = std::tan(angle) * std::tan(angle);
+        const double next = angle - (involute(angle) - value) / slope;
+        if (!(next < angle))
+            break;
+        angle = next;
+    }
+    return angle;
+}
+
 double Gear::pitch_radius() const {
     return teeth * module_m / 2;
 }
@@ -22,46 +39,90 @@ double Gear::base_radius() const {
 }
 
 double Gear::tip_radius() const {
-    const double addendum = addendum_coefficient * module_m;
+    if (given_tip_radius_m)
+        return *given_tip_radius_m;
+    const double addendum = (addendum_coefficient + profile_shift - tip_shortening) * module_m;
     return internal ? pitch_radius() - addendum : pitch_radius() + addendum;
 }
 
 double Gear::root_radius() const {
-    const double dedendum = dedendum_coefficient * module_m;
+    const double dedendum = (dedendum_coefficient - profile_shift) * module_m;
     return internal ? pitch_radius() + dedendum : pitch_radius() - dedendum;
 }
 
 double Gear::half_base_angle() const {
     const double inv = involute(pressure_angle_rad);
-    return pi / (2 * teeth) + (internal ? -inv : inv);
+    const double standard = pi / (2 * teeth) + (internal ? -inv : inv);
+    return standard + 2 * profile_shift * std::tan(pressure_angle_rad) / teeth;
+}
+
+double Gear::half_angle_at(double radius_m) const {
+    const double inv = involute(std::acos(std::min(1.0, base_radius() / radius_m)));
+    return internal ? half_base_angle() + inv : half_base_angle() - inv;
+}
+
+double Gear::shift_without_undercut() const {
+    const double sine = std::sin(pressure_angle_rad);
+    return addendum_coefficient - 0.5 * teeth * sine * sine;
+}
+
+double Gear::form_radius() const {
+    const double sine = std::sin(pressure_angle_rad);
+    const double roll =
+        pitch_radius() * sine - (addendum_coefficient - profile_shift) * module_m / sine;
+    return std::hypot(base_radius(), std::max(0.0, roll));
 }
 
 namespace {
 
-// Half the angle an external tooth spans where its flanks have the given radius.
-double half_tip_angle(const Gear& gear) {
-    const double pressure_angle = std::acos(gear.base_radius() / gear.tip_radius());
-    return gear.internal ? gear.half_base_angle() + involute(pressure_angle)
-                         : gear.half_base_angle() - involute(pressure_angle);
+void cutting_problems(const Gear& gear, std::vector<std::string>& problems) {
+    // A fifth of the addendum is harmless: 14 teeth at 20 degrees do without shift (DIN 3960),
+    // where 18 have no undercut at all.
+    const double least = gear.shift_without_undercut() - 0.2 * gear.addendum_coefficient;
+    if (!gear.internal && gear.profile_shift < least)
+        problems.push_back(
+            fmt::format("{} teeth are undercut with a profile shift of {:g} (shift by {:.3f} or "
+                        "more, or use a larger pressure angle)",
+                        gear.teeth, gear.profile_shift, least));
+    const bool inside_out = gear.internal ? gear.tip_radius() >= gear.root_radius()
+                                          : gear.tip_radius() <= gear.root_radius();
+    if (inside_out)
+        problems.push_back(
+            fmt::format("the tip circle of {} teeth, {:.6g} mm in diameter, does not lie {} the "
+                        "root circle, {:.6g} mm",
+                        gear.teeth, 2e3 * gear.tip_radius(), gear.internal ? "inside" : "outside",
+                        2e3 * gear.root_radius()));
 }
 
 std::vector<std::string> shape_problems(const Gear& gear) {
     std::vector<std::string> problems;
-    if (gear.root_radius() <= 0)
+    if (gear.root_radius() <= 0) {
         problems.push_back(fmt::format(
             "{} teeth leave no root circle with a dedendum of {} modules (use more teeth)",
-            gear.teeth, gear.dedendum_coefficient));
+            gear.teeth, gear.dedendum_coefficient - gear.profile_shift));
+        return problems;
+    }
+    cutting_problems(gear, problems);
     if (gear.tip_radius() < gear.base_radius())
         problems.push_back(fmt::format(
             "the tip circle of the internal gear lies inside its base circle, so the involute "
             "does not reach the tip (use at least {:.0f} teeth instead of {})",
-            std::ceil(2 * gear.addendum_coefficient / (1 - std::cos(gear.pressure_angle_rad))),
+            std::ceil(2 * (gear.addendum_coefficient + gear.profile_shift - gear.tip_shortening) /
+                      (1 - std::cos(gear.pressure_angle_rad))),
             gear.teeth));
-    else if (half_tip_angle(gear) <= 0)
-        problems.push_back(
-            fmt::format("the flanks of a tooth cross below the tip circle ({} teeth, "
-                        "addendum {} modules: use a smaller addendum)",
-                        gear.teeth, gear.addendum_coefficient));
+    else if (gear.half_angle_at(gear.tip_radius()) <= 0)
+        problems.push_back(fmt::format(
+            "the flanks of a tooth cross below the tip circle, where it would be {:.3f} mm thick "
+            "({} teeth, addendum {:.4g} modules: use a smaller addendum{})",
+            1e3 * gear.thickness_at(gear.tip_radius()), gear.teeth,
+            std::abs(gear.tip_radius() - gear.pitch_radius()) / gear.module_m,
+            gear.profile_shift > 0 ? " or less shift" : ""));
+    else if (const double root = gear.root_radius();
+             gear.internal && 2 * pi / gear.teeth - 2 * gear.half_angle_at(root) <= 0)
+        problems.push_back(fmt::format(
+            "the spaces between {} internal teeth close before the root circle (shift them by "
+            "more than {:g})",
+            gear.teeth, gear.profile_shift));
     return problems;
 }
 

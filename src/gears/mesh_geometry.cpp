@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "gears/working_pair.hpp"
 
 namespace gearpod::gears {
 
@@ -27,8 +30,14 @@ double roll_length(const Gear& gear, double radius) {
     return std::sqrt(radius * radius - base * base);
 }
 
-LineOfAction line_of_action(const Gear& gear_1, const Gear& gear_2) {
-    const double slope = std::tan(gear_1.pressure_angle_rad);
+double working_angle(const Gear& gear_1, const Gear& gear_2,
+                     const std::optional<double>& centre_distance_m) {
+    return centre_distance_m ? working_angle_at(gear_1, gear_2, *centre_distance_m)
+                             : tight_working_angle(gear_1, gear_2);
+}
+
+LineOfAction line_of_action(const Gear& gear_1, const Gear& gear_2, double working_angle) {
+    const double slope = std::tan(working_angle);
     const double pitch_1 = gear_1.base_radius() * slope;
     const double pitch_2 = gear_2.base_radius() * slope;
     const double tip_2 = roll_length(gear_2, gear_2.tip_radius());
@@ -38,6 +47,33 @@ LineOfAction line_of_action(const Gear& gear_1, const Gear& gear_2) {
     const double start =
         gear_2.internal ? pitch_1 + (tip_2 - pitch_2) : pitch_1 - (tip_2 - pitch_2);
     return {start, pitch_1, end};
+}
+
+double working_radius(const Gear& gear, double working_angle) {
+    return gear.base_radius() / std::cos(working_angle);
+}
+
+// Along the working pitch circles, whose pitches are alike.
+double backlash_between(const Gear& gear_1, const Gear& gear_2, double working_angle) {
+    const double radius = working_radius(gear_1, working_angle);
+    const double pitch = 2 * pi * radius / gear_1.teeth;
+    return pitch - gear_1.thickness_at(radius) -
+           gear_2.thickness_at(working_radius(gear_2, working_angle));
+}
+
+double distance_at(const Gear& gear_1, const Gear& gear_2, double working_angle) {
+    return base_centre_distance(gear_1, gear_2) / std::cos(working_angle);
+}
+
+// Of the tips of gear `which` from the other's root circle.
+double clearance_of_tip(const Gear& gear_1, const Gear& gear_2, double distance, int which) {
+    if (!gear_2.internal) {
+        const Gear& tip = which == 1 ? gear_1 : gear_2;
+        const Gear& root = which == 1 ? gear_2 : gear_1;
+        return distance - tip.tip_radius() - root.root_radius();
+    }
+    return which == 1 ? gear_2.root_radius() - distance - gear_1.tip_radius()
+                      : gear_2.tip_radius() - distance - gear_1.root_radius();
 }
 
 std::vector<std::string> pair_problems(const Gear& gear_1, const Gear& gear_2) {
@@ -57,21 +93,71 @@ std::vector<std::string> pair_problems(const Gear& gear_1, const Gear& gear_2) {
     return problems;
 }
 
-std::vector<std::string> contact_problems(const Gear& gear_1, const Gear& gear_2) {
-    const LineOfAction line = line_of_action(gear_1, gear_2);
-    const double end_on_2 =
-        gear_2.base_radius() * std::tan(gear_2.pressure_angle_rad) - (line.end - line.pitch);
-    std::vector<std::string> problems;
-    const auto interference = [&](const Gear& low, const Gear& high) {
+// Teeth that do not fit between each other at that distance. What rounded shifts overlap by is
+// harmless.
+void fit_problems(const Gear& gear_1, const Gear& gear_2, double angle,
+                  std::vector<std::string>& problems) {
+    constexpr double kRounded = 2e-3;  // modules
+    const double backlash = backlash_between(gear_1, gear_2, angle);
+    const double distance = distance_at(gear_1, gear_2, angle);
+    if (backlash < -kRounded * gear_1.module_m)
         problems.push_back(fmt::format(
-            "the tips of {} teeth reach below the base circle of {} teeth, where there is no "
-            "involute (use more teeth, a larger pressure angle or a smaller addendum)",
-            high.teeth, low.teeth));
+            "teeth of {} and {} are {:.4f} mm thicker than the pitch at a centre distance of "
+            "{:.6g} mm leaves room for (their shifts sum up to {:.4f}, {:.4f} fits)",
+            gear_1.teeth, gear_2.teeth, -1e3 * backlash, 1e3 * distance,
+            gear_1.profile_shift + gear_2.profile_shift,
+            tight_shift_sum(gear_1, gear_2, distance)));
+    for (const int which : {1, 2}) {
+        const double clearance = clearance_of_tip(gear_1, gear_2, distance, which);
+        const Gear& tip = which == 1 ? gear_1 : gear_2;
+        if (clearance < -kRounded * gear_1.module_m)
+            problems.push_back(fmt::format(
+                "the tips of {} teeth run {:.4f} mm into the root circle of {} teeth (let the tip "
+                "diameter be {:.6g} mm)",
+                tip.teeth, -1e3 * clearance, (which == 1 ? gear_2 : gear_1).teeth,
+                2e3 * (tip.tip_radius() + (tip.internal ? -clearance : clearance))));
+    }
+}
+
+// Outside the line of action the tips of an internal gear and its mate pass each other where their
+// tip circles cross; the mate's must be ahead. Colbourne (1987), chapter 8; KHK's theta_1.
+void crossing_problems(const Gear& gear_1, const Gear& gear_2, double angle,
+                       std::vector<std::string>& problems) {
+    const double a = distance_at(gear_1, gear_2, angle);
+    const double r_1 = gear_1.tip_radius(), r_2 = gear_2.tip_radius();
+    if (!gear_2.internal || r_2 >= a + r_1)
+        return;
+    const auto inv_at = [](const Gear& gear, double radius) {
+        return involute(std::acos(std::min(1.0, gear.base_radius() / radius)));
+    };
+    const auto angle_of = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+    const double turn_1 = angle_of((r_2 * r_2 - r_1 * r_1 - a * a) / (2 * a * r_1)) +
+                          inv_at(gear_1, r_1) - involute(angle);
+    const double turn_2 = angle_of((a * a + r_2 * r_2 - r_1 * r_1) / (2 * a * r_2));
+    const double room =
+        turn_1 * gear_1.teeth / gear_2.teeth + involute(angle) - inv_at(gear_2, r_2) - turn_2;
+    if (room < 0)
+        problems.push_back(fmt::format(
+            "the tips of {} teeth overlap those of the {} internal teeth by {:.3f} degrees where "
+            "they pass (a larger difference of tooth numbers, or smaller addenda)",
+            gear_1.teeth, gear_2.teeth, -room * 180 / pi));
+}
+
+void contact_problems(const Gear& gear_1, const Gear& gear_2, double angle,
+                      std::vector<std::string>& problems) {
+    const LineOfAction line = line_of_action(gear_1, gear_2, angle);
+    const double end_on_2 = gear_2.base_radius() * std::tan(angle) - (line.end - line.pitch);
+    const auto interference = [&](const Gear& low, const Gear& high, double below) {
+        problems.push_back(fmt::format(
+            "the tips of {} teeth reach below the base circle of {} teeth, by {:.3g} mm on the "
+            "line of action, where there is no involute (use more teeth, a larger pressure angle, "
+            "a smaller addendum or tip circles given)",
+            high.teeth, low.teeth, 1e3 * below));
     };
     if (line.start < 0)
-        interference(gear_1, gear_2);
+        interference(gear_1, gear_2, -line.start);
     if (!gear_2.internal && end_on_2 < 0)
-        interference(gear_2, gear_1);
+        interference(gear_2, gear_1, -end_on_2);
     const double base_pitch = pi * gear_1.module_m * std::cos(gear_1.pressure_angle_rad);
     const double contact_ratio = (line.end - line.start) / base_pitch;
     if (problems.empty() && contact_ratio < 1)
@@ -79,26 +165,46 @@ std::vector<std::string> contact_problems(const Gear& gear_1, const Gear& gear_2
             fmt::format("the contact ratio of {} against {} teeth is {:.3f}: at times no "
                         "pair touches (use a larger addendum)",
                         gear_1.teeth, gear_2.teeth, contact_ratio));
-    return problems;
 }
 
 }  // namespace
 
-std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2) {
+std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2,
+                                       std::optional<double> centre_distance_m) {
     std::vector<std::string> problems = gear_problems(gear_1);
     for (auto& problem : gear_problems(gear_2))
         problems.push_back(std::move(problem));
     for (auto& problem : pair_problems(gear_1, gear_2))
         problems.push_back(std::move(problem));
-    return problems.empty() ? contact_problems(gear_1, gear_2) : problems;
+    if (!problems.empty())
+        return problems;
+    const double angle = working_angle(gear_1, gear_2, centre_distance_m);
+    if (!(angle > 0)) {
+        const double base = 1e3 * base_centre_distance(gear_1, gear_2);
+        return {centre_distance_m
+                    ? fmt::format("a centre distance of {:.6g} mm is no more than that of the base "
+                                  "circles, {:.6g} mm (move the axes apart)",
+                                  1e3 * *centre_distance_m, base)
+                    : fmt::format("with shifts of {:g} and {:g} they fit at no centre distance, "
+                                  "that of the base circles being {:.6g} mm",
+                                  gear_1.profile_shift, gear_2.profile_shift, base)};
+    }
+    fit_problems(gear_1, gear_2, angle, problems);
+    crossing_problems(gear_1, gear_2, angle, problems);
+    contact_problems(gear_1, gear_2, angle, problems);
+    return problems;
 }
 
-MeshGeometry::MeshGeometry(const Gear& gear_1, const Gear& gear_2)
-    : gear_1_(gear_1), gear_2_(gear_2) {
-    const auto problems = mesh_problems(gear_1, gear_2);
+MeshGeometry::MeshGeometry(const Gear& gear_1, const Gear& gear_2,
+                           std::optional<double> centre_distance_m)
+    : gear_1_(gear_1),
+      gear_2_(gear_2),
+      centre_distance_(centre_distance_m),
+      working_angle_(working_angle(gear_1, gear_2, centre_distance_m)) {
+    const auto problems = mesh_problems(gear_1, gear_2, centre_distance_m);
     if (!problems.empty())
         throw std::invalid_argument(fmt::format("{}", fmt::join(problems, "; ")));
-    const LineOfAction line = line_of_action(gear_1, gear_2);
+    const LineOfAction line = line_of_action(gear_1, gear_2, working_angle_);
     const double base_pitch = pi * gear_1.module_m * std::cos(gear_1.pressure_angle_rad);
     contact_ratio_ = (line.end - line.start) / base_pitch;
     pitch_position_ = (line.pitch - line.start) / base_pitch;
@@ -113,8 +219,27 @@ MeshGeometry::MeshGeometry(const Gear& gear_1, const Gear& gear_2)
 }
 
 double MeshGeometry::centre_distance() const {
-    return internal() ? gear_2_.pitch_radius() - gear_1_.pitch_radius()
-                      : gear_2_.pitch_radius() + gear_1_.pitch_radius();
+    return centre_distance_.value_or(tight_centre_distance(gear_1_, gear_2_));
+}
+
+double MeshGeometry::working_pitch_radius(int which) const {
+    return working_radius(gear(which), working_angle_);
+}
+
+double MeshGeometry::backlash() const {
+    return backlash_between(gear_1_, gear_2_, working_angle_);
+}
+
+double MeshGeometry::tip_clearance(int which_tip) const {
+    return clearance_of_tip(gear_1_, gear_2_, centre_distance(), which_tip);
+}
+
+double MeshGeometry::contact_radius(int which, double tau) const {
+    // The roll angle: what the contact angle is but for the tooth's half angle.
+    const Gear& at = gear(which);
+    const double half = at.internal ? -at.half_base_angle() : at.half_base_angle();
+    const double roll = contact_angle(which, tau) + half;
+    return at.base_radius() * std::hypot(1, roll);
 }
 
 double MeshGeometry::double_pair_span() const {

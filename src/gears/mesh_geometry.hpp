@@ -1,9 +1,11 @@
-// Where a tooth pair touches, from the start of its engagement to the end, at the standard centre
-// distance. Positions are counted in mesh periods (base pitches along the line of action).
+// Where a tooth pair touches, from the start of its engagement to the end. Positions are counted in
+// mesh periods (base pitches along the line of action).
 // Sources: Tian (2004), Eqs. 2.1, 2.50-2.60, 2.71 (external pair); Liang (2016),
-// Eqs. 2.2.13-2.2.14, 2.2.30-2.2.31, 2.3.5-2.3.6 (internal pair, pitch point).
+// Eqs. 2.2.13-2.2.14, 2.2.30-2.2.31, 2.3.5-2.3.6 (internal pair, pitch point); ISO 21771 for the
+// working pressure angle of shifted gears.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,10 @@ namespace gearpod::gears {
 // Its tooth is touched low first, its mate's tooth at the tip first.
 class MeshGeometry {
   public:
-    // Throws std::invalid_argument with all of mesh_problems().
-    MeshGeometry(const Gear& gear_1, const Gear& gear_2);
+    // centre_distance_m: that at which the teeth fit without backlash, unless given. Throws
+    // std::invalid_argument with all of mesh_problems().
+    MeshGeometry(const Gear& gear_1, const Gear& gear_2,
+                 std::optional<double> centre_distance_m = {});
 
     const Gear& gear(int which) const { return which == 1 ? gear_1_ : gear_2_; }
     bool internal() const { return gear_2_.internal; }
@@ -33,6 +37,14 @@ class MeshGeometry {
     double contact_angle_at_start(int which) const { return start_[which - 1]; }
     double contact_angle_rate(int which) const { return rate_[which - 1]; }  // rad per mesh period
     double centre_distance() const;
+    double working_pressure_angle() const { return working_angle_; }
+    double working_pitch_radius(int which) const;
+    // Between the flanks that do not work, along the working pitch circles, m.
+    double backlash() const;
+    // Radius at which gear `which` is touched tau mesh periods after the engagement began.
+    double contact_radius(int which, double tau) const;
+    // Between the tips of gear `which_tip` and the other gear's root circle, m.
+    double tip_clearance(int which_tip) const;
     // Turn of gear 1 during which two pairs touch, (c - 1) 2 pi / N1, and one pair, for 1 <= c
     // <= 2.
     double double_pair_span() const;
@@ -40,6 +52,8 @@ class MeshGeometry {
 
   private:
     Gear gear_1_, gear_2_;
+    std::optional<double> centre_distance_;  // empty: that of the reference circles
+    double working_angle_ = 0;
     double contact_ratio_ = 0;
     double pitch_position_ = 0;
     double start_[2] = {0, 0};
@@ -48,6 +62,7 @@ class MeshGeometry {
 
 // Everything that keeps the two from meshing over their full flanks, one sentence each
 // (gear_problems included).
-std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2);
+std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2,
+                                       std::optional<double> centre_distance_m = {});
 
 }  // namespace gearpod::gears

@@ -13,10 +13,14 @@ using std::numbers::pi;
 namespace {
 
 // Largest number of equally spaced planets whose tip circles stay apart.
-int planets_with_room(const PlanetaryTrain& train, double addendum_coefficient) {
-    const double ratio =
-        (train.planet_teeth + 2 * addendum_coefficient) / (train.sun_teeth + train.planet_teeth);
+int planets_with_room(const PlanetRoom& room) {
+    const double ratio = room.tip_diameter / (2 * room.centre_distance);
     return ratio >= 1 ? 1 : static_cast<int>(std::ceil(pi / std::asin(ratio))) - 1;
+}
+
+PlanetRoom standard_room(const PlanetaryTrain& train, double addendum_coefficient) {
+    return {0.5 * (train.sun_teeth + train.planet_teeth),
+            train.planet_teeth + 2 * addendum_coefficient};
 }
 
 // teeth * place / places without its whole part, computed on integers.
@@ -37,7 +41,7 @@ double signed_phase(double phase, bool negative) {
     return negative && phase != 0 ? -phase : phase;
 }
 
-void equal_spacing_problems(const PlanetaryTrain& train, double addendum_coefficient,
+void equal_spacing_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                             std::vector<std::string>& problems) {
     const int teeth = train.sun_teeth + train.ring_teeth, n = train.planets;
     if (teeth % n != 0) {
@@ -47,13 +51,12 @@ void equal_spacing_problems(const PlanetaryTrain& train, double addendum_coeffic
                         "planets do not mesh (sun + ring = {} or {} would)",
                         teeth, n, below, below + n));
     }
-    const double between_axes = (train.sun_teeth + train.planet_teeth) * std::sin(pi / n);
-    const double tip_diameter = train.planet_teeth + 2 * addendum_coefficient;
-    if (n > 1 && between_axes <= tip_diameter)
-        problems.push_back(fmt::format(
-            "the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
-            "diameter {:.2f} modules (at most {} planets)",
-            n, between_axes, tip_diameter, planets_with_room(train, addendum_coefficient)));
+    const double between_axes = 2 * room.centre_distance * std::sin(pi / n);
+    if (n > 1 && between_axes <= room.tip_diameter)
+        problems.push_back(
+            fmt::format("the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
+                        "diameter {:.2f} modules (at most {} planets)",
+                        n, between_axes, room.tip_diameter, planets_with_room(room)));
 }
 
 double degrees(double angle_rad) {
@@ -63,7 +66,7 @@ double degrees(double angle_rad) {
 // A position this far from a place, as a part of the distance between places, is rounded input.
 constexpr double kPlaceTolerance = 0.01;
 
-void position_problems(const PlanetaryTrain& train, double addendum_coefficient,
+void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                        std::vector<std::string>& problems) {
     const auto& psi = train.positions_rad;
     if (static_cast<int>(psi.size()) != train.planets) {
@@ -92,17 +95,15 @@ void position_problems(const PlanetaryTrain& train, double addendum_coefficient,
                 std::ceil(place) * 360 / places));
     }
     const PlanetPlaces at = planet_places(train);
-    const double tip_diameter = train.planet_teeth + 2 * addendum_coefficient;
     for (int n = 0; n < train.planets; ++n)
         for (int m = 0; m < n; ++m) {
             const double apart = planet_angle(at, n) - planet_angle(at, m);
-            const double between_axes =
-                (train.sun_teeth + train.planet_teeth) * std::abs(std::sin(apart / 2));
-            if (between_axes <= tip_diameter)
+            const double between_axes = 2 * room.centre_distance * std::abs(std::sin(apart / 2));
+            if (between_axes <= room.tip_diameter)
                 problems.push_back(fmt::format(
                     "the tip circles of planets {} and {} touch: axes {:.2f} modules apart, tip "
                     "diameter {:.2f} modules (move them apart)",
-                    m + 1, n + 1, between_axes, tip_diameter));
+                    m + 1, n + 1, between_axes, room.tip_diameter));
         }
 }
 
@@ -128,8 +129,30 @@ double planet_angle(const PlanetPlaces& places, int planet) {
     return 2 * pi * places.place.at(static_cast<std::size_t>(planet)) / places.places;
 }
 
+std::vector<double> nearest_positions(const PlanetaryTrain& train) {
+    const int places = train.sun_teeth + train.ring_teeth, n = train.planets;
+    std::vector<double> positions;
+    for (int planet = 0; planet < n; ++planet) {
+        const int place = (2 * planet * places + n) / (2 * n);  // rounded, halves up
+        positions.push_back(2 * pi * place / places);
+    }
+    return positions;
+}
+
 std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient) {
+    const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth;
+    auto problems = assembly_problems(train, standard_room(train, addendum_coefficient));
+    if (s >= 1 && p >= 1 && r >= 1 && train.planets >= 1 && r != s + 2 * p)
+        problems.insert(
+            problems.begin(),
+            fmt::format("the ring has {} teeth, sun + 2 planet is {} + 2 x {} = {} (the planets "
+                        "fit between sun and ring only if they are equal, or with profile shift)",
+                        r, s, p, s + 2 * p));
+    return problems;
+}
+
+std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const PlanetRoom& room) {
     std::vector<std::string> problems;
     const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth, n = train.planets;
     if (s < 1 || p < 1 || r < 1 || n < 1) {
@@ -137,15 +160,10 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
             "sun {}, planet {}, ring {} teeth and {} planets must be positive", s, p, r, n));
         return problems;
     }
-    if (r != s + 2 * p)
-        problems.push_back(
-            fmt::format("the ring has {} teeth, sun + 2 planet is {} + 2 x {} = {} (the planets "
-                        "fit between sun and ring only if they are equal)",
-                        r, s, p, s + 2 * p));
     if (train.positions_rad.empty())
-        equal_spacing_problems(train, addendum_coefficient, problems);
+        equal_spacing_problems(train, room, problems);
     else
-        position_problems(train, addendum_coefficient, problems);
+        position_problems(train, room, problems);
     return problems;
 }
 
@@ -176,6 +194,22 @@ double ring_to_sun_phase(const PlanetaryTrain& train) {
     // With a trailing flank at the sun's pitch point the leading flanks miss the ring's by 1/2 -
     // Z_p / 2 pitches: nothing for odd Z_p, half a pitch for even Z_p.
     return train.planet_teeth % 2 == 0 ? 0.5 : 0.0;
+}
+
+// The sun touches a tooth's trailing flank on the line between the axes when the tooth's middle is
+// half its thickness on the sun's working circle past that line; likewise the ring and the leading
+// flank, half its thickness on the ring's working circle before. Standard teeth are half a pitch
+// thick on both.
+double ring_to_sun_phase(const PlanetaryTrain& train, const Gear& planet, double sun_angle_rad,
+                         double ring_angle_rad, PlanetSense sense) {
+    const double a = planet.pressure_angle_rad;
+    const double thicker = (4 * planet.profile_shift * std::tan(a) +
+                            planet.teeth * ((involute(a) - involute(sun_angle_rad)) +
+                                            (involute(a) - involute(ring_angle_rad)))) /
+                           (2 * pi);
+    const double later = sense == PlanetSense::clockwise ? -thicker : thicker;
+    const double phase = ring_to_sun_phase(train) + later;
+    return phase - std::floor(phase);
 }
 
 PlanetSense planet_sense(const Speeds& speeds) {

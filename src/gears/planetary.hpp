@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "gears/gear.hpp"
+
 namespace gearpod::gears {
 
 struct PlanetaryTrain {
@@ -36,10 +38,22 @@ enum class Member { sun, ring, carrier };
 // reach a mesh phase.
 enum class PlanetSense { clockwise, counter_clockwise };
 
+// The places next to equal spacing, N of them: positions_rad of a train whose planets cannot be
+// spaced equally. Of two that are as near the later one, so that planets of even number stay
+// opposite each other where they can.
+std::vector<double> nearest_positions(const PlanetaryTrain& train);
+
+// How far planets' axes lie from the train's, and their tip diameter, in modules.
+struct PlanetRoom {
+    double centre_distance = 0, tip_diameter = 0;
+};
+
 // What keeps the train from being assembled, one sentence each, with the numbers and what would be
-// right.
+// right. Without a room the teeth are standard ones of that addendum: the ring must have Z_s + 2
+// Z_p. With one, whether they mesh at that centre distance is for mesh_problems() to say.
 std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient = 1);
+std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const PlanetRoom& room);
 
 // Pair n's stiffness is pair 0's at t - gamma T_m (Liang, Eqs. 2.3.3-2.3.4). Reduced to (-1, 1) by
 // whole mesh periods, sign as in the formula: +Z_s psi_n / 2 pi and -Z_r psi_n / 2 pi for clockwise
@@ -56,6 +70,9 @@ double ring_tooth_delay(const PlanetaryTrain& train, int planet,
                         PlanetSense sense = PlanetSense::clockwise);
 // How much later than its sun mesh a planet's ring mesh is at its pitch point: 0 or 1/2.
 double ring_to_sun_phase(const PlanetaryTrain& train);
+// The same of shifted teeth, which work at these pressure angles; 0 <= phase < 1.
+double ring_to_sun_phase(const PlanetaryTrain& train, const Gear& planet, double sun_angle_rad,
+                         double ring_angle_rad, PlanetSense sense);
 
 // Angular speeds in the fixed frame, in any one unit; planet is the planet's own absolute spin.
 struct Speeds {

@@ -1,0 +1,100 @@
+#include "gears/working_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearpod::gears {
+
+namespace {
+
+double signed_teeth(const Gear& gear) {
+    return gear.internal ? -gear.teeth : gear.teeth;
+}
+
+// A distance that is that of the reference circles but for rounding.
+bool is_reference(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
+    const double reference = reference_centre_distance(gear_1, gear_2);
+    return std::abs(centre_distance_m - reference) <= 1e-9 * reference;
+}
+
+Gear shifted(const Gear& gear, double shift) {
+    Gear result = gear;
+    result.profile_shift = shift;
+    return result;
+}
+
+}  // namespace
+
+double reference_centre_distance(const Gear& gear_1, const Gear& gear_2) {
+    return gear_2.internal ? gear_2.pitch_radius() - gear_1.pitch_radius()
+                           : gear_2.pitch_radius() + gear_1.pitch_radius();
+}
+
+double base_centre_distance(const Gear& gear_1, const Gear& gear_2) {
+    return gear_2.internal ? gear_2.base_radius() - gear_1.base_radius()
+                           : gear_2.base_radius() + gear_1.base_radius();
+}
+
+double working_angle_at(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
+    if (is_reference(gear_1, gear_2, centre_distance_m))
+        return gear_1.pressure_angle_rad;
+    const double cosine = base_centre_distance(gear_1, gear_2) / centre_distance_m;
+    return cosine < 1 ? std::acos(cosine) : 0;
+}
+
+double tight_working_angle(const Gear& gear_1, const Gear& gear_2) {
+    const double sum = gear_1.profile_shift + gear_2.profile_shift;
+    if (sum == 0)
+        return gear_1.pressure_angle_rad;
+    const double slope = 2 * std::tan(gear_1.pressure_angle_rad);
+    const double teeth = signed_teeth(gear_1) + signed_teeth(gear_2);
+    return inverse_involute(involute(gear_1.pressure_angle_rad) + slope * sum / teeth);
+}
+
+double tight_centre_distance(const Gear& gear_1, const Gear& gear_2) {
+    if (gear_1.profile_shift + gear_2.profile_shift == 0)
+        return reference_centre_distance(gear_1, gear_2);
+    return base_centre_distance(gear_1, gear_2) / std::cos(tight_working_angle(gear_1, gear_2));
+}
+
+double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
+    if (is_reference(gear_1, gear_2, centre_distance_m))
+        return 0;
+    const double grown = involute(working_angle_at(gear_1, gear_2, centre_distance_m)) -
+                         involute(gear_1.pressure_angle_rad);
+    const double teeth = signed_teeth(gear_1) + signed_teeth(gear_2);
+    return grown * teeth / (2 * std::tan(gear_1.pressure_angle_rad));
+}
+
+WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
+                             const DrawnShifts& drawn) {
+    WorkingShifts set;
+    double distance = 0;
+    if (drawn.centre_distance_m) {
+        distance = *drawn.centre_distance_m;
+        const double sum = tight_shift_sum(gear_1, gear_2, distance);
+        const double half = drawn.first    ? *drawn.first
+                            : drawn.second ? sum - *drawn.second
+                                           : 0.5 * sum;
+        set.first = half;
+        set.second = drawn.second.value_or(sum - half);
+    } else {
+        set.first = drawn.first.value_or(0);
+        set.second = drawn.second.value_or(0);
+        distance = tight_centre_distance(shifted(gear_1, set.first), shifted(gear_2, set.second));
+    }
+    if (ring != nullptr)
+        set.ring = drawn.ring.value_or(tight_shift_sum(gear_2, *ring, distance) - set.second);
+    const bool standard = is_reference(gear_1, gear_2, distance) &&
+                          (ring == nullptr || is_reference(gear_2, *ring, distance));
+    if (!standard)
+        set.centre_distance_m = distance;
+    const double grown =
+        is_reference(gear_1, gear_2, distance)
+            ? 0
+            : (distance - reference_centre_distance(gear_1, gear_2)) / gear_1.module_m;
+    set.tip_shortening = std::max(0.0, set.first + set.second - grown);
+    return set;
+}
+
+}  // namespace gearpod::gears

@@ -1,0 +1,173 @@
+// What does not mesh, and what standard teeth keep.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "gears/mesh_geometry.hpp"
+#include "gears/planetary.hpp"
+#include "gears/working_pair.hpp"
+
+using namespace gearpod::gears;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+Gear gear(int teeth, double shift = 0) {
+    Gear gear;
+    gear.teeth = std::abs(teeth);
+    gear.internal = teeth < 0;
+    gear.module_m = 2e-3;
+    gear.pressure_angle_rad = 20 * kDegree;
+    gear.profile_shift = shift;
+    return gear;
+}
+
+bool says(const std::vector<std::string>& problems, const std::string& text) {
+    for (const auto& problem : problems)
+        if (problem.find(text) != std::string::npos)
+            return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("the inverse of the involute is its inverse") {
+    for (const double degrees : {0.01, 1.0, 15.0, 20.0, 45.0, 80.0})
+        CHECK(inverse_involute(involute(degrees * kDegree)) ==
+              Approx(degrees * kDegree).epsilon(1e-9));
+    CHECK(inverse_involute(0) == 0);
+    CHECK(inverse_involute(-1) == 0);
+}
+
+TEST_CASE("standard gears at the standard distance keep every bit") {
+    for (const auto& [one, two] : {std::pair{19, 31}, std::pair{31, -81}}) {
+        const MeshGeometry standard(gear(one), gear(two));
+        const double distance = reference_centre_distance(gear(one), gear(two));
+        for (const MeshGeometry& given : {MeshGeometry(gear(one, 0.0), gear(two, 0.0)),
+                                          MeshGeometry(gear(one), gear(two), distance)}) {
+            CHECK(given.contact_ratio() == standard.contact_ratio());
+            CHECK(given.pitch_position() == standard.pitch_position());
+            CHECK(given.working_pressure_angle() == gear(one).pressure_angle_rad);
+            CHECK(given.contact_angle(1, 0.3) == standard.contact_angle(1, 0.3));
+            CHECK(given.contact_angle(2, 0.3) == standard.contact_angle(2, 0.3));
+        }
+    }
+    const Gear ring = gear(-81);
+    const WorkingShifts set = working_shifts(gear(19), gear(31), &ring, {0.0, 0.0, 0.0});
+    CHECK(!set.centre_distance_m);
+    CHECK(set.first == 0);
+    CHECK(set.second == 0);
+    CHECK(set.ring == 0);
+    CHECK(set.tip_shortening == 0);
+}
+
+TEST_CASE("shifts that cancel leave distance and pressure angle, but move the pitch point") {
+    const MeshGeometry standard(gear(19), gear(31)), shifted(gear(19, 0.3), gear(31, -0.3));
+    CHECK(shifted.working_pressure_angle() == standard.working_pressure_angle());
+    CHECK(shifted.centre_distance() == standard.centre_distance());
+    CHECK(shifted.backlash() == Approx(0).margin(1e-15));
+    CHECK(shifted.pitch_position() < standard.pitch_position());
+    CHECK(shifted.contact_ratio() < standard.contact_ratio());
+}
+
+TEST_CASE("what is not drawn of a set's shifts follows without backlash") {
+    const Gear ring = gear(-99);
+    const WorkingShifts set = working_shifts(gear(27), gear(35), &ring, {{}, {}, {}, 63e-3});
+    REQUIRE(set.centre_distance_m);
+    CHECK(set.first == set.second);
+    const MeshGeometry sun(gear(27, set.first), gear(35, set.second), 63e-3);
+    const MeshGeometry outer(gear(35, set.second), gear(-99, set.ring), 63e-3);
+    CHECK(sun.backlash() == Approx(0).margin(1e-15));
+    CHECK(outer.backlash() == Approx(0).margin(1e-15));
+    const WorkingShifts fuller = working_shifts(gear(27), gear(35), &ring, {{}, 0.2, 0.1, 63e-3});
+    CHECK(fuller.first + fuller.second == Approx(set.first + set.second));
+    CHECK(fuller.second == 0.2);
+    CHECK(fuller.ring == 0.1);
+}
+
+TEST_CASE("teeth are as thick as the pitch circle's spaces leave them room") {
+    // Half of the pitch and 2 x m tan a0 more (ISO 21771), of internal teeth, too.
+    for (const int teeth : {23, -71})
+        for (const double shift : {-0.2, 0.0, 0.4}) {
+            const Gear one = gear(teeth, shift);
+            CHECK(one.thickness_at(one.pitch_radius()) ==
+                  Approx(2e-3 * (std::numbers::pi / 2 + 2 * shift * std::tan(20 * kDegree)))
+                      .epsilon(1e-12));
+        }
+}
+
+TEST_CASE("gears that cannot be cut or meshed are refused with the numbers that show it") {
+    CHECK(says(gear_problems(gear(10)),
+               "10 teeth are undercut with a profile shift of 0 (shift "
+               "by 0.215"));
+    CHECK(gear_problems(gear(14)).empty());
+    CHECK(gear_problems(gear(10, 0.3)).empty());
+    CHECK(says(gear_problems(gear(12, 1.2)), "where it would be -0."));
+    Gear inside_out = gear(30);
+    inside_out.given_tip_radius_m = inside_out.root_radius() - 1e-3;
+    CHECK(says(gear_problems(inside_out), "does not lie outside the root circle, 55 mm"));
+    CHECK(says(gear_problems(gear(-60, -2)), "the spaces between 60 internal teeth close"));
+
+    // At a distance that is too small, too large, below that of the base circles.
+    CHECK(says(mesh_problems(gear(30), gear(40), 69.5e-3), "mm thicker than the pitch"));
+    CHECK(says(mesh_problems(gear(30), gear(40), 65e-3), "base circles, 65.7785 mm"));
+    CHECK(says(mesh_problems(gear(30), gear(40), 73e-3), "the contact ratio of 30 against 40"));
+    Gear long_teeth = gear(30);
+    long_teeth.given_tip_radius_m = 32.6e-3;
+    CHECK(says(mesh_problems(long_teeth, gear(40)),
+               "the tips of 30 teeth run 0.1000 mm into the root circle of 40 teeth (let the tip "
+               "diameter be 65 mm)"));
+    CHECK(says(mesh_problems(gear(18), gear(-60)), "reach below the base circle of 18 teeth"));
+    // KHK gear technical reference: without shift tips pass where the tooth numbers differ by 9.
+    CHECK(says(mesh_problems(gear(52), gear(-60)), "overlap those of the 60 internal teeth"));
+    CHECK(mesh_problems(gear(52), gear(-61)).empty());
+}
+
+TEST_CASE("planets that would touch are refused by their own tip circles") {
+    const PlanetaryTrain train{27, 35, 99, 5};
+    CHECK(says(assembly_problems(train, {31.5, 37.1}), "axes 37.03 modules apart, tip diameter"));
+    CHECK(!says(assembly_problems(train, {31.5, 37.0}), "touch"));
+}
+
+// Bell 206B: 126 places for four planets; DSTG's description has them at 88.57 and 91.43 degrees.
+TEST_CASE("planets that cannot be spaced equally go to the nearest places") {
+    PlanetaryTrain train{27, 35, 99, 4};
+    train.positions_rad = nearest_positions(train);
+    const PlanetPlaces at = planet_places(train);
+    CHECK(at.places == 126);
+    CHECK(at.place == std::vector<int>{0, 32, 63, 95});
+    CHECK(assembly_problems(train, {31.5, 37.0}).empty());
+    PlanetaryTrain equal{19, 31, 81, 4};
+    equal.positions_rad = nearest_positions(equal);
+    CHECK(planet_places(equal).place == std::vector<int>{0, 25, 50, 75});
+}
+
+// Turns a planet in small steps and watches its flanks cross the line between the axes.
+TEST_CASE("the ring mesh follows the sun mesh as the planet's flanks do") {
+    const Gear ring = gear(-99);
+    const WorkingShifts set = working_shifts(gear(27), gear(35), &ring, {0.4, {}, {}, 63e-3});
+    const Gear planet = gear(35, set.second);
+    const double sun_angle = working_angle_at(gear(27), planet, 63e-3);
+    const double ring_angle = working_angle_at(planet, gear(-99, set.ring), 63e-3);
+    const double pitch = 2 * std::numbers::pi / 35;
+    const double half_at_sun = planet.half_angle_at(planet.base_radius() / std::cos(sun_angle));
+    const double half_at_ring = planet.half_angle_at(planet.base_radius() / std::cos(ring_angle));
+    // The sun lies at the angle 0, the ring's contact at pi; the planet turns in the positive
+    // sense. At turn 0 a trailing flank is at 0, so a tooth's middle is half a tooth ahead.
+    double later = -1;
+    for (int tooth = 0; tooth < 35; ++tooth) {
+        const double leading = half_at_sun + tooth * pitch + half_at_ring;
+        const double turn = std::numbers::pi - leading;
+        if (turn >= 0 && turn < pitch)
+            later = turn / pitch;
+    }
+    const PlanetaryTrain train{27, 35, 99, 4};
+    CHECK(ring_to_sun_phase(train, planet, sun_angle, ring_angle, PlanetSense::clockwise) ==
+          Approx(later).epsilon(1e-10));
+    CHECK(ring_to_sun_phase(train, planet, sun_angle, ring_angle, PlanetSense::counter_clockwise) ==
+          Approx(1 - later).epsilon(1e-10));
+    CHECK(ring_to_sun_phase(train, gear(35), 20 * kDegree, 20 * kDegree, PlanetSense::clockwise) ==
+          ring_to_sun_phase(train));
+}
