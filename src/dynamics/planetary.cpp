@@ -82,7 +82,7 @@ Body held_body(gears::FixedMember fixed) {
 }
 
 Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 - layout.transverse_pressure_angle() + layout.planet_angle(n);
+    const double angle = pi / 2 - layout.sun_mesh_angle() + layout.planet_angle(n);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
     const int s = motion_index(sun);
     const int p = motion_index(planet, n);
@@ -96,7 +96,7 @@ Eigen::VectorXd sun_planet_row(const PlanetaryLayout& layout, int n) {
 }
 
 Eigen::VectorXd ring_planet_row(const PlanetaryLayout& layout, int n) {
-    const double angle = pi / 2 + layout.transverse_pressure_angle() + layout.planet_angle(n);
+    const double angle = pi / 2 + layout.ring_mesh_angle() + layout.planet_angle(n);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(layout.motions());
     const int r = motion_index(ring);
     const int p = motion_index(planet, n);
@@ -219,15 +219,16 @@ std::vector<std::string> motion_names(const PlanetaryLayout& layout) {
 }
 
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout) {
-    // From zero deflection of both meshes: u_s + u_n = u_c cos a and u_r - u_n = u_c cos a.
-    const double cos_a = std::cos(layout.transverse_pressure_angle());
+    // From zero deflection of both meshes: u_s + u_n = u_c cos a_s and u_r - u_n = u_c cos a_r.
+    const double cos_s = std::cos(layout.sun_mesh_angle());
+    const double cos_r = std::cos(layout.ring_mesh_angle());
     const Body held = held_body(layout.fixed);
     const double u_c = held == carrier ? 0.0 : 1.0;
-    const double u_s = held == sun ? 0.0 : held == ring ? 2.0 * cos_a : 1.0;
-    const double u_n = u_c * cos_a - u_s;
+    const double u_s = held == sun ? 0.0 : held == ring ? cos_s + cos_r : 1.0;
+    const double u_n = u_c * cos_s - u_s;
     Eigen::VectorXd turn = Eigen::VectorXd::Zero(layout.degrees_of_freedom());
     turn(layout.rotation_index(carrier)) = u_c;
-    turn(layout.rotation_index(ring)) = u_c * cos_a + u_n;
+    turn(layout.rotation_index(ring)) = held == ring ? 0.0 : u_c * cos_r + u_n;
     turn(layout.rotation_index(sun)) = u_s;
     for (int n = 0; n < layout.planets; ++n) {
         turn(layout.rotation_index(planet + n)) = u_n;

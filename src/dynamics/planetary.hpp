@@ -6,6 +6,7 @@
 // Lin and Parker (1999); Liang (2016), Eqs. 4.2.1-4.2.4 in this energy-consistent form.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct PlanetaryLayout {
     Motion motion = Motion::translational_torsional;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
+    // Working pressure angles in the plane of rotation, where profile shift makes them another one.
+    std::optional<double> sun_working_angle_rad = {}, ring_working_angle_rad = {};
 
     int pairs() const { return 2 * planets; }
     int sources() const { return planets; }  // places whose acceleration the sensor hears
@@ -51,6 +54,13 @@ struct PlanetaryLayout {
     int rotation_index(int body) const { return motion == Motion::torsional ? body : 3 * body + 2; }
     double planet_angle(int n) const;  // psi_n, rad
     double transverse_pressure_angle() const;
+    // Between a mesh's line of action and the normal to its centre line.
+    double sun_mesh_angle() const {
+        return sun_working_angle_rad.value_or(transverse_pressure_angle());
+    }
+    double ring_mesh_angle() const {
+        return ring_working_angle_rad.value_or(transverse_pressure_angle());
+    }
 };
 
 // What sets a planet apart from the others: factors on what they all have, and where its pin is

@@ -10,17 +10,19 @@ namespace {
 
 template <int W, class Real>
 void set_directions(PlanetaryLanes<W, Real>& lanes, const PlanetaryLayout& layout) {
-    const double a = layout.transverse_pressure_angle();
+    const double a_sun = layout.sun_mesh_angle(), a_ring = layout.ring_mesh_angle();
     lanes.planets = layout.planets;
-    lanes.cos_pressure_angle = Real(std::cos(a));
+    lanes.cos_sun_mesh = Real(std::cos(a_sun));
+    lanes.cos_ring_mesh = Real(std::cos(a_ring));
+    lanes.ring_over_sun_cosine = Real(std::cos(a_ring) / std::cos(a_sun));
     for (int n = 0; n < layout.planets; ++n) {
         const double psi = layout.planet_angle(n);
         lanes.cos_psi[n] = Real(std::cos(psi));
         lanes.sin_psi[n] = Real(std::sin(psi));
-        lanes.cos_sun[n] = Real(std::cos(std::numbers::pi / 2 - a + psi));
-        lanes.sin_sun[n] = Real(std::sin(std::numbers::pi / 2 - a + psi));
-        lanes.cos_ring[n] = Real(std::cos(std::numbers::pi / 2 + a + psi));
-        lanes.sin_ring[n] = Real(std::sin(std::numbers::pi / 2 + a + psi));
+        lanes.cos_sun[n] = Real(std::cos(std::numbers::pi / 2 - a_sun + psi));
+        lanes.sin_sun[n] = Real(std::sin(std::numbers::pi / 2 - a_sun + psi));
+        lanes.cos_ring[n] = Real(std::cos(std::numbers::pi / 2 + a_ring + psi));
+        lanes.sin_ring[n] = Real(std::sin(std::numbers::pi / 2 + a_ring + psi));
     }
 }
 

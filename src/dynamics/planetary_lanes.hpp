@@ -32,7 +32,8 @@ struct alignas(64) PlanetaryLanes {
     Real cos_psi[kMaxPlanets], sin_psi[kMaxPlanets];
     Real cos_sun[kMaxPlanets], sin_sun[kMaxPlanets];
     Real cos_ring[kMaxPlanets], sin_ring[kMaxPlanets];
-    Real cos_pressure_angle;
+    Real cos_sun_mesh, cos_ring_mesh;  // of the working pressure angles
+    Real ring_over_sun_cosine;         // 1 without profile shift
     int planets;
 };
 

@@ -1,7 +1,7 @@
 // Lockstep accelerations of the rotations alone, 3 + N: carrier, ring, sun, planets 1..N.
 // Bearings are rigid, so a planet rides on the carrier: x_n = -u_c sin psi_n, y_n = u_c cos psi_n,
-// and both meshes see -u_c cos(alpha). The planets' masses count in the carrier's inertia
-// (make_lanes).
+// and a mesh sees -u_c cos(alpha), alpha being its working pressure angle. The planets' masses
+// count in the carrier's inertia (make_lanes).
 #pragma once
 
 #include <cmath>
@@ -70,19 +70,19 @@ struct TorsionalMotion {
     static GEARPOD_INLINE void planet_forces(const Lanes& p, int n, const Real* __restrict q,
                                              const Real* __restrict v, const Pairs& pairs,
                                              Real* __restrict f) {
-        const Real ca = p.cos_pressure_angle;
+        const Real cs = p.cos_sun_mesh, cr = p.cos_ring_mesh, ratio = p.ring_over_sun_cosine;
         const int o = (3 + n) * W;
         const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
             const Real u = q[o + l], vu = v[o + l];
             const Real f_sun =
-                Mesh::force(pairs, sun_mesh + l, l, std::fma(-q[l], ca, q[2 * W + l] + u),
-                            std::fma(-v[l], ca, v[2 * W + l] + vu));
+                Mesh::force(pairs, sun_mesh + l, l, std::fma(-q[l], cs, q[2 * W + l] + u),
+                            std::fma(-v[l], cs, v[2 * W + l] + vu));
             const Real f_ring =
-                Mesh::force(pairs, ring_mesh + l, l, std::fma(-q[l], ca, q[W + l] - u),
-                            std::fma(-v[l], ca, v[W + l] - vu));
-            f[l] = std::fma(f_sun + f_ring, ca, f[l]);
+                Mesh::force(pairs, ring_mesh + l, l, std::fma(-q[l], cr, q[W + l] - u),
+                            std::fma(-v[l], cr, v[W + l] - vu));
+            f[l] = std::fma(std::fma(f_ring, ratio, f_sun), cs, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;
             f[o + l] = (f_ring - f_sun) * p.inverse_inertia[planet + n][l];

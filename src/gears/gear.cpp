@@ -75,15 +75,7 @@ double Gear::form_radius() const {
 
 namespace {
 
-void cutting_problems(const Gear& gear, std::vector<std::string>& problems) {
-    // A fifth of the addendum is harmless: 14 teeth at 20 degrees do without shift (DIN 3960),
-    // where 18 have no undercut at all.
-    const double least = gear.shift_without_undercut() - 0.2 * gear.addendum_coefficient;
-    if (!gear.internal && gear.profile_shift < least)
-        problems.push_back(
-            fmt::format("{} teeth are undercut with a profile shift of {:g} (shift by {:.3f} or "
-                        "more, or use a larger pressure angle)",
-                        gear.teeth, gear.profile_shift, least));
+void add_inside_out(const Gear& gear, std::vector<std::string>& problems) {
     const bool inside_out = gear.internal ? gear.tip_radius() >= gear.root_radius()
                                           : gear.tip_radius() <= gear.root_radius();
     if (inside_out)
@@ -102,7 +94,7 @@ std::vector<std::string> shape_problems(const Gear& gear) {
             gear.teeth, gear.dedendum_coefficient - gear.profile_shift));
         return problems;
     }
-    cutting_problems(gear, problems);
+    add_inside_out(gear, problems);
     if (gear.tip_radius() < gear.base_radius())
         problems.push_back(fmt::format(
             "the tip circle of the internal gear lies inside its base circle, so the involute "

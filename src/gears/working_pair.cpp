@@ -1,5 +1,7 @@
 #include "gears/working_pair.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,17 @@ double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_dis
                          involute(gear_1.pressure_angle_rad);
     const double teeth = signed_teeth(gear_1) + signed_teeth(gear_2);
     return grown * teeth / (2 * std::tan(gear_1.pressure_angle_rad));
+}
+
+std::vector<std::string> undercut_problems(const Gear& gear) {
+    constexpr double kHarmless = 0.2;
+    const double least = gear.shift_without_undercut() - kHarmless * gear.addendum_coefficient;
+    if (gear.internal || gear.profile_shift >= least)
+        return {};
+    return {
+        fmt::format("{} teeth are undercut with a profile shift of {:g} (shift by {:.3f} or "
+                    "more, or use a larger pressure angle)",
+                    gear.teeth, gear.profile_shift, least)};
 }
 
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,

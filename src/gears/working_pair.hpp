@@ -8,6 +8,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "gears/gear.hpp"
 
@@ -28,6 +30,11 @@ double tight_working_angle(const Gear& gear_1, const Gear& gear_2);
 double tight_centre_distance(const Gear& gear_1, const Gear& gear_2);
 // x_1 + x_2 with which they fit at that distance.
 double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_distance_m);
+
+// Undercut that takes flank from the contact, with the shift that avoids it; empty if there is
+// none. A fifth of the addendum is harmless: 14 teeth at 20 degrees do without shift (DIN 3960),
+// where 18 have no undercut at all.
+std::vector<std::string> undercut_problems(const Gear& gear);
 
 // What a drawing says of a set's shifts, in modules, and its centre distance; `ring` of a planetary
 // set, whose first gear is the sun and second the planet.

@@ -102,6 +102,13 @@ PlanetaryLayout layout_of(int planets, Motion motion, bool inertial, MeshDamping
     return layout;
 }
 
+// Profile shift lets either mesh work at an angle of its own.
+PlanetaryLayout shifted(PlanetaryLayout layout) {
+    layout.sun_working_angle_rad = 25 * std::numbers::pi / 180;
+    layout.ring_working_angle_rad = 17 * std::numbers::pi / 180;
+    return layout;
+}
+
 }  // namespace
 
 TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 to 8 planets") {
@@ -116,6 +123,9 @@ TEST_CASE("Lockstep accelerations equal the assembled equations of motion for 2 
             CHECK(kernel_error<Still>(layout_of(n, full, false, damping), seed) < 1e-13);
             CHECK(kernel_error<TorsionalMotion<LinearMesh, 8>>(
                       layout_of(n, Motion::torsional, false, damping), seed) < 1e-13);
+            CHECK(kernel_error<Still>(shifted(layout_of(n, full, false, damping)), seed) < 1e-13);
+            CHECK(kernel_error<TorsionalMotion<LinearMesh, 8>>(
+                      shifted(layout_of(n, Motion::torsional, false, damping)), seed) < 1e-13);
         }
     }
 }
@@ -143,6 +153,36 @@ TEST_CASE("At rest every planet carries the same share and the held ring takes i
     }
     const double reaction = in.support_stiffness_N_m * q(motion_index(ring) + 2);
     CHECK(reaction == Approx(-torque / r_s).epsilon(1e-9));
+}
+
+// 27/35/99 teeth: base radii add up to the centre distance times the cosines of both working
+// angles.
+TEST_CASE("Shifted gears balance the carrier's torque at their own working angles") {
+    for (const Motion motion : {Motion::translational_torsional, Motion::torsional}) {
+        PlanetaryLayout layout = layout_of(4, motion, false, MeshDamping::ratio);
+        const double m = 3.175e-3, cos_0 = std::cos(layout.pressure_angle_rad);
+        const double r_s = 27 * m / 2 * cos_0, r_p = 35 * m / 2 * cos_0, r_r = 99 * m / 2 * cos_0;
+        const double r_c = 31.6 * m;
+        layout.sun_working_angle_rad = std::acos((r_s + r_p) / r_c);
+        layout.ring_working_angle_rad = std::acos((r_r - r_p) / r_c);
+        layout.positions_rad = {0, 32 * 2 * std::numbers::pi / 126, std::numbers::pi,
+                                95 * 2 * std::numbers::pi / 126};
+        std::mt19937 engine(3);
+        PlanetaryInputs in = random_inputs(engine);
+        std::fill(std::begin(in.own), std::end(in.own), PlanetOwn{});
+        const double torque = 300.0;
+        in.force_N[sun] = torque / r_s;
+        in.force_N[ring] = 0.0;
+        in.force_N[carrier] = -torque * (1 + 99.0 / 27) / r_c;
+        const std::vector<double> k(8, 5e8);
+        const GearboxMatrices matrices = assemble(layout, in, k);
+        const Eigen::VectorXd q = motions_from_degrees(layout) * static_equilibrium(matrices);
+        for (int n = 0; n < 4; ++n) {
+            CHECK(5e8 * sun_planet_row(layout, n).dot(q) == Approx(torque / r_s / 4).epsilon(1e-9));
+            CHECK(5e8 * ring_planet_row(layout, n).dot(q) ==
+                  Approx(torque / r_s / 4).epsilon(1e-9));
+        }
+    }
 }
 
 TEST_CASE("A free train turns past its held member without deflecting a spring") {
