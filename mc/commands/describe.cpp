@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <numbers>
 
 #include "lockstep/integrators/facts.hpp"
 #include "machine/stop.hpp"
@@ -36,6 +37,15 @@ void print_planetary(const PlanetaryDrive& drive) {
         sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
         ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
     }
+    if (!train.positions_rad.empty()) {
+        const gears::PlanetPlaces places = gears::planet_places(train);
+        std::vector<std::string> positions;
+        for (int n = 0; n < train.planets; ++n) {
+            positions.push_back(
+                fmt::format("{:.6g}", gears::planet_angle(places, n) * 180.0 / std::numbers::pi));
+        }
+        print_entry("planet positions", joined(positions) + " deg");
+    }
     print_entry("mesh phases, sun", joined(sun));
     print_entry("mesh phases, ring",
                 fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
@@ -55,6 +65,37 @@ void print_fixed_shaft(const Study& study) {
     }
 }
 
+// Shifts, and what follows from them; nothing for standard gears.
+void print_shifts(const Scene& scene) {
+    const Study& study = scene.study();
+    if (!shift_given(study)) {
+        return;
+    }
+    std::string shifts;
+    for (const Member member : kAllMembers) {
+        if (has_toothed_member(study.gearbox.kind, member)) {
+            const gears::Gear gear = gear_of(study, member);
+            shifts +=
+                fmt::format("{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)",
+                            shifts.empty() ? "" : "; ", member_name(member), gear.profile_shift,
+                            2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
+        }
+    }
+    print_entry("profile shifts", shifts);
+    print_entry("centre distance", fmt::format("{:.6g} mm", 1e3 * centre_distance_m(study)));
+    for (const SceneMesh& mesh : scene.meshes()) {
+        if (mesh.geometry) {
+            const gears::MeshGeometry& g = *mesh.geometry;
+            print_entry((mesh_name(mesh.members) + " works at").c_str(),
+                        fmt::format("{:.4f} deg, backlash {:.4f} mm, tip clearances {:.3f} and "
+                                    "{:.3f} mm",
+                                    g.working_pressure_angle() * 180.0 / std::numbers::pi,
+                                    1e3 * g.backlash(), 1e3 * g.tip_clearance(1),
+                                    1e3 * g.tip_clearance(2)));
+        }
+    }
+}
+
 void print_gearbox(const Scene& scene) {
     print_heading("gearbox");
     if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
@@ -62,6 +103,7 @@ void print_gearbox(const Scene& scene) {
     } else {
         print_fixed_shaft(scene.study());
     }
+    print_shifts(scene);
     for (const SceneMesh& mesh : scene.meshes()) {
         print_entry((mesh_name(mesh.members) + " mesh").c_str(),
                     fmt::format("contact ratio {:.4f}, mean {:.4g} N/m",

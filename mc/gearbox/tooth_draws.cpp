@@ -43,6 +43,22 @@ std::vector<ToothedBody> toothed_bodies(const Scene& scene) {
     return bodies;
 }
 
+MeshKind mesh_of_side(const ToothedBody& body, std::size_t side) {
+    switch (body.member) {
+        case Member::sun:
+            return MeshKind::sun_planet;
+        case Member::planet:
+            return side == 0 ? MeshKind::sun_planet : MeshKind::ring_planet;
+        case Member::ring:
+        case Member::carrier:
+            return MeshKind::ring_planet;
+        case Member::pinion:
+        case Member::gear:
+            return MeshKind::pinion_gear;
+    }
+    return MeshKind::pinion_gear;
+}
+
 using Normal = boost::random::normal_distribution<double>;
 
 gears::WaveNumbers wave_numbers(Philox& engine) {
@@ -86,7 +102,7 @@ class LaneTeeth {
             // Teeth are numbered as they engage, against the turn of gears that turn backwards.
             const int looks = (s == 0) != scene_.pairs().reversed ? 1 : -1;
             const gears::FlankDeviations wave = gears::wave_deviations(
-                flanks.teeth, transverse_pressure_angle_rad(scene_.study().gearbox), scales,
+                flanks.teeth, working_angle_rad(scene_.study(), mesh_of_side(body, s)), scales,
                 numbers, looks);
             const Engagement engagement = engagement_of(body.sides[s]);
             // The wave speaks of the flank a quarter of a pitch from the tooth's middle, in contact

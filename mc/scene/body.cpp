@@ -22,6 +22,10 @@ dynamics::PlanetaryLayout planetary_layout(const Study& study) {
     result.mesh_damping = study.effects.mesh_damping;
     if (has_gears(study)) {
         result.carrier_radius_m = centre_distance_m(study);
+        if (working_shifts(study).centre_distance_m) {
+            result.sun_working_angle_rad = working_angle_rad(study, MeshKind::sun_planet);
+            result.ring_working_angle_rad = working_angle_rad(study, MeshKind::ring_planet);
+        }
     }
     return result;
 }

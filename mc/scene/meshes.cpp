@@ -74,7 +74,8 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
         if (stiffness_given(study)) {
             mesh.stiffness = given_mesh(study, members.kind);
         } else {
-            mesh.geometry.emplace(gear_of(study, members.driver), gear_of(study, members.driven));
+            mesh.geometry.emplace(gear_of(study, members.driver), gear_of(study, members.driven),
+                                  working_shifts(study).centre_distance_m);
             if (coupled) {
                 make_coupled(study, force_N, mesh);
             } else {

@@ -49,6 +49,17 @@ gears::PlanetaryTrain planetary_train(const Study& study) {
             teeth_of(study, Member::ring).value(), g.planets, g.planet_positions_rad};
 }
 
+namespace {
+
+double phase_of_teeth(const Study& study, const gears::PlanetaryTrain& train,
+                      gears::PlanetSense sense) {
+    return gears::ring_to_sun_phase(train, gear_of(study, Member::planet),
+                                    working_angle_rad(study, MeshKind::sun_planet),
+                                    working_angle_rad(study, MeshKind::ring_planet), sense);
+}
+
+}  // namespace
+
 PlanetaryDrive::PlanetaryDrive(const Study& study)
     : train_(planetary_train(study)),
       flow_{fixed_member(study.operation.fixed), central_member(study.operation.input)},
@@ -56,7 +67,7 @@ PlanetaryDrive::PlanetaryDrive(const Study& study)
       torque_on_(central_member(study.operation.torque_on)),
       sense_(gears::planet_sense(speeds(1.0))),
       ring_to_sun_phase_(study.gearbox.ring_to_sun_phase ? *study.gearbox.ring_to_sun_phase
-                                                         : gears::ring_to_sun_phase(train_)),
+                                                         : phase_of_teeth(study, train_, sense_)),
       radius_m_{centre_distance_m(study), gear_of(study, Member::ring).base_radius(),
                 gear_of(study, Member::sun).base_radius()} {}
 

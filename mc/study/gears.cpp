@@ -1,7 +1,10 @@
 #include "mc/study/gears.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "dynamics/helical_pair.hpp"
 
@@ -56,11 +59,6 @@ bool has_toothed_member(GearboxKind kind, Member member) {
 
 std::optional<int> teeth_of(const Study& study, Member member) {
     return study.gearbox.bodies[member].teeth;
-}
-
-double centre_distance_m(const Study& study) {
-    return 0.5 * study.gearbox.module_m.value() *
-           (teeth_of(study, Member::sun).value() + teeth_of(study, Member::planet).value());
 }
 
 namespace {
@@ -138,7 +136,9 @@ double transverse_pressure_angle_rad(const Gearbox& gearbox) {
                                                      gearbox.helix_angle_rad);
 }
 
-gears::Gear gear_of(const Study& study, Member member) {
+namespace {
+
+gears::Gear standard_gear(const Study& study, Member member) {
     const Gearbox& gearbox = study.gearbox;
     gears::Gear gear;
     gear.teeth = teeth_of(study, member).value();
@@ -148,6 +148,89 @@ gears::Gear gear_of(const Study& study, Member member) {
     gear.addendum_coefficient = gearbox.addendum_coefficient;
     gear.dedendum_coefficient = gearbox.dedendum_coefficient;
     return gear;
+}
+
+// The two of a pair, or sun and planet.
+std::pair<Member, Member> shifted_pair(const Study& study) {
+    const MeshMembers& mesh = meshes_of(study.gearbox.kind).front();
+    return {mesh.driver, mesh.driven};
+}
+
+}  // namespace
+
+bool shift_given(const Study& study) {
+    return study.gearbox.centre_distance_m ||
+           std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {
+               return study.gearbox.bodies[member].profile_shift.has_value();
+           });
+}
+
+std::vector<std::string> shift_keys() {
+    std::vector<std::string> keys{"gearbox.centre_distance_mm"};
+    for (const Member member : kAllMembers) {
+        if (member != Member::carrier) {
+            for (const char* what : {"shift", "tip_mm"}) {
+                keys.push_back(fmt::format("gearbox.{}_{}", member_name(member), what));
+            }
+        }
+    }
+    return keys;
+}
+
+gears::WorkingShifts working_shifts(const Study& study) {
+    if (!shift_given(study)) {
+        return {};
+    }
+    const Gearbox& g = study.gearbox;
+    const auto [first, second] = shifted_pair(study);
+    const gears::DrawnShifts drawn{g.bodies[first].profile_shift, g.bodies[second].profile_shift,
+                                   g.bodies[Member::ring].profile_shift, g.centre_distance_m};
+    const gears::Gear gear_1 = standard_gear(study, first), gear_2 = standard_gear(study, second);
+    if (g.kind == GearboxKind::fixed_shaft) {
+        return gears::working_shifts(gear_1, gear_2, nullptr, drawn);
+    }
+    const gears::Gear ring = standard_gear(study, Member::ring);
+    return gears::working_shifts(gear_1, gear_2, &ring, drawn);
+}
+
+gears::Gear gear_of(const Study& study, Member member) {
+    gears::Gear gear = standard_gear(study, member);
+    if (shift_given(study) && has_gears(study)) {
+        const gears::WorkingShifts set = working_shifts(study);
+        const bool ring = member == Member::ring;
+        gear.profile_shift = ring                                  ? set.ring
+                             : member == shifted_pair(study).first ? set.first
+                                                                   : set.second;
+        gear.tip_shortening = ring ? 0.0 : set.tip_shortening;
+    }
+    if (const auto& tip = study.gearbox.bodies[member].tip_diameter_m) {
+        gear.given_tip_radius_m = 0.5 * *tip;
+    }
+    return gear;
+}
+
+double centre_distance_m(const Study& study) {
+    const auto [first, second] = shifted_pair(study);
+    const double standard = 0.5 * study.gearbox.module_m.value() *
+                            (teeth_of(study, first).value() + teeth_of(study, second).value());
+    return working_shifts(study).centre_distance_m.value_or(standard);
+}
+
+gears::PlanetRoom planet_room(const Study& study) {
+    const double module = study.gearbox.module_m.value();
+    return {centre_distance_m(study) / module,
+            2.0 * gear_of(study, Member::planet).tip_radius() / module};
+}
+
+double working_angle_rad(const Study& study, MeshKind mesh) {
+    const auto distance = working_shifts(study).centre_distance_m;
+    if (!distance) {
+        return transverse_pressure_angle_rad(study.gearbox);
+    }
+    const bool ring = mesh == MeshKind::ring_planet;
+    const auto [first, second] = shifted_pair(study);
+    return gears::working_angle_at(gear_of(study, ring ? Member::planet : first),
+                                   gear_of(study, ring ? Member::ring : second), *distance);
 }
 
 stiffness::Profile profile_of(const Study& study) {

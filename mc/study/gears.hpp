@@ -5,8 +5,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gears/gear.hpp"
+#include "gears/planetary.hpp"
+#include "gears/working_pair.hpp"
 #include "mc/study/study.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
@@ -33,8 +36,19 @@ bool has_toothed_member(GearboxKind kind, Member member);
 // Its tooth number, if given.
 std::optional<int> teeth_of(const Study& study, Member member);
 
-// Of sun and planets. The study must have gears.
+// Of sun and planets, or of a pair. The study must have gears.
 double centre_distance_m(const Study& study);
+
+// Whether profile shifts or a centre distance are given, be they those of standard gears.
+bool shift_given(const Study& study);
+// The keys that give them, and the tip circles.
+std::vector<std::string> shift_keys();
+// All shifts of the study's gears, given or following. The study must have gears.
+gears::WorkingShifts working_shifts(const Study& study);
+// A planet's axis and tip circle, in modules; only of studies with shifts given.
+gears::PlanetRoom planet_room(const Study& study);
+// Of a mesh in the plane in which the gears turn. The study must have gears.
+double working_angle_rad(const Study& study, MeshKind mesh);
 
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);

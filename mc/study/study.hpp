@@ -61,6 +61,8 @@ using EachMesh = Each<MeshKind, kMeshKinds, Value>;
 // What a body of a gearbox has of its own.
 struct MemberValues {
     std::optional<int> teeth;
+    std::optional<double> profile_shift;   // in modules; positive: thicker teeth, of the ring too
+    std::optional<double> tip_diameter_m;  // by the usual rules if not given
     // Of the foundation: diameter of the bore, of a ring the outer one.
     std::optional<double> held_diameter_m;
     std::optional<double> mass_kg;
@@ -92,6 +94,7 @@ struct Gearbox {
     EachMesh<MeshValues> meshes;
     std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
     std::optional<double> module_m;
+    std::optional<double> centre_distance_m;  // at which the gears work
     double pressure_angle_rad = 0.0;
     double helix_angle_rad = 0.0;
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gears/mesh_geometry.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
@@ -50,28 +51,21 @@ Member mate_of(const Fault& fault) {
     return Member::planet;
 }
 
-// Distance along the line of action from the base circle to the contact at radius r.
-double along_line_of_action(const gears::Gear& gear, double radius_m) {
-    const double base = gear.base_radius();
-    return std::sqrt(std::max(0.0, radius_m * radius_m - base * base));
-}
-
 // Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
 // on the faulty side.
 struct ActiveFlank {
     double low_m, high_m;
 };
 ActiveFlank active_flank(const Study& study) {
-    const gears::Gear gear = gear_of(study, *study.fault.member);
-    const gears::Gear mate = gear_of(study, mate_of(study.fault));
-    const double sine = std::sin(gear.pressure_angle_rad);
-    const double reach = along_line_of_action(mate, mate.tip_radius());
-    // The flank is touched between its own tip and where the mate's tip touches it.
-    const double other = gear.internal || mate.internal
-                             ? reach + (gear.pitch_radius() - mate.pitch_radius()) * sine
-                             : (gear.pitch_radius() + mate.pitch_radius()) * sine - reach;
-    const double end = std::hypot(gear.base_radius(), other);
-    return {std::min(end, gear.tip_radius()), std::max(end, gear.tip_radius())};
+    const Member member = *study.fault.member, mate = mate_of(study.fault);
+    const bool drives = member == Member::sun || member == Member::pinion || mate == Member::ring;
+    const gears::MeshGeometry mesh(gear_of(study, drives ? member : mate),
+                                   gear_of(study, drives ? mate : member),
+                                   working_shifts(study).centre_distance_m);
+    const int which = drives ? 1 : 2;
+    const double ends[] = {mesh.contact_radius(which, 0.0),
+                           mesh.contact_radius(which, mesh.contact_ratio())};
+    return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
 }
 
 void check_teeth(StudyDraft& draft, const Pits& pits) {

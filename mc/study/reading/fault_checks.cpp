@@ -81,7 +81,8 @@ void check_shape(StudyDraft& draft) {
                            "gearbox.addendum_coefficient", "gearbox.dedendum_coefficient",
                            "gearbox.face_width_mm", "gearbox.tooth_profile", "fault.member",
                            "fault.angle_deg"}) ||
-        !s.fault.member || !has_gears(s) || !s.gearbox.face_width_m) {
+        !draft.all_usable(shift_keys()) || !s.fault.member || !has_gears(s) ||
+        !s.gearbox.face_width_m) {
         return;
     }
     for (const MeshMembers& mesh : meshes_of(s.gearbox.kind)) {

@@ -72,6 +72,28 @@ void check_positions_fit(StudyDraft& draft, const gears::PlanetaryTrain& train) 
     }
 }
 
+// Planets that cannot be spaced equally go to the nearest places where they mesh.
+void place_planets(StudyDraft& draft) {
+    Gearbox& g = draft.study.gearbox;
+    const gears::PlanetaryTrain train{*g.bodies[Member::sun].teeth, *g.bodies[Member::planet].teeth,
+                                      *g.bodies[Member::ring].teeth, g.planets};
+    if (g.planet_positions_rad.empty() && draft.usable("gearbox.planet_positions_deg") &&
+        (train.sun_teeth + train.ring_teeth) % train.planets != 0) {
+        g.planet_positions_rad = gears::nearest_positions(train);
+    }
+}
+
+std::vector<std::string> assembly_problems(const StudyDraft& draft,
+                                           const gears::PlanetaryTrain& train) {
+    const Study& s = draft.study;
+    if (shift_given(s) && has_gears(s)) {
+        return draft.all_usable(shift_keys()) && draft.usable("gearbox.module_mm")
+                   ? gears::assembly_problems(train, planet_room(s))
+                   : std::vector<std::string>{};
+    }
+    return gears::assembly_problems(train, s.gearbox.addendum_coefficient);
+}
+
 void check_train(StudyDraft& draft) {
     const Gearbox& g = draft.study.gearbox;
     if (g.kind != GearboxKind::planetary || !teeth_usable(draft)) {
@@ -93,33 +115,54 @@ void check_train(StudyDraft& draft) {
     if (given != 3 || !draft.all_usable({"gearbox.addendum_coefficient"}) || !planets_known) {
         return;
     }
-    // Planets of given positions are checked one by one, not as equally spaced.
-    const gears::PlanetaryTrain train{*teeth(Member::sun), *teeth(Member::planet),
-                                      *teeth(Member::ring),
-                                      g.planet_positions_rad.empty() ? g.planets : 1};
-    const auto problems = gears::assembly_problems(train, g.addendum_coefficient);
+    place_planets(draft);
+    const gears::PlanetaryTrain all{*teeth(Member::sun), *teeth(Member::planet),
+                                    *teeth(Member::ring), g.planets, g.planet_positions_rad};
+    // Planets of given positions are checked one by one.
+    gears::PlanetaryTrain train = all;
+    if (placed) {
+        train.planets = 1;
+        train.positions_rad.clear();
+    }
+    const auto problems = assembly_problems(draft, train);
     for (const std::string& what : problems) {
         draft.reject("gearbox.ring_teeth", "the gears cannot be assembled (" + what + ")", "");
     }
     if (placed && problems.empty()) {
         check_positions_fit(draft, train);
     }
+    if (placed && draft.usable("gearbox.planet_positions_deg")) {
+        for (const std::string& what : assembly_problems(draft, all)) {
+            draft.reject("gearbox.planet_positions_deg", what, "");
+        }
+    }
 }
 
-// Two gears, each of them possible, that do not mesh. Below the standard pressure angle it is
-// named, else the smaller gear's teeth.
+// What is to blame for two gears that do not mesh: the centre distance or the first shift given,
+// else a pressure angle below the standard one, else the smaller gear's teeth.
+std::string mesh_key(const StudyDraft& draft, const MeshMembers& mesh, const gears::Gear& gear_1,
+                     const gears::Gear& gear_2) {
+    for (const std::string& key : shift_keys()) {
+        if (draft.is_given(key)) {
+            return key;
+        }
+    }
+    constexpr double kStandardAngle = 20.0 * pi / 180.0;
+    const Member smaller = gear_2.teeth < gear_1.teeth ? mesh.driven : mesh.driver;
+    return gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12) ? "gearbox.pressure_angle_deg"
+                                                                      : teeth_key(smaller);
+}
+
+// Two gears, each of them possible, that do not mesh.
 void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     const gears::Gear gear_1 = gear_of(draft.study, mesh.driver);
     const gears::Gear gear_2 = gear_of(draft.study, mesh.driven);
     if (!gears::gear_problems(gear_1).empty() || !gears::gear_problems(gear_2).empty()) {
         return;
     }
-    constexpr double kStandardAngle = 20.0 * pi / 180.0;
-    const Member smaller = gear_2.teeth < gear_1.teeth ? mesh.driven : mesh.driver;
-    const std::string key = gear_1.pressure_angle_rad < kStandardAngle * (1.0 - 1e-12)
-                                ? "gearbox.pressure_angle_deg"
-                                : teeth_key(smaller);
-    for (const std::string& what : gears::mesh_problems(gear_1, gear_2)) {
+    const std::string key = mesh_key(draft, mesh, gear_1, gear_2);
+    const auto distance = working_shifts(draft.study).centre_distance_m;
+    for (const std::string& what : gears::mesh_problems(gear_1, gear_2, distance)) {
         draft.reject(key,
                      fmt::format("{} and {} do not mesh ({})", member_name(mesh.driver),
                                  member_name(mesh.driven), what),
@@ -132,9 +175,11 @@ void check_gear_shapes(StudyDraft& draft) {
     if (stiffness_given(draft.study) || !teeth_usable(draft) || !has_gears(draft.study) ||
         !draft.all_usable({"gearbox.module_mm", "gearbox.pressure_angle_deg",
                            "gearbox.addendum_coefficient", "gearbox.dedendum_coefficient",
-                           "gearbox.tooth_profile"})) {
+                           "gearbox.tooth_profile"}) ||
+        !draft.all_usable(shift_keys())) {
         return;
     }
+    const std::size_t before = draft.problems.size();
     for (const Member member : toothed_members(draft.study)) {
         for (const std::string& what : gears::gear_problems(gear_of(draft.study, member))) {
             draft.reject(teeth_key(member), "the gear is not possible (" + what + ")", "");
@@ -142,6 +187,14 @@ void check_gear_shapes(StudyDraft& draft) {
     }
     for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
         check_mesh(draft, mesh);
+    }
+    // Teeth whose mates reach below their base circle are named for that.
+    if (draft.problems.size() == before) {
+        for (const Member member : toothed_members(draft.study)) {
+            for (const std::string& what : gears::undercut_problems(gear_of(draft.study, member))) {
+                draft.reject(teeth_key(member), "the gear cannot be cut (" + what + ")", "");
+            }
+        }
     }
 }
 
@@ -166,7 +219,8 @@ void check_body(StudyDraft& draft, Member member, const std::optional<double>& d
 void check_bodies(StudyDraft& draft) {
     const Study& s = draft.study;
     if (!teeth_usable(draft) || !has_gears(s) ||
-        !draft.all_usable({"gearbox.module_mm", "gearbox.dedendum_coefficient"})) {
+        !draft.all_usable({"gearbox.module_mm", "gearbox.dedendum_coefficient"}) ||
+        !draft.all_usable(shift_keys())) {
         return;
     }
     for (const Member member : toothed_members(s)) {

@@ -73,6 +73,13 @@ Presence tooth_module(const Study& s) {
                : tooth_numbers(s);
 }
 
+Presence shifted_teeth(const Study& s) {
+    return has_gears(s) ? kOptional
+                        : Presence{Need::forbidden,
+                                   "it needs the gears' teeth and module",
+                                   {"gearbox.module_mm"}};
+}
+
 Presence tooth_body(const Study& s) {
     return stiffness_given(s)
                ? kOptional

@@ -21,6 +21,7 @@ Presence fixed_shaft(const Study& s) {
 
 Presence tooth_numbers(const Study&);       // unless the stiffness is constant
 Presence tooth_module(const Study&);        // as these; a fixed-shaft gearbox always needs it
+Presence shifted_teeth(const Study&);       // only if the gears are known
 Presence tooth_body(const Study&);          // unless the stiffness is given
 Presence tooth_model(const Study&);         // only if it is not
 Presence helix(const Study&);               // only if the stiffness is given

@@ -1,0 +1,193 @@
+// Studies of gears with profile shift.
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "mc/study/gears.hpp"
+#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using mc::Member;
+using mc::MeshKind;
+using mc::Scene;
+using test::shipped_study;
+
+namespace {
+
+mc::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const auto reading = mc::read_study_text(text, "study.toml", overrides);
+    INFO(mc::format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+std::vector<std::uint64_t> feature_bits(const mc::Study& study) {
+    std::vector<std::uint64_t> all;
+    for (const auto& feature : test::run(study).features) {
+        for (const double value : feature.values) {
+            all.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+    }
+    return all;
+}
+
+// Problems with a study that is Liang's gearbox but for these.
+mc::Problems problems_of(const std::vector<std::string>& overrides) {
+    const auto reading = mc::read_study_text(tests::kExampleStudy, "study.toml", overrides);
+    CHECK(!reading.study);
+    return reading.problems;
+}
+
+bool names(const mc::Problems& problems, const std::string& key, const std::string& words) {
+    return std::any_of(problems.begin(), problems.end(), [&](const mc::Problem& problem) {
+        return problem.key == key && problem.what.find(words) != std::string::npos;
+    });
+}
+
+const std::vector<std::string> kBell{"gearbox.sun_teeth=27", "gearbox.planet_teeth=35",
+                                     "gearbox.ring_teeth=99", "gearbox.sun_shift=0.3",
+                                     "gearbox.centre_distance_mm=100.0125"};
+
+std::vector<std::string> bell_with(const std::vector<std::string>& more) {
+    std::vector<std::string> all = kBell;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("Shifts of zero and the standard centre distance give the bits of giving none") {
+    const std::vector<std::string> few{"ensemble.instances=6", "ensemble.threshold_instances=2"};
+    const auto reference = feature_bits(study_of(tests::kExampleStudy, few));
+    for (const std::vector<std::string>& given :
+         {std::vector<std::string>{"gearbox.sun_shift=0", "gearbox.planet_shift=0",
+                                   "gearbox.ring_shift=0"},
+          {"gearbox.planet_shift=0.0", "gearbox.centre_distance_mm=79.375"},
+          {"gearbox.centre_distance_mm=79.375"}}) {
+        std::vector<std::string> all = few;
+        all.insert(all.end(), given.begin(), given.end());
+        CHECK(feature_bits(study_of(tests::kExampleStudy, all)) == reference);
+    }
+}
+
+TEST_CASE("A shifted gearbox works at its centre distance, its planets where they mesh") {
+    const mc::Study study = study_of(tests::kExampleStudy, kBell);
+    const Scene scene(study);
+    const auto places = gears::planet_places(mc::planetary_train(study));
+    CHECK(places.place == std::vector<int>{0, 32, 63, 95});
+    const double distance = mc::centre_distance_m(study);
+    CHECK(distance == 0.1000125);
+    for (const mc::SceneMesh& mesh : scene.meshes()) {
+        REQUIRE(mesh.geometry);
+        CHECK(mesh.geometry->backlash() == Approx(0).margin(1e-12));
+        CHECK(mesh.geometry->centre_distance() == distance);
+        CHECK(mesh.stiffness->contact_ratio() == mesh.geometry->contact_ratio());
+        CHECK(mesh.geometry->contact_ratio() > 1.2);
+    }
+    // The dynamic model, its forces and the teeth agree on the working angles.
+    const auto& layout = std::get<dynamics::PlanetaryLayout>(scene.plan().layout);
+    const double angle_s = scene.meshes()[0].geometry->working_pressure_angle();
+    const double angle_r = scene.meshes()[1].geometry->working_pressure_angle();
+    CHECK(layout.sun_mesh_angle() == Approx(angle_s).epsilon(1e-14));
+    CHECK(layout.ring_mesh_angle() == Approx(angle_r).epsilon(1e-14));
+    CHECK(angle_s > study.gearbox.pressure_angle_rad);
+    CHECK(angle_r < study.gearbox.pressure_angle_rad);
+    const auto in = scene.inputs(mc::Sampler(study).nominal());
+    const auto& forces = std::get<dynamics::PlanetaryInputs>(in).force_N;
+    CHECK(forces[dynamics::carrier] ==
+          Approx(-forces[dynamics::sun] * (std::cos(angle_s) + std::cos(angle_r))).epsilon(1e-12));
+    // Phases repeat with the planets' places; the ring follows the sun as the planet's flanks do.
+    const auto& drive = dynamic_cast<const mc::PlanetaryDrive&>(scene.drive());
+    for (int n = 0; n < 4; ++n) {
+        const double turn = places.place[static_cast<std::size_t>(n)] / 126.0;
+        CHECK(std::cos(2 * std::numbers::pi * (drive.pitch_phase(n) - 27 * turn)) ==
+              Approx(1).margin(1e-9));
+        CHECK(std::cos(2 * std::numbers::pi *
+                       (drive.pitch_phase(4 + n) + 99 * turn - drive.ring_to_sun_phase())) ==
+              Approx(1).margin(1e-9));
+    }
+}
+
+TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their shape") {
+    for (const std::string profile : {"base-circle", "root-circle", "fillet"}) {
+        for (const std::string where :
+             {"member='sun'", "member='ring'", "member='planet'\nfault.side='sun'",
+              "member='planet'\nfault.side='ring'"}) {
+            auto changes = bell_with({"gearbox.tooth_profile='" + profile + "'"});
+            const auto side = where.find('\n');
+            changes.push_back("fault." + where.substr(0, side));
+            std::string text = tests::kExampleStudy;
+            if (side == std::string::npos) {
+                text.replace(text.find("side = \"ring\"\n"), 14, "");
+            } else {
+                changes.push_back(where.substr(side + 1));
+            }
+            changes.emplace_back("random.fault.depth_mm.values=[0, 1, 2]");
+            INFO(profile << " " << where);
+            const Scene scene(study_of(text, changes));
+            CHECK(scene.fault().largest_size() > 3e-3);
+            const auto& healthy = *scene.meshes()[scene.faulty_pair() < 4 ? 0 : 1].stiffness;
+            const auto cracked = scene.faulty_mesh(2e-3);
+            const double tau = 0.5 * healthy.contact_ratio();
+            const double whole = stiffness::total_at(healthy, tau - std::floor(tau));
+            CHECK(stiffness::total_at(*cracked, healthy.transitions(), tau) < 0.99 * whole);
+        }
+    }
+    // A thicker tooth takes a deeper crack to break.
+    const auto largest = [](const std::vector<std::string>& shifts) {
+        std::vector<std::string> all{"fault.side='sun'"};
+        all.insert(all.end(), shifts.begin(), shifts.end());
+        return Scene(study_of(tests::kExampleStudy, all)).fault().largest_size();
+    };
+    CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
+}
+
+TEST_CASE("Shifted gears that cannot be are refused with the numbers that show it") {
+    CHECK(names(problems_of({"gearbox.ring_teeth=83"}), "gearbox.ring_teeth",
+                "or with profile shift"));
+    CHECK(names(problems_of({"gearbox.centre_distance_mm=73"}), "gearbox.centre_distance_mm",
+                "no more than that of the base circles, 74.5881 mm"));
+    CHECK(names(problems_of({"gearbox.sun_shift=0", "gearbox.planet_shift=0",
+                             "gearbox.centre_distance_mm=79"}),
+                "gearbox.centre_distance_mm", "thicker than the pitch"));
+    CHECK(names(problems_of({"gearbox.sun_shift=0.9"}), "gearbox.sun_shift", "do not mesh") ==
+          false);
+    CHECK(names(problems_of({"gearbox.sun_shift=1.9", "gearbox.planet_shift=-1.9"}),
+                "gearbox.sun_teeth", "flanks of a tooth cross below the tip circle"));
+    CHECK(names(problems_of({"gearbox.sun_tip_mm=68"}), "gearbox.sun_tip_mm",
+                "into the root circle of 31 teeth"));
+    CHECK(names(problems_of({"gearbox.sun_tip_mm=55"}), "gearbox.sun_teeth",
+                "outside the root circle") == false);
+    CHECK(names(problems_of({"gearbox.sun_tip_mm=51"}), "gearbox.sun_teeth",
+                "does not lie outside the root circle"));
+    CHECK(names(problems_of(bell_with({"gearbox.planets=5"})), "gearbox.ring_teeth",
+                "of planets 2 and 1 touch") == false);
+    CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.ring_teeth", "touch"));
+    CHECK(names(problems_of(bell_with({"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
+                "gearbox.planet_positions_deg", "of planets 1 and 2 touch"));
+    CHECK(names(problems_of({"gearbox.pinion_shift=0.1"}), "gearbox.pinion_shift",
+                "only for gearbox.kind = \"fixed-shaft\""));
+    CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "between -2 and 2"));
+}
+
+TEST_CASE("Real sets that standard teeth cannot build run with their windows on every gear") {
+    for (const char* name : {"bell-206b.toml", "snu-rig.toml"}) {
+        INFO(name);
+        const auto rows = test::run(
+            shipped_study(name, {"ensemble.instances=5", "ensemble.threshold_instances=2"}));
+        std::size_t windows = 0;
+        for (const auto& feature : rows.features) {
+            if (feature.name.find("window_ratio") == std::string::npos) {
+                continue;
+            }
+            ++windows;
+            for (const double value : feature.values) {
+                CHECK(std::isfinite(value));
+                CHECK(value >= 1.0);
+            }
+        }
+        CHECK(windows >= 3);
+    }
+}
