@@ -61,7 +61,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     const std::vector<int> hit = outcomes(values.graded, detection.threshold, feature.alarm);
     level.hit_miss = pod_of_outcomes(data.graded_size, hit, detection, confidence);
     level.signal_response = signal_response_pod(data.graded_size, values.graded,
-                                                detection.threshold, feature.alarm, confidence);
+                                                {detection.threshold, feature.alarm, confidence});
     if (std::isnan(detection.threshold)) {
         level.misses.refusal = "no threshold";
     } else {

@@ -57,12 +57,12 @@ struct FeatureDetection {
     std::vector<std::string> warnings;   // e.g. a threshold sample too small for the rate asked for
 };
 
-// What a fault size is and how it is shown: lengths in mm, others as pure numbers.
+// What a fault size is and how it is shown: metres in mm, others as they are.
 struct SizeUnit {
     std::string name = "fault_size";  // the parameter that holds a gearbox's fault size
     std::string unit = "m";           // of its values: "m", or "1" for a pure number
 
-    std::string shown_unit() const { return unit == "m" ? "mm" : ""; }
+    std::string shown_unit() const { return unit == "m" ? "mm" : unit == "1" ? "" : unit; }
     double per_unit() const { return unit == "m" ? 1e-3 : 1.0; }  // shown = value / per_unit
 };
 

@@ -7,7 +7,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
+#include <stdexcept>
 
+#include "analysis/pod/location_scale.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 
 namespace gearpod::analysis {
@@ -15,18 +18,21 @@ namespace {
 
 constexpr double kLackOfFit = 0.05;
 constexpr double kSupported = 2.0;  // AIC
+constexpr double kPod = 0.9;
 
 // Why no curve can be fitted to these outcomes at all, or "".
-std::string outcome_refusal(const HitMissTable& table) {
+std::string outcome_refusal(const HitMissTable& table,
+                            const std::string& tested = HitMissRequest{}.tested) {
     if (table.empty()) {
-        return "no faulty gearbox gave a value";
+        return fmt::format("no {} gave a value", tested);
     }
     const double hits = total_hits(table);
     if (hits == 0.0) {
-        return "no faulty gearbox was detected: not reached at any tested size";
+        return fmt::format("no {} was detected: not reached at any tested size", tested);
     }
     if (hits == total_tests(table)) {
-        return "every faulty gearbox was detected: a90 lies below the smallest tested size";
+        return fmt::format("every {} was detected: a90 lies below the smallest tested size",
+                           tested);
     }
     if (table.size() < 2) {
         return "one fault size only, a curve needs two at least";
@@ -88,7 +94,7 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     if (!fit.refusal.empty()) {
         return result;
     }
-    if (form.floor == 0.0 && !form.free_ceiling && separated(table)) {
+    if (form.floor == 0.0 && !form.free_ceiling && !form.firth && separated(table)) {
         fit.refusal = "hits and misses do not overlap, any slope from some value on fits";
         return result;
     }
@@ -109,8 +115,8 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     const PodLikelihood::Maximum& maximum = result.maximum;
     fit.curve = likelihood.curve(maximum.parameters);
     fit.log_likelihood = maximum.log_likelihood;
-    fit.aic = 2.0 * form.parameters() - 2.0 * maximum.log_likelihood;
-    if (likelihood.sizes_in_transition(maximum.parameters) < 2) {
+    fit.aic = 2.0 * form.parameters() - 2.0 * (maximum.log_likelihood - maximum.penalty);
+    if (!form.firth && likelihood.sizes_in_transition(maximum.parameters) < 2) {
         fit.refusal = "the rate steps up between two tested sizes, any steeper slope fits as well";
     } else if (!maximum.converged) {
         fit.refusal = "the likelihood has no maximum within reach";
@@ -122,15 +128,19 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     return result;
 }
 
-std::vector<PodForm> forms(double floor) {
+std::vector<PodForm> forms(const HitMissRequest& request) {
     std::vector<PodForm> all;
-    for (const Link link : {Link::logit, Link::probit}) {
-        for (const bool log_size : {false, true}) {
-            all.push_back({link, log_size, 0.0, false});
-            if (floor > 0.0) {
-                all.push_back({link, log_size, floor, false});
+    for (const Link link : request.links) {
+        for (const bool log_size : request.log_sizes) {
+            if (request.without_floor || request.floor == 0.0) {
+                all.push_back({link, log_size, 0.0, false, request.firth});
             }
-            all.push_back({link, log_size, floor, true});
+            if (request.floor > 0.0) {
+                all.push_back({link, log_size, request.floor, false, request.firth});
+            }
+            if (request.fit_ceiling) {
+                all.push_back({link, log_size, request.floor, true});
+            }
         }
     }
     return all;
@@ -144,16 +154,47 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
     return sizes;
 }
 
+// Without fitted ceilings.
+LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& request) {
+    std::set<long> clusters;
+    for (const ClusteredOutcome& outcome : request.outcomes) {
+        clusters.insert(outcome.cluster);
+    }
+    return location_scale(
+        curve.intercept, curve.slope,
+        curve_covariance(request.outcomes, curve, clusters.size() < request.outcomes.size()));
+}
+
+// How many times the specimens for a90's bound at the target, by Wald's or the likelihood's
+// bounds.
+double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scales& scales,
+                  const HitMissRequest& request) {
+    if (pod.rule.method == BoundMethod::likelihood_ratio) {
+        return specimens_for_bound(scales.likelihood(best.fit.curve.form), best.maximum, kPod,
+                                   target, pod.rule);
+    }
+    const LocationScale wald = location_scale_of(best.fit.curve, request);
+    return wald_specimens(wald, best.fit.curve.form, kPod, target, pod.rule.limit());
+}
+
 // The first curve's bounds, or those so far widened to one more curve's.
 void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, const Fitted& fitted,
                 const HitMissRequest& request) {
-    const PodLikelihood likelihood = scales.likelihood(fitted.fit.curve.form);
-    const auto bounds = [&](double rate) {
-        return size_bounds(table, likelihood, fitted.maximum, rate, request.confidence);
-    };
-    const SizeBounds a50 = bounds(0.5), a90 = bounds(0.9);
-    const std::vector<PodPoint> band = pod_band(
-        likelihood, fitted.maximum, band_sizes(pod, request.band_points), request.confidence);
+    const std::vector<double> sizes = band_sizes(pod, request.band_points);
+    SizeBounds a50, a90;
+    std::vector<PodPoint> band;
+    if (pod.rule.method == BoundMethod::wald) {
+        const PodCurve& curve = fitted.fit.curve;
+        const LocationScale wald = location_scale_of(curve, request);
+        a50 = wald_size_bounds(wald, curve.form, 0.5, pod.rule.limit(), pod.smallest, pod.largest);
+        a90 = wald_size_bounds(wald, curve.form, kPod, pod.rule.limit(), pod.smallest, pod.largest);
+        band = wald_band(wald, curve.form, pod.rule.limit(), sizes);
+    } else {
+        const PodLikelihood likelihood = scales.likelihood(fitted.fit.curve.form);
+        a50 = size_bounds(table, likelihood, fitted.maximum, 0.5, pod.rule);
+        a90 = size_bounds(table, likelihood, fitted.maximum, kPod, pod.rule);
+        band = pod_band(likelihood, fitted.maximum, sizes, pod.rule);
+    }
     if (pod.supported++ == 0) {
         pod.a50 = a50;
         pod.a90 = a90;
@@ -181,15 +222,20 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     pod.hits = std::lround(total_hits(table));
     pod.smallest = table.empty() ? 0.0 : table.front().size;
     pod.largest = table.empty() ? 0.0 : table.back().size;
-    pod.refusal = outcome_refusal(table);
+    pod.rule = request.rule.value_or(one_sided_bound(request.confidence));
+    pod.refusal = outcome_refusal(table, request.tested);
     if (!pod.refusal.empty()) {
         return pod;
+    }
+    if (pod.rule.method == BoundMethod::wald && (request.fit_ceiling || request.outcomes.empty())) {
+        throw std::invalid_argument(
+            "hit/miss POD: Wald's bounds need the outcomes, and no ceiling");
     }
     Scales scales(table);
     std::vector<Fitted> fitted;
     const Fitted* best = nullptr;
-    fitted.reserve(forms(request.floor).size());
-    for (const PodForm& form : forms(request.floor)) {
+    fitted.reserve(forms(request).size());
+    for (const PodForm& form : forms(request)) {
         const bool more = !fitted.empty() && fitted.back().fit.curve.form.link == form.link &&
                           fitted.back().fit.curve.form.log_size == form.log_size;
         fitted.push_back(fit_form(table, scales, form, more ? &fitted.back() : nullptr));
@@ -210,6 +256,12 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;
     add_bounds(pod, table, scales, *best, request);
+    if (!request.outcomes.empty() && !pod.chosen.curve.form.free_ceiling) {
+        pod.covariance = location_scale_of(pod.chosen.curve, request).covariance;
+    }
+    if (request.target) {
+        pod.specimens_factor = factor_for(*request.target, pod, *best, scales, request);
+    }
     for (const Fitted& other : fitted) {
         if (&other != best && other.fit.refusal.empty() && other.fit.curve.slope > 0.0 &&
             other.fit.aic <= best->fit.aic + kSupported) {

@@ -7,13 +7,17 @@
 // chosen curve alone would cover 89 to 95 instead of 93 to 98 % (test_coverage.cpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/pod/bound_rule.hpp"
+#include "analysis/pod/curve_covariance.hpp"
 #include "analysis/pod/goodness_of_fit.hpp"
 #include "analysis/pod/hit_miss_table.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/size_estimate.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 
@@ -37,12 +41,30 @@ struct HitMissPod {
     SizeBounds a50, a90;         // a90.upper is a90/95 at a confidence of 95 %
     std::vector<PodPoint> band;  // over the tested sizes
     bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
+    BoundRule rule;
+    // Of the chosen curve's location and scale (location_scale.hpp); NaN with a fitted ceiling or
+    // without the outcomes one by one.
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kNan);
+    // Of those tested, for a90's upper bound at the request's target; NaN without a target.
+    double specimens_factor = kNan;
 };
 
 struct HitMissRequest {
     double floor = 0.0;        // the healthy gearboxes' rate; 0: only curves without floor
-    double confidence = 0.95;  // of each one-sided bound
+    double confidence = 0.95;  // of each one-sided bound, unless there is a rule
     int band_points = 41;
+
+    std::optional<BoundRule> rule = {};
+    std::vector<Link> links = {Link::logit, Link::probit};
+    std::vector<bool> log_sizes = {false, true};
+    bool without_floor = true;  // also curves without the floor
+    bool fit_ceiling = true;    // also curves with a ceiling
+    bool firth = false;
+    // One by one, for Wald's bounds and the covariance; with more of them than clusters, the latter
+    // is robust.
+    std::vector<ClusteredOutcome> outcomes = {};
+    std::optional<double> target = {};  // size
+    std::string tested = "faulty gearbox";
 };
 
 // One form alone; for comparison with other programs and for coverage.

@@ -21,11 +21,11 @@ constexpr int kBandBits = 12;  // 2e-4
 class Profile {
   public:
     Profile(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
-            double confidence)
+            const BoundRule& rule)
         : likelihood_(likelihood),
           maximum_(maximum),
           last_(maximum.parameters),
-          limit_(link_quantile(Link::probit, confidence)) {}
+          limit_(rule.limit()) {}
 
     double beyond(double u, double pod) {
         auto held = likelihood_.maximise_through(u, pod, last_);
@@ -68,7 +68,7 @@ double crossing(Function beyond, double inside, double outside, double at_inside
 }  // namespace
 
 SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihood,
-                       const PodLikelihood::Maximum& maximum, double pod, double confidence) {
+                       const PodLikelihood::Maximum& maximum, double pod, const BoundRule& rule) {
     const SizeEstimate below{Where::below_tested, kNan};
     const SizeEstimate never{Where::not_reached, kNan};
     const double smallest = table.front().size, largest = table.back().size;
@@ -80,7 +80,7 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
     if (!size) {
         return {never, never, never};
     }
-    Profile profile(likelihood, maximum, confidence);
+    Profile profile(likelihood, maximum, rule);
     const double u = likelihood.standardised(*size);
     // Outwards in growing steps, each starting from the last one's curve.
     const auto bound = [&](double edge, const SizeEstimate& outside) -> SizeEstimate {
@@ -122,10 +122,10 @@ SizeBounds size_bounds(const HitMissTable& table, const PodLikelihood& likelihoo
 
 std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
                                const PodLikelihood::Maximum& maximum,
-                               const std::vector<double>& sizes, double confidence) {
+                               const std::vector<double>& sizes, const BoundRule& rule) {
     const PodForm& form = likelihood.form();
     const PodCurve curve = likelihood.curve(maximum.parameters);
-    Profile profile(likelihood, maximum, confidence);
+    Profile profile(likelihood, maximum, rule);
     const Eigen::Matrix2d information = maximum.information.topLeftCorner<2, 2>();
     const Eigen::LDLT<Eigen::Matrix2d> solver(information);
     const double least = maximum.log_likelihood - 0.5 * profile.limit() * profile.limit();
@@ -140,9 +140,10 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         PodPoint point{size, curve.pod(size), form.floor, 1.0};
         // Where the curve is at its floor, or at 1, to the last digit, zeta is infinite: the search
         // for a bound sets out from next to that end.
-        const double end = link_quantile(form.link, 1.0 - kAtEnd);
         const double share = std::clamp((point.pod - form.floor) / (1.0 - form.floor), 0.0, 1.0);
-        const double zeta = std::clamp(link_quantile(form.link, share), -end, end);
+        const double zeta =
+            std::clamp(link_quantile(form.link, share), link_quantile(form.link, kAtEnd),
+                       link_upper_quantile(form.link, kAtEnd));
         const Eigen::Vector2d direction(1.0, u);
         const double se = std::sqrt(direction.dot(solver.solve(direction)));
         // No longer where the likelihood is flat: the bound lies before the end of the rates.
@@ -183,6 +184,17 @@ std::vector<PodPoint> pod_band(const PodLikelihood& likelihood,
         band.push_back(point);
     }
     return band;
+}
+
+double specimens_for_bound(const PodLikelihood& likelihood, const PodLikelihood::Maximum& maximum,
+                           double pod, double size, const BoundRule& rule) {
+    const auto own = likelihood.curve(maximum.parameters).size_at(pod);
+    if (!own || !(*own < size)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    Profile profile(likelihood, maximum, rule);
+    const double root = profile.beyond(likelihood.standardised(size), pod) + profile.limit();
+    return rule.chi_squared / (root * root);
 }
 
 SizeBounds widest(const SizeBounds& a, const SizeBounds& b) {

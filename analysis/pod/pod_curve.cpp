@@ -23,6 +23,9 @@ std::string form_text(const PodForm& form) {
     if (form.free_ceiling) {
         text += ", ceiling fitted";
     }
+    if (form.firth) {
+        text += ", Firth's penalty";
+    }
     return text;
 }
 

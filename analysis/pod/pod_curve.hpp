@@ -20,13 +20,14 @@ struct PodForm {
     bool log_size = false;
     double floor = 0.0;         // fixed, the healthy gearboxes' rate
     bool free_ceiling = false;  // else 1
+    bool firth = false;         // Jeffreys' penalty on the likelihood; not with a free ceiling
 
     int parameters() const { return free_ceiling ? 3 : 2; }
     double scaled(double size) const;  // x of a size
     double size(double scaled) const;
 };
 
-// "logit of log size, floor 0.05, ceiling fitted"
+// "logit of log size, floor 0.05, ceiling fitted", "logit of size, Firth's penalty"
 std::string form_text(const PodForm& form);
 
 struct PodCurve {

@@ -14,8 +14,10 @@ namespace {
 constexpr double kTiny = 1e-290;
 constexpr double kInTransition = 1e-6;
 // Half a cell of sizes in units of eta, at most: the singularities of the links nearest to the real
-// axis are pi away for the logit, about 2 with a usual floor for the probit.
-constexpr double kHalfCellLogit = 2.0, kHalfCellProbit = 1.0;
+// axis are pi away for the logit, about 2 with a usual floor for the probit, pi / 2 for the others.
+constexpr double kHalfCellLogit = 2.0, kHalfCell = 1.0;
+
+constexpr double kPenaltyStep = 1e-4;
 
 // Where the curve is as flat as doubles tell, in its own probability's share.
 constexpr double kFlat = 1e-17;
@@ -27,7 +29,7 @@ struct Transition {
 
     Transition(Link link, double at_floor, double at_ceiling, double rise)
         : low(-link_quantile(link, std::min(0.5, kFlat * at_floor / rise))),
-          high(-link_quantile(link, std::min(0.5, kFlat * at_ceiling / rise))) {}
+          high(link_upper_quantile(link, std::min(0.5, kFlat * at_ceiling / rise))) {}
 };
 
 }  // namespace
@@ -37,13 +39,16 @@ PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, con
     if (sizes_->sizes().size() < 2) {
         throw std::invalid_argument("POD likelihood: needs two fault sizes at least");
     }
+    if (form_.firth && form_.free_ceiling) {
+        throw std::invalid_argument("POD likelihood: a penalised ceiling is not defined here");
+    }
 }
 
 PodLikelihood::PodLikelihood(const HitMissTable& table, const PodForm& form)
     : PodLikelihood(std::make_shared<const StandardisedSizes>(table, form.log_size), form) {}
 
 const SizeNodes& PodLikelihood::nodes_for(double slope) const {
-    const double half = form_.link == Link::logit ? kHalfCellLogit : kHalfCellProbit;
+    const double half = form_.link == Link::logit ? kHalfCellLogit : kHalfCell;
     return sizes_->nodes(2.0 * half / std::abs(slope));
 }
 
@@ -124,6 +129,39 @@ PodLikelihood::Slopes PodLikelihood::evaluate(const Parameters& parameters,
     return slopes;
 }
 
+double PodLikelihood::penalise(const Parameters& parameters, const std::optional<Point>& through,
+                               const SizeNodes& nodes, Slopes& slopes) const {
+    const auto half_log_determinant = [&](const Parameters& at) {
+        const Eigen::Matrix3d all = evaluate(at, std::nullopt, nodes).information;
+        return 0.5 * std::log(all(0, 0) * all(1, 1) - all(0, 1) * all(0, 1));
+    };
+    // Held to a point, the intercept follows the slope.
+    const Parameters turning{-(through ? through->u : 0.0), 1.0, 0.0};
+    const auto slope_along = [&](const Parameters& direction, double at) {
+        const double step = kPenaltyStep * std::max(1.0, std::abs(at));
+        return (half_log_determinant(parameters + step * direction) -
+                half_log_determinant(parameters - step * direction)) /
+               (2.0 * step);
+    };
+    const double penalty = half_log_determinant(parameters);
+    slopes.value += penalty;
+    slopes.score[1] += slope_along(turning, parameters[1]);
+    if (!through) {
+        slopes.score[0] += slope_along({1.0, 0.0, 0.0}, parameters[0]);
+    }
+    return penalty;
+}
+
+PodLikelihood::Slopes PodLikelihood::penalised(const Parameters& parameters,
+                                               const std::optional<Point>& through,
+                                               const SizeNodes& nodes) const {
+    Slopes slopes = evaluate(parameters, through, nodes);
+    if (form_.firth) {
+        penalise(parameters, through, nodes, slopes);
+    }
+    return slopes;
+}
+
 bool PodLikelihood::meet(Parameters& parameters, const std::optional<Point>& through) const {
     if (!through) {
         parameters[2] = std::min(parameters[2], 1.0);
@@ -152,7 +190,7 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
     Maximum maximum;
     meet(parameters, through);
     const SizeNodes* nodes = &nodes_for(parameters[1]);
-    Slopes here = evaluate(parameters, through, *nodes);
+    Slopes here = penalised(parameters, through, *nodes);
     for (int step = 0; step < most_steps; ++step) {
         Eigen::Matrix3d system = here.information;
         Parameters score = here.score;
@@ -190,9 +228,9 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
             // Never coarser than before: sums over other nodes differ by more than rounding.
             if (const SizeNodes& finer = nodes_for(next[1]); finer.cell < nodes->cell) {
                 nodes = &finer;
-                here = evaluate(parameters, through, finer);
+                here = penalised(parameters, through, finer);
             }
-            Slopes there = evaluate(next, through, *nodes);
+            Slopes there = penalised(next, through, *nodes);
             if (there.value > here.value - 1e-14 * std::abs(here.value)) {
                 better = true;
                 parameters = next;
@@ -207,6 +245,9 @@ PodLikelihood::Maximum PodLikelihood::ascend(Parameters parameters,
     maximum.log_likelihood = here.value;
     maximum.parameters = parameters;
     maximum.information = here.information;
+    if (form_.firth) {
+        maximum.penalty = penalise(parameters, through, *nodes, here);
+    }
     return maximum;
 }
 
@@ -236,6 +277,9 @@ std::optional<double> PodLikelihood::extreme_zeta(double u, double log_likelihoo
     constexpr int kMostSteps = 30;
     constexpr double kSettled = 1e-3;    // of a standard error; what the move leaves is its square
     constexpr double kOnContour = 1e-2;  // of the log likelihood
+    if (form_.firth) {
+        return std::nullopt;
+    }
     const double floor = form_.floor;
     Parameters parameters = start;
     bool held = !form_.free_ceiling;  // the ceiling
@@ -299,9 +343,10 @@ PodCurve PodLikelihood::curve(const Parameters& parameters) const {
 }
 
 int PodLikelihood::sizes_in_transition(const Parameters& parameters) const {
-    const double farthest = link_quantile(form_.link, 1.0 - kInTransition);
-    return static_cast<int>(
-        ((parameters[0] + parameters[1] * sizes_->sizes()).abs() < farthest).count());
+    const double low = link_quantile(form_.link, kInTransition);
+    const double high = link_upper_quantile(form_.link, kInTransition);
+    const Eigen::ArrayXd eta = parameters[0] + parameters[1] * sizes_->sizes();
+    return static_cast<int>((eta > low && eta < high).count());
 }
 
 }  // namespace gearpod::analysis

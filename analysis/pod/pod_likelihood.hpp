@@ -1,6 +1,9 @@
 // Binomial likelihood of a POD curve, maximised by Fisher scoring with step halving; freely, or
 // with the curve held to one point (the profile behind likelihood-ratio bounds). P. McCullagh, J.
-// A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4.
+// A. Nelder, Generalized Linear Models (1989), sections 2.5 and 4.4. With Firth's penalty, half the
+// logarithm of the information's determinant, there is a maximum even where hits and misses do not
+// overlap: D. Firth, Biometrika 80 (1993), 27-38; G. Heinze, M. Schemper, Stat. Med. 21 (2002),
+// 2409-2419.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +21,8 @@ class PodLikelihood {
     using Parameters = Eigen::Vector3d;
 
     struct Maximum {
-        double log_likelihood = 0.0;  // without the binomial coefficients
+        double log_likelihood = 0.0;  // without the binomial coefficients, with the penalty
+        double penalty = 0.0;
         Parameters parameters;
         Eigen::Matrix3d information;  // Fisher's, in the parameters; rows of fixed ones are 0
         bool converged = false;
@@ -41,7 +45,7 @@ class PodLikelihood {
     // Where among the curves no less likely than `log_likelihood` the POD at u is least (side -1)
     // or most (side 1): its transform zeta, POD = floor + (1 - floor) F(zeta), from `start`. By
     // quadratic programs after D. J. Venzon, S. H. Moolgavkar, Appl. Stat. 37 (1988), 87-94. Empty
-    // if they do not settle; `start` is left at the extreme curve.
+    // if they do not settle, or the likelihood is penalised; `start` is left at the extreme curve.
     std::optional<double> extreme_zeta(double u, double log_likelihood, int side,
                                        Parameters& start) const;
 
@@ -65,6 +69,12 @@ class PodLikelihood {
     const SizeNodes& nodes_for(double slope) const;
     Slopes evaluate(const Parameters& parameters, const std::optional<Point>& through,
                     const SizeNodes& nodes) const;
+    // Adds Firth's penalty and its slopes, by differences.
+    double penalise(const Parameters& parameters, const std::optional<Point>& through,
+                    const SizeNodes& nodes, Slopes& slopes) const;
+    // Both.
+    Slopes penalised(const Parameters& parameters, const std::optional<Point>& through,
+                     const SizeNodes& nodes) const;
     // Sets the intercept so that the curve meets the point; false if its ceiling is too low.
     bool meet(Parameters& parameters, const std::optional<Point>& through) const;
     Maximum ascend(Parameters parameters, const std::optional<Point>& through) const;

@@ -1,6 +1,6 @@
 """Writes the page of a report to standard output.
 
-    gearpod report F.h5 --json F.json
+    gearpod report F.h5 --json F.json         (or gearpod pod TABLE.csv --json F.json)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
@@ -31,18 +31,29 @@ def state_banner(report):
     return ""
 
 
-def page_html(data):
-    import charts
+def study_parts(data, page):
+    """Title, one sentence, HTML of the answer, HTML of the sections."""
     import headline
     import sections
-    from blocks import Page
     from report import Report
+
+    report = Report(data)
+    body = sections.all_of(report, page)
+    return (report.title(), headline.sentence(report),
+            state_banner(report) + headline.html_of(report), body)
+
+
+def page_html(data):
+    import charts
+    import inspection_page
+    from blocks import Page
     from words import escape
 
-    report, page = Report(data), Page()
-    body = sections.all_of(report, page)
-    contents = "".join(f'<li><a href="#{name}">{escape(title)}</a></li>'
-                       for name, title in page.sections)
+    page = Page()
+    inspection = data.get("kind") == "inspection"
+    title, sentence, answer, body = (inspection_page.parts if inspection else study_parts)(data, page)
+    contents = "".join(f'<li><a href="#{name}">{escape(title_)}</a></li>'
+                       for name, title_ in page.sections)
     style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -50,23 +61,23 @@ def page_html(data):
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<meta name="description" content="{escape(headline.sentence(report))}">
-<title>{escape(report.title())} – gearpod report</title>
+<meta name="description" content="{escape(sentence)}">
+<title>{escape(title)} – gearpod report</title>
 <link rel="icon" href="data:,">
 <style>
 {charts.scheme_css()}{style}</style>
 </head>
 <body>
 <a class="skip" href="#main">Skip to the answer</a>
-<header><p class="product">gearpod report</p><h1>{escape(report.title())}</h1></header>
+<header><p class="product">gearpod report</p><h1>{escape(title)}</h1></header>
 <main id="main" tabindex="-1">
 <section id="answer" aria-label="Answer">
-{state_banner(report)}{headline.html_of(report)}
+{answer}
 </section>
 <nav aria-label="Contents"><h2>Contents</h2><ul>{contents}</ul></nav>
 {body}
 </main>
-<footer><p>Every number of this page is in <code>gearpod report --json</code>.</p></footer>
+<footer><p>Every number of this page is in <code>gearpod {"pod" if inspection else "report"} --json</code>.</p></footer>
 </body>
 </html>
 """

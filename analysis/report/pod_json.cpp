@@ -48,14 +48,19 @@ Json to_json(const SignalResponseFit& fit) {
                           {"statistic", number(check.statistic)},
                           {"p_value", number(check.p_value)}});
     }
-    return {{"log_size", fit.log_size},
-            {"log_response", fit.log_response},
-            {"intercept", number(fit.line.intercept)},
-            {"slope", number(fit.line.slope)},
-            {"sigma", number(fit.line.sigma)},
+    std::vector<std::string> refusals = fit.refusals;
+    refusals.insert(refusals.end(), fit.doubts.begin(), fit.doubts.end());
+    return {{"log_size", fit.scale.log_size},
+            {"log_response", fit.scale.power == 0.0},
+            {"power", fit.scale.power},
+            {"intercept", number(fit.model.intercept)},
+            {"slope", number(fit.model.slope)},
+            {"sigma", number(fit.model.sigma)},
+            {"between", number(fit.model.between)},
+            {"within", number(fit.model.within)},
             {"aic", number(fit.aic)},
             {"checks", checks},
-            {"refusals", fit.refusals}};
+            {"refusals", refusals}};
 }
 
 }  // namespace
@@ -72,6 +77,7 @@ nlohmann::json hit_miss_json(const HitMissPod& pod) {
     json["a50"] = pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr);
     json["a90"] = pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr);
     json["band"] = to_json(pod.band);
+    json["bound"] = bound_text(pod.rule);
     json["candidates"] = Json::array();
     for (const HitMissFit& fit : pod.candidates) {
         json["candidates"].push_back(to_json(fit));

@@ -85,9 +85,8 @@ void add_signal_response(std::string& out, const std::vector<const FeatureReliab
             return size_estimate_text(estimate, pod.band.front().size, pod.band.back().size, unit);
         };
         add_wrapped(out,
-                    fmt::format("a-hat against a: {} ({} of {}): a50 {}, a90 {}, with bound {}",
-                                feature->feature, fit.log_response ? "log value" : "value",
-                                fit.log_size ? "log size" : "size", text(pod.a50.estimate),
+                    fmt::format("a-hat against a: {} ({}): a50 {}, a90 {}, with bound {}",
+                                feature->feature, fit.scale.text(), text(pod.a50.estimate),
                                 text(pod.a90.estimate), text(pod.a90.upper)),
                     4);
     }

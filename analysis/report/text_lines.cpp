@@ -34,16 +34,16 @@ std::string range_text(const SizeGroup& range, const SizeUnit& unit) {
 }
 
 std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
-                               const SizeUnit& unit) {
+                               const SizeUnit& unit, int digits) {
     switch (estimate.where) {
         case SizeEstimate::Where::reached:
-            return fmt::format("{:.3g}", estimate.size / unit.per_unit());
+            return fmt::format("{:.{}g}", estimate.size / unit.per_unit(), digits);
         case SizeEstimate::Where::below_tested:
-            return fmt::format("< {:.3g}", smallest / unit.per_unit());
+            return fmt::format("< {:.{}g}", smallest / unit.per_unit(), digits);
         case SizeEstimate::Where::not_reached:
             break;
     }
-    return fmt::format("> {:.3g}", largest / unit.per_unit());
+    return fmt::format("> {:.{}g}", largest / unit.per_unit(), digits);
 }
 
 }  // namespace gearpod::analysis

@@ -20,6 +20,6 @@ std::string range_text(const SizeGroup& range, const SizeUnit& unit);  // "0.5 m
 
 // "1.24" in the unit shown, "< 0.5" and "> 4.28" beyond the tested sizes.
 std::string size_estimate_text(const SizeEstimate& estimate, double smallest, double largest,
-                               const SizeUnit& unit);
+                               const SizeUnit& unit, int digits = 3);
 
 }  // namespace gearpod::analysis

@@ -107,11 +107,11 @@ def quantity(value, unit, digits=3):
 
 
 class Sizes:
-    """Fault sizes: lengths are shown in mm, others as they are."""
+    """Fault sizes: metres are shown in mm, others as they are."""
 
     def __init__(self, size):
         self.name = input_name(size["name"], size["unit"])
-        self.unit = "mm" if size["unit"] == "m" else ""
+        self.unit = "mm" if size["unit"] == "m" else unit_text(size["unit"])
         self.factor = 1e3 if size["unit"] == "m" else 1.0
 
     def shown(self, value):

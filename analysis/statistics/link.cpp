@@ -9,7 +9,16 @@
 
 namespace gearpod::analysis {
 
-LinkValues link_values(Link link, double eta) {
+namespace {
+
+// Of 1 - exp(-exp(eta)).
+LinkValues cloglog_values(double eta) {
+    const double rate = std::exp(eta);
+    const double down = std::exp(-rate);
+    return {-std::expm1(-rate), down, std::isinf(rate) ? 0.0 : rate * down};
+}
+
+LinkValues symmetric_values(Link link, double eta) {
     const double away = std::abs(eta);
     double small = 0.0, density = 0.0;
     if (link == Link::logit) {
@@ -22,6 +31,23 @@ LinkValues link_values(Link link, double eta) {
     }
     return eta > 0.0 ? LinkValues{1.0 - small, small, density}
                      : LinkValues{small, 1.0 - small, density};
+}
+
+}  // namespace
+
+LinkValues link_values(Link link, double eta) {
+    switch (link) {
+        case Link::logit:
+        case Link::probit:
+            break;
+        case Link::cloglog:
+            return cloglog_values(eta);
+        case Link::loglog: {
+            const LinkValues mirrored = cloglog_values(-eta);
+            return {mirrored.down, mirrored.up, mirrored.density};
+        }
+    }
+    return symmetric_values(link, eta);
 }
 
 double link_probability(Link link, double eta) {
@@ -38,14 +64,38 @@ double link_quantile(Link link, double probability) {
                : probability == 1.0 ? std::numeric_limits<double>::infinity()
                                     : std::numeric_limits<double>::quiet_NaN();
     }
-    if (link == Link::logit) {
-        return std::log(probability) - std::log1p(-probability);
+    switch (link) {
+        case Link::logit:
+            return std::log(probability) - std::log1p(-probability);
+        case Link::cloglog:
+            return std::log(-std::log1p(-probability));
+        case Link::loglog:
+            return -std::log(-std::log(probability));
+        case Link::probit:
+            break;
     }
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability, QuietPolicy());
 }
 
+double link_upper_quantile(Link link, double probability) {
+    const Link mirrored = link == Link::cloglog  ? Link::loglog
+                          : link == Link::loglog ? Link::cloglog
+                                                 : link;
+    return -link_quantile(mirrored, probability);
+}
+
 const char* link_name(Link link) {
-    return link == Link::logit ? "logit" : "probit";
+    switch (link) {
+        case Link::logit:
+            return "logit";
+        case Link::probit:
+            return "probit";
+        case Link::cloglog:
+            return "cloglog";
+        case Link::loglog:
+            break;
+    }
+    return "loglog";
 }
 
 }  // namespace gearpod::analysis

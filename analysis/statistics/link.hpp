@@ -1,10 +1,12 @@
-// Links of a probability of detection: POD = F(eta). Both laws are symmetric, 1 - F(eta) = F(-eta).
-// MIL-HDBK-1823A, appendix G.3.3.
+// Links of a probability of detection: POD = F(eta). Logit and probit are symmetric, 1 - F(eta) =
+// F(-eta); cloglog (complementary log-log) is 1 - exp(-exp(eta)), loglog exp(-exp(-eta)), each the
+// mirror of the other. MIL-HDBK-1823A, appendix G.3.3.
 #pragma once
 
 namespace gearpod::analysis {
 
-enum class Link { logit, probit };
+enum class Link { logit, probit, cloglog, loglog };
+inline constexpr Link kLinks[] = {Link::logit, Link::probit, Link::cloglog, Link::loglog};
 
 double link_probability(Link link, double eta);  // F
 double link_density(Link link, double eta);      // F'
@@ -17,6 +19,8 @@ struct LinkValues {
 LinkValues link_values(Link link, double eta);
 
 double link_quantile(Link link, double probability);
+// Where 1 - F is `probability`.
+double link_upper_quantile(Link link, double probability);
 
 const char* link_name(Link link);
 

@@ -7,6 +7,18 @@
 namespace gearpod::analysis {
 
 LinkBlock::LinkBlock(Link link, const Block& eta) {
+    if (link == Link::cloglog || link == Link::loglog) {
+        up.resize(eta.size());
+        down.resize(eta.size());
+        density.resize(eta.size());
+        for (Eigen::Index i = 0; i < eta.size(); ++i) {
+            const LinkValues at = link_values(link, eta[i]);
+            up[i] = at.up;
+            down[i] = at.down;
+            density[i] = at.density;
+        }
+        return;
+    }
     Block small;
     if (link == Link::logit) {
         const Block e = (-eta.abs()).exp();

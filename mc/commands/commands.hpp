@@ -88,4 +88,22 @@ struct FeaturesOptions {
 };
 int features_command(const FeaturesOptions& options);
 
+struct PodOptions {
+    std::string table;
+    std::string size;                 // columns; "": by their usual names
+    std::vector<std::string> hits;    // of hit/miss, several are repeats
+    std::vector<std::string> values;  // of responses
+    std::string specimen;
+    std::vector<std::string> links;  // "": all
+    std::string size_scale;          // "linear", "log", "": both
+    std::string response_scale;      // the same, "box-cox" or a power
+    std::string convention = "handbook", bounds;
+    std::string alarm = "high";
+    std::optional<double> threshold, false_call_rate, left, right, floor, target;
+    double confidence = 0.95;
+    bool fit_ceiling = false, firth = false;
+    std::string json, html;
+};
+int pod_command(const PodOptions& options);
+
 }  // namespace gearpod::mc

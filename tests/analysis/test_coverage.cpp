@@ -57,8 +57,10 @@ Covered coverage_of_form(const PodCurve& truth, int count, int levels, double at
         }
         const PodLikelihood likelihood(table, truth.form);
         const auto maximum = likelihood.maximise();
-        const SizeBounds bounds = size_bounds(table, likelihood, maximum, 0.9, 0.95);
-        const PodPoint point = pod_band(likelihood, maximum, {at_size}, 0.95).front();
+        const SizeBounds bounds =
+            size_bounds(table, likelihood, maximum, 0.9, one_sided_bound(0.95));
+        const PodPoint point =
+            pod_band(likelihood, maximum, {at_size}, one_sided_bound(0.95)).front();
         ++covered.studies;
         covered.upper += upper_holds(bounds.upper, a90);
         covered.lower += lower_holds(bounds.lower, a90);
@@ -139,11 +141,12 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
             sizes.push_back(draw(engine));
             values.push_back(1.0 + sizes.back() + 0.5 * normal(engine));
         }
-        const SignalResponsePod pod = signal_response_pod(sizes, values, 3.0, Alarm::high, 0.95, 2);
+        const SignalResponsePod pod =
+            signal_response_pod(sizes, values, {3.0, Alarm::high, 0.95, 2});
         // Studies whose checks fail by chance, or in which another scale passes with less AIC, are
         // about the selection and not about the bound.
-        if (pod.refusal.empty() && !pod.candidates[pod.chosen].log_size &&
-            !pod.candidates[pod.chosen].log_response) {
+        if (pod.refusal.empty() && !pod.candidates[pod.chosen].scale.log_size &&
+            pod.candidates[pod.chosen].scale.power == 1.0) {
             ++studies;
             upper += upper_holds(pod.a90.upper, a90);
             lower += lower_holds(pod.a90.lower, a90);

@@ -264,6 +264,22 @@ class Program(unittest.TestCase):
                 self.assertIn(named, failed.stderr)
                 self.assertFalse(os.path.exists(self.html()))
 
+    def test_inspections_have_a_page(self):
+        tables = SOURCES / "tests" / "analysis" / "reference"
+        for table, options, expected in (
+                ("inspections_hits.csv", ("--link", "logit", "--size-scale", "linear"),
+                 ("90 % of flaws of 2.593", "hits and misses", "likelihood ratio, chi-squared 3.841")),
+                ("inspections_responses.csv", ("--response", "A", "--threshold", "6", "--left", "3"),
+                 ("Responses", "threshold", "Wald, 1.645 standard errors"))):
+            made = self.gearpod("pod", str(tables / table), *options, "--html", self.html())
+            self.assertEqual(made.returncode, 0, made.stderr)
+            html = pathlib.Path(self.html()).read_text()
+            said_ = PageHtml(html).text().replace("\u00a0", " ")
+            for words_ in expected:
+                self.assertIn(words_, said_)
+            self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
+            os.remove(self.html())
+
     def test_a_page_that_cannot_be_written_is_said_first(self):
         failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")
         self.assertEqual(failed.returncode, 2)

@@ -30,7 +30,7 @@ SizeBounds bounds_of(const HitMissTable& table, const PodForm& form, double pod)
     if (form.free_ceiling) {
         start = likelihood.maximise().parameters;
     }
-    return size_bounds(table, likelihood, likelihood.maximise(start), pod, 0.95);
+    return size_bounds(table, likelihood, likelihood.maximise(start), pod, one_sided_bound(0.95));
 }
 
 TEST_CASE("The hit/miss fit of a published data set has its published numbers") {
@@ -119,7 +119,8 @@ TEST_CASE("Fits with a floor and a ceiling, and their bounds, agree with a gener
     CHECK(a90.estimate.size == Approx(2.668868506).epsilon(1e-5));
     CHECK(a90.upper.size == Approx(2.779847221).epsilon(1e-5));
     const PodLikelihood likelihood(table, floored);
-    const PodPoint at_two = pod_band(likelihood, likelihood.maximise(), {2.0}, 0.95).front();
+    const PodPoint at_two =
+        pod_band(likelihood, likelihood.maximise(), {2.0}, one_sided_bound(0.95)).front();
     CHECK(at_two.lower == Approx(0.5242995843).epsilon(1e-6));
     CHECK(at_two.pod == Approx(0.5514312880).epsilon(1e-6));
     CHECK(at_two.upper == Approx(0.5785730879).epsilon(1e-6));
@@ -133,7 +134,7 @@ TEST_CASE("Every bound of the band lies where the profile deviance is z squared"
         const PodLikelihood likelihood(table, form);
         const auto maximum = likelihood.maximise();
         for (const PodPoint& point :
-             pod_band(likelihood, maximum, {0.7, 1.0, 1.6, 2.2, 3.0, 4.2}, 0.95)) {
+             pod_band(likelihood, maximum, {0.7, 1.0, 1.6, 2.2, 3.0, 4.2}, one_sided_bound(0.95))) {
             for (const double pod : {point.lower, point.upper}) {
                 const auto held = likelihood.maximise_through(likelihood.standardised(point.size),
                                                               pod, maximum.parameters);
@@ -165,7 +166,7 @@ TEST_CASE("The band of a rate that hardly rises is that of a search over all cur
     for (int i = 0; i <= 20; ++i) {
         sizes.push_back(0.0005 + 0.00378 * i / 20);
     }
-    const auto band = pod_band(likelihood, maximum, sizes, 0.95);
+    const auto band = pod_band(likelihood, maximum, sizes, one_sided_bound(0.95));
     // Curves by their logits at the smallest and the largest size.
     const auto pod_at = [&](double first, double last, double size) {
         const double eta = first + (last - first) * (size - 0.0005) / 0.00378;
@@ -208,7 +209,8 @@ TEST_CASE("The band keeps to the floor where the best curve is at it to the last
     for (int i = 0; i <= 40; ++i) {
         sizes.push_back(0.0005 + 0.00378 * i / 40);
     }
-    for (const PodPoint& point : pod_band(likelihood, likelihood.maximise(), sizes, 0.95)) {
+    for (const PodPoint& point :
+         pod_band(likelihood, likelihood.maximise(), sizes, one_sided_bound(0.95))) {
         INFO(point.size);
         CHECK(point.lower >= form.floor);
         CHECK(point.upper >= point.pod);

@@ -78,11 +78,11 @@ TEST_CASE("Lines and checks agree with statsmodels on the standard's a-hat examp
 TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the delta method") {
     const auto columns = reference_columns("line_60.csv");
     const SignalResponsePod pod =
-        signal_response_pod(columns[0], columns[1], 2.0, Alarm::high, 0.95);
+        signal_response_pod(columns[0], columns[1], {2.0, Alarm::high, 0.95});
     CHECK(pod.refusal == "");
     REQUIRE(pod.candidates.size() == 4);
     const SignalResponseFit& fit = pod.candidates[pod.chosen];
-    CHECK((fit.log_size && fit.log_response));
+    CHECK((fit.scale.log_size && fit.scale.power == 0.0));
     // reference/reference_py.txt
     CHECK(pod.a50.lower.size == Approx(1.201482904).epsilon(1e-6));
     CHECK(pod.a50.estimate.size == Approx(1.316336108).epsilon(1e-6));
@@ -98,8 +98,8 @@ TEST_CASE("A low alarm on the reciprocal is the same detector") {
     for (const double value : columns[1]) {
         reciprocal.push_back(1.0 / value);
     }
-    const auto high = signal_response_pod(columns[0], columns[1], 2.0, Alarm::high, 0.95);
-    const auto low = signal_response_pod(columns[0], reciprocal, 0.5, Alarm::low, 0.95);
+    const auto high = signal_response_pod(columns[0], columns[1], {2.0, Alarm::high, 0.95});
+    const auto low = signal_response_pod(columns[0], reciprocal, {0.5, Alarm::low, 0.95});
     REQUIRE(low.refusal == "");
     CHECK(low.a90.upper.size == Approx(high.a90.upper.size));
     CHECK(low.band[10].lower == Approx(high.band[10].lower));
@@ -118,7 +118,7 @@ TEST_CASE("Responses that break an assumption are refused, each with its reason"
         skewed.push_back(20.0 + a - std::log(share));
     }
     const auto reasons = [&](const std::vector<double>& values) {
-        const auto pod = signal_response_pod(size, values, 21.0, Alarm::high, 0.95);
+        const auto pod = signal_response_pod(size, values, {21.0, Alarm::high, 0.95});
         CHECK(pod.a90.estimate.where == Where::not_reached);
         return pod.refusal;
     };
@@ -136,7 +136,7 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
         none.push_back(nan);
     }
     const auto refusal = [](const std::vector<double>& a, const std::vector<double>& y, double t) {
-        return signal_response_pod(a, y, t, Alarm::high, 0.95).refusal;
+        return signal_response_pod(a, y, {t, Alarm::high, 0.95}).refusal;
     };
     CHECK_THAT(refusal(size, constant, 2.0), Catch::Contains("the values do not scatter"));
     CHECK_THAT(refusal(size, none, 2.0), Catch::Contains("0 faulty gearboxes with a value"));

@@ -1,0 +1,192 @@
+#include "analysis/inspection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "analysis/statistics/clopper_pearson.hpp"
+#include "analysis/statistics/interval.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kPod = 0.9;
+constexpr int kBandPoints = 61;
+
+BoundRule rule_of(const InspectionRequest& request) {
+    const BoundConvention handbooks =
+        request.responses ? BoundConvention::one_sided : BoundConvention::two_sided;
+    const BoundMethod method = request.method.value_or(
+        request.responses ? BoundMethod::wald : BoundMethod::likelihood_ratio);
+    switch (request.convention == BoundConvention::handbook ? handbooks : request.convention) {
+        case BoundConvention::two_sided:
+            return two_sided_bound(request.confidence, method);
+        case BoundConvention::joint:
+            return joint_bound(request.confidence, method);
+        case BoundConvention::handbook:
+        case BoundConvention::one_sided:
+            break;
+    }
+    return one_sided_bound(request.confidence, method);
+}
+
+void count_specimens(const Inspections& data, InspectionResult& result) {
+    std::set<long> specimens;
+    long lines = 0;
+    for (std::size_t i = 0; i < data.size.size(); ++i) {
+        if (data.size[i] > 0.0) {
+            specimens.insert(data.specimen[i]);
+            ++lines;
+        }
+    }
+    result.specimens = static_cast<long>(specimens.size());
+    result.repeats = lines - result.specimens;
+}
+
+void add_hit_miss(const Inspections& data, const InspectionRequest& request,
+                  InspectionResult& result) {
+    HitMissRequest asked;
+    std::vector<char> hit;
+    for (std::size_t i = 0; i < data.size.size(); ++i) {
+        hit.push_back(data.value[i] != 0.0);
+        if (data.size[i] > 0.0) {
+            asked.outcomes.push_back({data.size[i], hit.back() != 0, data.specimen[i]});
+        } else {
+            result.false_calls += hit.back();
+        }
+    }
+    result.table = hit_miss_table(data.size, hit);
+    const double rate = result.without_flaw == 0 ? 0.0
+                                                 : static_cast<double>(result.false_calls) /
+                                                       static_cast<double>(result.without_flaw);
+    asked.floor = request.floor.value_or(rate);
+    asked.without_floor = !request.floor;
+    asked.confidence = request.confidence;
+    asked.band_points = kBandPoints;
+    asked.rule = rule_of(request);
+    // Outcomes of one specimen hang together, which only the robust covariance knows.
+    if (result.repeats > 0) {
+        asked.rule->method = BoundMethod::wald;
+    }
+    asked.links = request.links;
+    asked.log_sizes = request.log_sizes;
+    asked.fit_ceiling = request.fit_ceiling && asked.rule->method != BoundMethod::wald;
+    asked.firth = request.firth;
+    asked.target = request.target;
+    asked.tested = "specimen";
+    result.hit_miss = hit_miss_pod(result.table, asked);
+}
+
+// Thresholds that the noise exceeds with these probabilities, else some over the responses.
+std::vector<double> thresholds(const std::vector<double>& responses, const NoiseLaw* noise,
+                               const InspectionRequest& request) {
+    constexpr int kPoints = 33;
+    std::vector<double> all;
+    for (int i = 0; i < kPoints; ++i) {
+        const double share = static_cast<double>(i) / (kPoints - 1);
+        if (noise != nullptr) {
+            const double rate = 0.5 * std::pow(2e-4, share);
+            all.push_back(noise->exceeded_by(request.alarm == Alarm::high ? rate : 1.0 - rate));
+        } else {
+            const auto at = static_cast<std::size_t>(
+                std::lround((0.02 + 0.78 * share) * static_cast<double>(responses.size() - 1)));
+            all.push_back(responses[at]);
+        }
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+double false_call_probability(const NoiseLaw* noise, double threshold, Alarm alarm) {
+    return noise == nullptr       ? kNan
+           : alarm == Alarm::high ? noise->above(threshold)
+                                  : noise->below(threshold);
+}
+
+void add_trade_off(const SignalResponseRequest& asked, const std::vector<double>& responses,
+                   const InspectionRequest& request, InspectionResult& result) {
+    const NoiseLaw* noise = result.noise.empty() ? nullptr : &result.noise.front();
+    const SignalResponsePod& pod = result.signal_response;
+    const bool positive = pod.candidates[pod.chosen].scale.power != 1.0;
+    for (const double threshold : thresholds(responses, noise, request)) {
+        const bool within = threshold > request.limits.left && threshold < request.limits.right;
+        if (!within || (positive && !(threshold > 0.0))) {
+            continue;
+        }
+        const ThresholdBounds bounds =
+            bounds_at(pod, asked, threshold, pod.band.front().size, pod.band.back().size);
+        result.trade_off.push_back({threshold,
+                                    false_call_probability(noise, threshold, request.alarm),
+                                    bounds.a50, bounds.a90});
+    }
+}
+
+void add_responses(const Inspections& data, const InspectionRequest& request,
+                   InspectionResult& result) {
+    std::vector<double> without, responses;
+    for (std::size_t i = 0; i < data.size.size(); ++i) {
+        (data.size[i] > 0.0 ? responses : without).push_back(data.value[i]);
+    }
+    std::sort(responses.begin(), responses.end());
+    result.noise = noise_laws(without);
+    if (request.threshold) {
+        result.threshold = *request.threshold;
+    } else if (request.false_call_rate && !result.noise.empty()) {
+        const double rate = *request.false_call_rate;
+        result.threshold =
+            result.noise.front().exceeded_by(request.alarm == Alarm::high ? rate : 1.0 - rate);
+    } else {
+        result.refusal =
+            "no threshold: give one, or a false-call rate and lines of size 0 (three at least) "
+            "to find it from";
+        return;
+    }
+    for (const double value : without) {
+        result.false_calls +=
+            request.alarm == Alarm::high ? value > result.threshold : value < result.threshold;
+    }
+    SignalResponseRequest asked;
+    asked.threshold = result.threshold;
+    asked.alarm = request.alarm;
+    asked.confidence = request.confidence;
+    asked.band_points = kBandPoints;
+    asked.method = LineMethod::maximum_likelihood;
+    asked.rule = rule_of(request);
+    asked.limits = request.limits;
+    asked.log_sizes = request.log_sizes;
+    asked.powers = request.powers;
+    asked.insist = request.insist;
+    asked.specimen = data.specimen;
+    asked.target = request.target;
+    asked.tested = "values of flaws";
+    result.signal_response = signal_response_pod(data.size, data.value, asked);
+    if (result.signal_response.refusal.empty()) {
+        add_trade_off(asked, responses, request, result);
+    }
+}
+
+}  // namespace
+
+InspectionResult inspect(const Inspections& data, const InspectionRequest& request) {
+    InspectionResult result;
+    for (const double size : data.size) {
+        result.without_flaw += size == 0.0;
+    }
+    count_specimens(data, result);
+    result.all_found =
+        static_cast<long>(std::ceil(std::log1p(-request.confidence) / std::log(kPod) - 1e-9));
+    if (request.responses) {
+        add_responses(data, request, result);
+    } else {
+        add_hit_miss(data, request, result);
+    }
+    if (result.without_flaw > 0) {
+        result.false_call_bounds =
+            clopper_pearson_interval(result.false_calls, result.without_flaw, request.confidence);
+    }
+    return result;
+}
+
+}  // namespace gearpod::analysis

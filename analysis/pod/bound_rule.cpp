@@ -1,0 +1,40 @@
+#include "analysis/pod/bound_rule.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "analysis/statistics/link.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+double square(double value) {
+    return value * value;
+}
+
+}  // namespace
+
+double BoundRule::limit() const {
+    return std::sqrt(chi_squared);
+}
+
+BoundRule one_sided_bound(double confidence, BoundMethod method) {
+    return {method, square(link_quantile(Link::probit, confidence))};
+}
+
+BoundRule two_sided_bound(double confidence, BoundMethod method) {
+    return {method, square(link_quantile(Link::probit, 0.5 * (1.0 + confidence)))};
+}
+
+BoundRule joint_bound(double confidence, BoundMethod method) {
+    return {method, -2.0 * std::log1p(-confidence)};
+}
+
+std::string bound_text(const BoundRule& rule) {
+    return rule.method == BoundMethod::wald
+               ? fmt::format("Wald, {:.4g} standard errors", rule.limit())
+               : fmt::format("likelihood ratio, chi-squared {:.4g}", rule.chi_squared);
+}
+
+}  // namespace gearpod::analysis

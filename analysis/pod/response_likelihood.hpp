@@ -1,0 +1,69 @@
+// Likelihood of a straight line through responses with normal scatter, of which some are only known
+// to lie below or above a limit (censored: J. Tobin, Econometrica 26 (1958), 24-36; MIL-HDBK-1823A,
+// appendix G.2.4), and of which those of one specimen may share a random deviation
+// (N. M. Laird, J. H. Ware, Biometrics 38 (1982), 963-974):
+//
+//   y = intercept + slope x + between b + within e,   b a specimen's, e each value's, standard
+//   normal.
+//
+// Exact without censored values; theirs are integrated over b by Gauss' rule, with b's law given
+// the specimen's other values.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace gearpod::analysis {
+
+struct Response {
+    double x = 0.0, y = 0.0;
+    int censored = 0;  // -1: y or less; 1: y or more
+    long specimen = 0;
+};
+
+// A line, the scatter about it of single values, and the covariance of these three.
+struct ResponseModel {
+    double intercept = 0.0, slope = 0.0;
+    double sigma = 0.0;    // root of between^2 + within^2
+    double between = 0.0;  // 0 without specimens' own deviations
+    double within = 0.0;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of intercept, slope and sigma
+
+    double at(double x) const { return intercept + slope * x; }
+};
+
+class ResponseLikelihood {
+  public:
+    // `by_specimen`: with random deviations. Two x at least, and scatter.
+    ResponseLikelihood(std::vector<Response> responses, bool by_specimen);
+
+    struct Maximum {
+        Eigen::VectorXd parameters;  // in standardised units
+        Eigen::MatrixXd information;
+        double log_likelihood = 0.0;
+        bool converged = false;
+    };
+    Maximum maximise() const;
+
+    // The log likelihood of the best line that lies `u` sigmas above y at x.
+    double maximum_through(double x, double y, double u, const Maximum& start) const;
+
+    ResponseModel model(const Maximum& maximum) const;
+    // Specimens with several values between which there is more scatter than rounding.
+    bool has_between(const Maximum& maximum) const;
+
+  private:
+    struct Line {
+        double intercept, slope, within, between;  // in standardised units
+    };
+    double log_likelihood(const Line& line) const;
+    double of_specimen(std::size_t first, std::size_t last, const Line& line) const;
+
+    std::vector<Response> responses_;  // standardised, by specimen
+    bool by_specimen_;
+    double x_centre_ = 0.0, x_spread_ = 1.0, y_centre_ = 0.0, y_spread_ = 1.0;
+    double constant_ = 0.0;  // of the log likelihood of y itself against that in standardised units
+};
+
+}  // namespace gearpod::analysis

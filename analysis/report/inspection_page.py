@@ -1,0 +1,196 @@
+"""The page of gearpod pod: POD from a table of inspections."""
+
+import math
+
+import blocks
+from charts import INK, MUTED, NOISY, PAPER, colour, dash, legend_below, panel, to_svg
+from words import Sizes, count, escape, number, p_value, percent, plural, rate
+
+DIGITS = 4
+
+
+class Inspection:
+    def __init__(self, data):
+        self.data = data
+        self.sizes = Sizes(data["size"])
+        self.pod = data["hit_miss"] or data["signal_response"]
+        self.value = data["value"]["name"]
+        self.bound = f"a90/{number(100 * data['confidence'])}"
+
+    def title(self):
+        return f"{self.value} over {self.sizes.name}"
+
+    def size(self, estimate):
+        if estimate["where"] == "reached":
+            return self.sizes.text(estimate["size"], DIGITS)
+        below = estimate["where"] == "below_tested"
+        edge = self.pod["smallest"] if below else self.pod["largest"]
+        return ("< " if below else "> ") + self.sizes.text(edge, DIGITS)
+
+    def sentence(self):
+        if self.pod["refusal"]:
+            return f"No detection curve: {self.pod['refusal']}."
+        return (f"90 % of flaws of {self.size(self.pod['a90']['estimate'])} are found; with the "
+                f"bound, {self.bound} is {self.size(self.pod['a90']['upper'])}.")
+
+
+def _bars(points, parts=12):
+    """Rates of hits in groups of about equal count, by size."""
+    points = sorted(points)
+    step = max(1, round(len(points) / parts))
+    for first in range(0, len(points), step):
+        group = points[first:first + step]
+        yield (sum(size for size, _ in group) / len(group),
+               sum(value for _, value in group) / len(group), len(group))
+
+
+def _curve(inspection, page):
+    pod, data = inspection.pod, inspection.data
+    figure, axes = panel(3.6)
+    shown = inspection.sizes.shown
+    x = [shown(size) for size in pod["band"]["size"]]
+    gap = float("nan")
+    column = {name: [gap if v is None else v for v in pod["band"][name]]
+              for name in ("pod", "lower", "upper")}
+    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.fill_between(x, column["lower"], column["upper"], color=colour(0), alpha=0.16, linewidth=0)
+    axes.plot(x, column["pod"], color=colour(0), label="POD")
+    if data["hit_miss"]:
+        flawed = [(shown(s), v) for s, v in zip(data["data"]["size"], data["data"]["value"]) if s > 0]
+        axes.plot([s for s, _ in flawed], [0.01 + 0.98 * v for _, v in flawed], linestyle="none",
+                  marker="|", color=NOISY, label="hits and misses")
+        groups = list(_bars(flawed))
+        axes.plot([g[0] for g in groups], [g[1] for g in groups], linestyle="none", marker="o",
+                  markersize=4.5, markeredgewidth=0, color=colour(1), label="rates of groups")
+    upper = pod["a90"]["upper"]
+    if upper["where"] == "reached":
+        at = shown(upper["size"])
+        axes.plot([at, at], [-0.02, 0.9], color=INK, linewidth=1)
+        axes.annotate(inspection.size(upper), (at, 0.05), xytext=(4, 0), textcoords="offset points",
+                      fontsize=9, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none",
+                                                   "pad": 1.2, "alpha": 0.85})
+    axes.set_ylim(-0.02, 1.03)
+    axes.set_xlabel(inspection.sizes.axis())
+    axes.set_ylabel("Probability of detection")
+    legend_below(axes, 3)
+    svg = to_svg(figure, "Probability of detection over size", inspection.sentence(), page.names)
+    rows = [[number(inspection.sizes.shown(s), DIGITS), rate(p), rate(low), rate(high)]
+            for s, p, low, high in zip(pod["band"]["size"], column["pod"], column["lower"],
+                                       column["upper"])]
+    how = (f"The curve with its bounds ({pod['bound']}); where the lower one passes 0.9 (dashed) is "
+           f"{inspection.bound}, the upright line.")
+    return page.figure("Probability of detection", [svg], how,
+                       blocks.table("POD over size", ["size", "POD", "lower", "upper"], rows))
+
+
+def _responses(inspection, page):
+    pod, data = inspection.pod, inspection.data
+    line = pod["candidates"][pod["chosen"]]
+    figure, axes = panel(3.6)
+    shown = inspection.sizes.shown
+    points = [(shown(s), v) for s, v in zip(data["data"]["size"], data["data"]["value"])]
+    axes.plot([s for s, _ in points], [v for _, v in points], linestyle="none", marker="o",
+              markersize=3.5, markeredgewidth=0, color=colour(0), label="measured")
+    x, y = [], []
+    for size in pod["band"]["size"]:
+        at = line["intercept"] + line["slope"] * (math.log(size) if line["log_size"] else size)
+        power = line["power"]
+        inside = 1 + power * at
+        x.append(shown(size))
+        y.append(at if power == 1 else math.exp(at) if power == 0
+                 else inside ** (1 / power) if inside > 0 else float("nan"))
+    axes.plot(x, y, color=colour(1), linestyle=dash(1), label="line")
+    axes.axhline(pod["threshold"], color=INK, linewidth=1, linestyle=(0, (4, 3)), label="threshold")
+    axes.set_xlabel(inspection.sizes.axis())
+    unit = data["value"]["unit"]
+    axes.set_ylabel(inspection.value + (f", {unit}" if unit else ""))
+    legend_below(axes, 3)
+    svg = to_svg(figure, "Responses over size", f"{len(points)} values and the line through them",
+                 page.names)
+    rows = [[number(s, DIGITS), number(v, DIGITS)] for s, v in points]
+    how = (f"The line ({pod['model']}) and the decision threshold; {pod['censored'][0]} values are "
+           f"censored below and {pod['censored'][1]} above.")
+    return page.figure("Responses", [svg], how,
+                       blocks.table("Measured values", ["size", inspection.value], rows))
+
+
+def _trade_off(inspection, page):
+    points = [p for p in inspection.data["trade_off"] if p["a90"]["estimate"]["where"] == "reached"]
+    if len(points) < 2:
+        return ""
+    figure, axes = panel(3.4)
+    nothing = float("nan")
+    known = all(p["false_calls"] for p in points)
+    x = [p["false_calls"] if known else p["threshold"] for p in points]
+
+    def sizes_of(name):
+        return [inspection.sizes.shown(p["a90"][name]["size"])
+                if p["a90"][name]["where"] == "reached" else nothing for p in points]
+    axes.plot(x, sizes_of("estimate"), color=colour(0), label="a90")
+    axes.plot(x, sizes_of("upper"), color=colour(1), linestyle=dash(1), label=inspection.bound)
+    if known:
+        axes.set_xscale("log")
+    axes.set_xlabel("False-call probability" if known else "Threshold")
+    axes.set_ylabel(inspection.sizes.axis())
+    legend_below(axes, 2)
+    svg = to_svg(figure, "What another threshold would trade",
+                 "Detectable size against " + ("false calls" if known else "threshold"), page.names)
+    rows = [[number(p["threshold"], DIGITS),
+             number(p["false_calls"]) if p["false_calls"] is not None else "–",
+             inspection.size(p["a90"]["estimate"]), inspection.size(p["a90"]["upper"])]
+            for p in points]
+    return page.figure("What another threshold would trade", [svg],
+                       "A lower threshold finds smaller flaws and calls falsely more often.",
+                       blocks.table("By threshold", ["threshold", "false calls", "a90",
+                                                     inspection.bound], rows))
+
+
+def _facts(inspection):
+    data, pod = inspection.data, inspection.pod
+    rows = [["table", data["table"]], ["specimens", count(data["specimens"])],
+            ["repeated measurements", count(data["repeats"])], ["bounds", pod["bound"]]]
+    if not pod["refusal"]:
+        covariance = ", ".join(number(value, DIGITS) for value in pod["covariance"])
+        rows += [["curve", pod["model"]], ["location", number(pod["location"], 5)],
+                 ["scale", number(pod["scale"], 5)], ["their covariance", covariance]]
+        rows += [[check["test"], f"p {p_value(check['p_value'])}"]
+                 for check in (pod["candidates"][pod["chosen"]]["checks"]
+                               if data["signal_response"] else [])]
+        if data["hit_miss"]:
+            rows.append(["fit", pod["fit"]["test"]])
+    calls = data["false_calls"]
+    if calls["of"]:
+        rows.append(["false calls", f"{calls['calls']} of {calls['of']} "
+                     f"[{rate(calls['lower'])}, {rate(calls['upper'])}]"])
+    rows += [[f"noise, {law['law']}", f"false calls {number(law['at_threshold'])} "
+              f"(AIC {number(law['aic'], 5)})"] for law in calls["laws"]]
+    more = data["more_specimens"]
+    if more["target"] is not None and more["more"] is not None:
+        rows.append([f"more specimens for {inspection.bound} at "
+                     f"{inspection.sizes.text(more['target'], DIGITS)}", count(int(more["more"]))])
+    rows.append(["all found at one size", f"{more['all_found']} specimens show POD 90 % at "
+                 f"{percent(data['confidence'])}"])
+    return blocks.table("What the numbers come from", ["entry", "value"], rows)
+
+
+def parts(data, page):
+    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    inspection = Inspection(data)
+    pod = inspection.pod
+    answer = f'<p class="answer">{escape(inspection.sentence())}</p>'
+    if not pod["refusal"]:
+        rows = [[name, inspection.size(pod[name]["estimate"]), inspection.size(pod[name]["lower"]),
+                 inspection.size(pod[name]["upper"])] for name in ("a50", "a90")]
+        answer += blocks.table("Sizes with their bounds", ["", "estimate", "lower", "upper"], rows)
+        for doubt in pod.get("doubts", []) + (["the fit rejects the curve"]
+                                              if pod.get("doubtful") else []):
+            answer += blocks.note(f"Warning: {doubt}")
+    body = ""
+    if not pod["refusal"]:
+        figures = _curve(inspection, page)
+        if data["signal_response"]:
+            figures += _responses(inspection, page) + _trade_off(inspection, page)
+        body += page.section("detection", "Detection", figures)
+    body += page.section("facts", "Data and method", _facts(inspection)
+                         + blocks.paragraph(plural(len(data["data"]["size"]), "value") + "."))
+    return inspection.title(), inspection.sentence(), answer, body

@@ -1,0 +1,102 @@
+// gearpod pod: what the program makes of tables of inspections. The statistics are held against
+// other programs in tests/analysis/pod/test_inspection.cpp.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::string kTables = std::string(GEARPOD_SOURCE_DIR) + "/tests/analysis/reference/";
+
+std::string written(const Folder& folder, const std::string& name, const std::string& text) {
+    const std::string path = folder.file(name);
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+}
+
+nlohmann::json pod_of(const std::string& arguments) {
+    const Outcome outcome = program("pod " + arguments + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.output);
+}
+
+TEST_CASE("pod reads hits and misses with units, and says which bound it gives") {
+    const std::string table = kTables + "inspections_hits.csv --link logit --size-scale linear";
+    const auto json = pod_of(table);
+    CHECK(json["size"]["unit"] == "mm");
+    CHECK(json["hit_miss"]["a90"]["estimate"]["size"].get<double>() == Approx(2.5928436));
+    CHECK(json["hit_miss"]["a90"]["upper"]["size"].get<double>() == Approx(3.1112525));
+    const Outcome text = program("pod " + table + " --specimen specimen");
+    CHECK_THAT(text.output, Catch::Contains("120 specimens and 120 repeated measurements"));
+    CHECK_THAT(text.output, Catch::Contains("robust covariance"));
+    CHECK_THAT(text.output, Catch::Contains("(mm)"));
+}
+
+TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal commas") {
+    const Folder folder;
+    const auto plain = pod_of(kTables +
+                              "inspections_responses.csv --response A --response B --response C "
+                              "--threshold 6 --size-scale log --response-scale log");
+    CHECK(plain["signal_response"]["candidates"][0]["within"].get<double>() ==
+          Approx(0.33216108).epsilon(1e-4));
+    std::ifstream file(kTables + "inspections_responses.csv");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::replace(text.begin(), text.end(), ',', ';');
+    std::replace(text.begin(), text.end(), '.', ',');
+    const auto foreign = pod_of(written(folder, "foreign.csv", "\xEF\xBB\xBF" + text) +
+                                " --response A --response B --response C --threshold 6 "
+                                "--size-scale log --response-scale log");
+    CHECK(foreign["signal_response"]["a90"] == plain["signal_response"]["a90"]);
+}
+
+TEST_CASE("pod refuses by name what it cannot use, all at once") {
+    const Folder folder;
+    const auto refused = [](const std::string& arguments) {
+        const Outcome outcome = program("pod " + arguments);
+        CHECK(outcome.code == 2);
+        return outcome.output;
+    };
+    const std::string bad =
+        refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,nan\n"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:2: column hit: 2 is neither 1 (hit) nor 0 (miss)"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:3: column size: -3 is negative"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is no finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is no finite number"));
+    CHECK_THAT(refused(written(folder, "names.csv", "length,seen\n1,1\n")),
+               Catch::Contains("no column size; its columns are length, seen"));
+    CHECK_THAT(refused(written(folder, "row.csv", "size,hit\n1\n")),
+               Catch::Contains("row.csv:2: 1 values, but the header names 2 columns"));
+    CHECK_THAT(refused(written(folder, "empty.csv", "")), Catch::Contains("is empty"));
+    CHECK_THAT(refused(written(folder, "none.csv", "size,hit\n")),
+               Catch::Contains("no line with a value"));
+    CHECK_THAT(refused(written(folder, "binary.csv", std::string("size,hit\n\0\0", 11))),
+               Catch::Contains("no line of text"));
+    CHECK_THAT(refused(kTables + "inspections_hits.csv --threshold 3"),
+               Catch::Contains("--threshold is for responses"));
+    CHECK_THAT(refused(kTables + "inspections_responses.csv --response A"),
+               Catch::Contains("no threshold"));
+    CHECK_THAT(refused(kTables + "inspections_hits.csv --fit-ceiling --firth"),
+               Catch::Contains("exclude each other"));
+}
+
+TEST_CASE("pod says what no curve can be drawn from") {
+    const Folder folder;
+    std::string text = "size,hit\n";
+    for (int i = 1; i <= 12; ++i) {
+        text += std::to_string(i) + (i > 6 ? ",1\n" : ",0\n");
+    }
+    const std::string table = written(folder, "separated.csv", text);
+    const Outcome without = program("pod " + table);
+    CHECK(without.code == 0);
+    CHECK_THAT(without.output, Catch::Contains("do not overlap"));
+    CHECK_THAT(without.output, Catch::Contains("--firth"));
+    CHECK_THAT(program("pod " + table + " --firth").output, Catch::Contains("a90"));
+}
+
+}  // namespace
+}  // namespace gearpod::test
