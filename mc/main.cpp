@@ -59,6 +59,44 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
+void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
+    auto* command = app.add_subcommand(
+        "features", "the features of measured signals (CSV, HDF5, MAT), one or many");
+    command->add_option("signal", features.signals,
+                        "signal files (.csv, .h5, .hdf5, .mat), or patterns of their names");
+    add_study_keys(*command, features.study);
+    command->add_option("--study", features.study.path, "study file (TOML)")->required();
+    command->add_option("--manifest", features.manifest,
+                        "table (CSV) of recordings: file, row, gearbox, time, label, size, "
+                        "conditions");
+    command->add_option("--sensor", features.columns.sensor,
+                        "column of the acceleration, m/s^2 (default: sensor)");
+    command->add_option("--te", features.columns.te,
+                        "column of the transmission error, rad (default: te)");
+    command
+        ->add_option("--sampling-Hz", features.columns.sampling_Hz,
+                     "sampling rate (default: from the file)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--samples-per-mesh", features.columns.samples_per_mesh,
+                     "of recordings that were sampled evenly in mesh phase")
+        ->check(CLI::Range(2.0, 1e6));
+    command
+        ->add_option("--healthy", features.healthy,
+                     "recording of a healthy gearbox for na4, nb4 and nsds to compare with, as "
+                     "often as there are (default: gearboxes simulated from the study)")
+        ->allow_extra_args(false);
+    command->add_option("--noise-level", features.noise_level,
+                        "noise level of those simulated gearboxes (default: 1)");
+    needs_name(command->add_option("--json", features.json,
+                                   "of one signal: write JSON to a file, or to -"));
+    needs_name(
+        command->add_option("--out", features.out, "of many: results file (HDF5) for `report`"));
+    needs_name(command->add_option("--csv", features.csv, "of many: table, to a file, or to -"));
+    command->add_flag("--quiet", features.quiet, "no progress");
+    command->callback([&] { code = features_command(features); });
+}
+
 void add_pod_data(CLI::App& command, PodOptions& pod) {
     command.add_option("table", pod.table, "table of inspections (CSV), a line each")->required();
     command.add_option("--size", pod.size, "column of the flaw's size; 0: no flaw (default: size)");
@@ -223,29 +261,7 @@ int run_program(int argc, char** argv) {
     simulate_app->callback([&] { code = simulate_command(simulate); });
 
     FeaturesOptions features;
-    auto* features_app =
-        app.add_subcommand("features", "the features of a measured signal (CSV, HDF5, MAT)");
-    features_app->add_option("signal", features.signal, "signal file (.csv, .h5, .hdf5, .mat)")
-        ->required();
-    add_study_keys(*features_app, features.study);
-    features_app->add_option("--study", features.study.path, "study file (TOML)")->required();
-    features_app->add_option("--sensor", features.columns.sensor,
-                             "column of the acceleration, m/s^2 (default: sensor)");
-    features_app->add_option("--te", features.columns.te,
-                             "column of the transmission error, rad (default: te)");
-    features_app
-        ->add_option("--sampling-Hz", features.columns.sampling_Hz,
-                     "sampling rate (default: from the file)")
-        ->check(CLI::PositiveNumber);
-    features_app
-        ->add_option("--healthy", features.healthy,
-                     "recording of a healthy gearbox for na4, nb4 and nsds to compare with, as "
-                     "often as there are (default: gearboxes simulated from the study)")
-        ->allow_extra_args(false);
-    features_app->add_option("--noise-level", features.noise_level,
-                             "noise level of those simulated gearboxes (default: 1)");
-    needs_name(features_app->add_option("--json", features.json, "write JSON to a file, or to -"));
-    features_app->callback([&] { code = features_command(features); });
+    add_features(app, features, code);
 
     PodOptions pod;
     add_pod(app, pod, code);

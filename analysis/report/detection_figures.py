@@ -324,3 +324,32 @@ def _ranking_tables(report):
 
 def pod(report, page):
     return _comparison(report, page) + _by_feature(report, page)
+
+
+def over_time(report, page, groups):
+    """Share of recordings with an alarm, by time, of the three best features."""
+    n = report.reference
+    order = report.order(n)[:3]
+    middle = [0.5 * (group["first"] + group["last"]) for group in groups]
+    figure, axes = panel(3.4)
+    for position, f in enumerate(order):
+        share = [group["alarms"][report.names[f]] / group["recordings"] for group in groups]
+        axes.plot(middle, share, color=colour(position), linestyle=dash(position),
+                  marker=marker(position), markersize=4.5, markeredgewidth=0, label=report.names[f])
+    axes.set_ylim(-0.03, 1.03)
+    axes.set_xlabel("Time")
+    axes.set_ylabel("Share of recordings that alarm")
+    legend_below(axes, 1)
+    last = groups[-1]
+    about = "; ".join(f"{report.names[f]}: {last['alarms'][report.names[f]]} of "
+                      f"{last['recordings']} at the end" for f in order)
+    svg = to_svg(figure, "Alarms over time", about, page.names)
+    rows = [[number(group["first"]) if group["first"] == group["last"]
+             else f"{number(group['first'])} to {number(group['last'])}",
+             str(group["recordings"])]
+            + [f"{group['alarms'][report.names[f]]} ({number(group['medians'][report.names[f]])})"
+               for f in order] for group in groups]
+    return page.figure("Alarms over time", [svg], "All recordings, whatever is known of them, "
+                       "against the thresholds that the healthy ones set.",
+                       table("Alarms, and the feature's median", ["time", "recordings"]
+                             + [report.names[f] for f in order], rows))

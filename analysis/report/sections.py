@@ -137,13 +137,26 @@ def failures(report, page):
     return page.section("failures", "Failures and warnings", body)
 
 
+# Too long for a table.
+_LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
+
+
+def over_time(report, page):
+    """Of measured recordings whose times are known."""
+    groups = report.data.get("over_time")
+    if not groups:
+        return ""
+    body = detection_figures.over_time(report, page, groups)
+    return page.section("over-time", "Alarms over time", body)
+
+
 def provenance(report, page):
     given = report.data["provenance"]
     names = ["date", "code_version", "git_hash", "compiler", "instruction_set", "host", "seed",
              "ranks", "threads", "lanes", "state", "gearboxes_asked_for"]
     rows = [[name.replace("_", " "), given[name]] for name in names if name in given]
     rows += [[name.replace("_", " "), value] for name, value in given.items()
-             if name not in names and name != "study"]
+             if name not in names + _LONG]
     if "results" in report.data:
         rows.insert(0, ["results file", report.data["results"]])
     body = table("Where the numbers come from", ["entry", "value"], rows)
@@ -152,14 +165,18 @@ def provenance(report, page):
             "Seconds; thread seconds are sums over all threads", ["part", "s"],
             [[name.replace("_", " ").removesuffix(" s"), number(value)]
              for name, value in sorted(report.data["timing"].items())]) + "</details>"
-    if given.get("study"):
+    if given.get("recordings"):
+        body += "<details><summary>The recordings</summary>" + bullets(
+            given["recordings"].splitlines()) + "</details>"
+    study = given.get("study") or given.get("measured_by_study")
+    if study:
         body += ("<details><summary>The study, with all defaults</summary>"
-                 '<pre tabindex="0" aria-label="Study file">' + escape(given["study"])
+                 '<pre tabindex="0" aria-label="Study file">' + escape(study)
                  + "</pre></details>")
     return page.section("provenance", "Provenance", body)
 
 
 def all_of(report, page):
-    parts = [detection, features, inputs, signals, stiffness, thresholds, errors, failures,
+    parts = [detection, over_time, features, inputs, signals, stiffness, thresholds, errors, failures,
              provenance]
     return "\n".join(part(report, page) for part in parts)

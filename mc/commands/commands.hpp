@@ -80,13 +80,18 @@ int simulate_command(const SimulateOptions& options);
 
 struct FeaturesOptions {
     StudyOptions study;
-    std::string signal;
+    std::vector<std::string> signals;  // files, or patterns of their names
+    std::string manifest;              // table of recordings instead
     SignalColumns columns;
     std::vector<std::string> healthy;  // recordings of healthy gearboxes
     double noise_level = 1.0;          // of the simulated ones, where there are no recordings
     std::string json;                  // "": none; "-": standard output
+    std::string out, csv;              // of many: results file and table
+    bool quiet = false;
 };
+// Of one recording what it gives, of many a results file and a table.
 int features_command(const FeaturesOptions& options);
+int recordings_command(const FeaturesOptions& options);
 
 struct PodOptions {
     std::string table;

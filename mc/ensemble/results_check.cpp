@@ -97,7 +97,7 @@ class RowCheck {
             const int group = block.group[i];
             if (block.status[i] < 0 || block.status[i] >= kStatuses) {
                 why_ = fmt::format("/status of row {} is {}", row, block.status[i]);
-            } else if (group != 0 && group != 1) {
+            } else if (group != 0 && group != 1 && (healthy_ || group != kUngraded)) {
                 why_ = fmt::format("/instances/group of row {} is {}", row, group);
             } else if (healthy_ && (row < *healthy_) != (group == 0)) {
                 why_ = fmt::format("/instances/group of row {} is not the study's", row);

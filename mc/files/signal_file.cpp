@@ -10,7 +10,8 @@ bool SignalFile::has(const std::string& name) const {
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 
-std::unique_ptr<SignalFile> open_signal_file(const std::string& path) {
+std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
+                                             std::optional<std::size_t> row) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
         throw SignalError(path + ": no such file");
@@ -19,11 +20,15 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path) {
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
         return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
     });
+    const bool hdf5 = kind == ".h5" || kind == ".hdf5";
+    if (row && !hdf5) {
+        throw SignalError(path + ": has no rows to choose one from; HDF5 files may");
+    }
     if (kind == ".csv") {
         return open_signal_csv(path);
     }
-    if (kind == ".h5" || kind == ".hdf5") {
-        return open_signal_hdf5(path);
+    if (hdf5) {
+        return open_signal_hdf5(path, row);
     }
     if (kind == ".mat") {
         return open_signal_mat(path);

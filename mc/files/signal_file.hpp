@@ -33,15 +33,20 @@ class SignalFile {
 //   .csv         a header line of names, units in brackets behind them left aside ("sensor
 //                [m/s^2]"), then a line of numbers a sample; commas, semicolons or tabs between
 //                them; lines that begin with # are comments
-//   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root; the rate may be
-//                an attribute sampling_Hz of the group or the root
+//   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root, or a row of
+//   those
+//                of two; the rate may be an attribute sampling_Hz of the group or the root; an
+//                attribute scale of a dataset is a factor on its values
 //   .mat         variables that are real vectors (MATLAB 4 to 7.3); the rate may be a variable
 //                sampling_Hz
-std::unique_ptr<SignalFile> open_signal_file(const std::string& path);
+// `row`, from 0: the record of an HDF5 file whose datasets hold one in each row.
+std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
+                                             std::optional<std::size_t> row = std::nullopt);
 
 // One for each kind of file.
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
-std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
+                                             std::optional<std::size_t> row);
 std::unique_ptr<SignalFile> open_signal_mat(const std::string& path);
 
 }  // namespace gearpod::mc

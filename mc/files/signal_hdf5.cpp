@@ -9,23 +9,30 @@
 namespace gearpod::mc {
 namespace {
 
-// Whether `name` is a dataset of numbers of one dimension.
-bool is_column(hid_t group, const std::string& name) {
+// Dimensions of a dataset of numbers; 0 if `name` is none.
+int dimensions_of(hid_t group, const std::string& name) {
     H5O_info_t info{};
     if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
         info.type != H5O_TYPE_DATASET) {
-        return false;
+        return 0;
     }
     const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
     const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose, name);
     const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
     const H5T_class_t kind = H5Tget_class(type.get());
-    return (kind == H5T_FLOAT || kind == H5T_INTEGER) &&
-           H5Sget_simple_extent_ndims(space.get()) == 1;
+    return kind == H5T_FLOAT || kind == H5T_INTEGER ? H5Sget_simple_extent_ndims(space.get()) : 0;
+}
+
+Shape shape_of(hid_t group, const std::string& name) {
+    const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose, name);
+    Shape shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
+    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    return shape;
 }
 
 // By name: groups from elsewhere do not know the order of their creation.
-std::vector<std::string> columns_of(hid_t group) {
+std::vector<std::string> columns_of(hid_t group, int dimensions) {
     H5G_info_t info{};
     check(H5Gget_info(group, &info), "names");
     std::vector<std::string> names;
@@ -37,7 +44,7 @@ std::vector<std::string> columns_of(hid_t group) {
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
                            H5P_DEFAULT);
         name.pop_back();
-        if (is_column(group, name)) {
+        if (dimensions_of(group, name) == dimensions) {
             names.push_back(name);
         }
     }
@@ -46,13 +53,14 @@ std::vector<std::string> columns_of(hid_t group) {
 
 class SignalHdf5 : public SignalFile {
   public:
-    explicit SignalHdf5(const std::string& path)
+    SignalHdf5(const std::string& path, std::optional<std::size_t> row)
         : path_(path),
+          row_(row),
           most_(std::filesystem::file_size(path)),
           file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path),
           group_(open_group(file_.get(),
                             H5Lexists(file_.get(), "signals", H5P_DEFAULT) > 0 ? "signals" : "/")),
-          names_(columns_of(group_.get())) {}
+          names_(columns_of(group_.get(), row ? 2 : 1)) {}
 
     std::vector<std::string> names() const override { return names_; }
 
@@ -61,7 +69,16 @@ class SignalHdf5 : public SignalFile {
         try {
             // Compressed values may be many times the file's bytes.
             constexpr std::size_t kMostCompressed = 1000;
-            return read_numbers(group_.get(), name, kMostCompressed * most_).values;
+            std::vector<double> values =
+                row_ ? row_of(name, kMostCompressed * most_)
+                     : read_numbers(group_.get(), name, kMostCompressed * most_).values;
+            if (H5Aexists_by_name(group_.get(), name.c_str(), "scale", H5P_DEFAULT) > 0) {
+                const double scale = read_number(group_.get(), name, "scale");
+                for (double& value : values) {
+                    value *= scale;
+                }
+            }
+            return values;
         } catch (const Hdf5Error&) {
             throw SignalError(fmt::format("{}: {} cannot be read", path_, name));
         }
@@ -82,7 +99,22 @@ class SignalHdf5 : public SignalFile {
     }
 
   private:
+    std::vector<double> row_of(const std::string& name, std::size_t most) {
+        const Shape shape = shape_of(group_.get(), name);
+        if (shape[1] > most) {
+            throw Hdf5Error(name);
+        }
+        if (*row_ >= shape[0]) {
+            throw SignalError(fmt::format("{}: {} has {} rows, but row {} is asked for (from 0)",
+                                          path_, name, shape[0], *row_));
+        }
+        std::vector<double> values;
+        read_rows(group_.get(), name, shape, {*row_, 1}, values);
+        return values;
+    }
+
     std::string path_;
+    std::optional<std::size_t> row_;
     std::size_t most_;
     Hdf5Handle file_, group_;
     std::vector<std::string> names_;
@@ -90,10 +122,11 @@ class SignalHdf5 : public SignalFile {
 
 }  // namespace
 
-std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path) {
+std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
+                                             std::optional<std::size_t> row) {
     const SilentHdf5 silent;
     try {
-        return std::make_unique<SignalHdf5>(path);
+        return std::make_unique<SignalHdf5>(path, row);
     } catch (const Hdf5Error&) {
         throw SignalError(path + ": is no HDF5 file, or damaged");
     }

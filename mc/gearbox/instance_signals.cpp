@@ -115,7 +115,7 @@ void InstanceSignals::sensor_features(double noise, features::FeatureInput& inpu
     if (needs_samples_) {
         samples_ = gearbox_->sensor;
         add_noise(noise_.samples, noise, samples_);
-        analysis_.sensor(samples_, offset, input);
+        analysis_.sensor(samples_, scene_.span().ring_teeth, offset, input);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "features/feature.hpp"
@@ -22,11 +23,19 @@ constexpr const char* kTime = "time";
 class Reading {
   public:
     Reading(const std::string& path, const SignalColumns& columns, const Scene& scene)
-        : path_(path), wanted_(columns), scene_(scene), file_(open_signal_file(path)) {}
+        : path_(path), wanted_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
-        const std::vector<double> sensor = chosen(wanted_.sensor, "sensor");
-        const std::vector<double> te = chosen(wanted_.te, "te");
+        // The libraries that read files serve one thread at a time.
+        static std::mutex reading;
+        std::unique_lock lock(reading);
+        struct Closed {
+            std::unique_ptr<SignalFile>& file;
+            ~Closed() { file.reset(); }
+        } closed{file_};
+        file_ = open_signal_file(path_, wanted_.row);
+        std::vector<double> sensor = chosen(wanted_.sensor, "sensor");
+        std::vector<double> te = chosen(wanted_.te, "te");
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
                 fmt::format("no column sensor and none te; its columns are {}; choose with "
@@ -40,8 +49,11 @@ class Reading {
         measured.has_te = !te.empty();
         std::vector<double> phase = phases(samples, measured.tracking);
         stop_at_problems();
+        file_.reset();
+        lock.unlock();
         check_rate(phase, !sensor.empty(), !te.empty());
         stop_at_problems();
+        close_turn(sensor, te, phase);
         const signals::OrderTracking tracking(std::move(phase));
         if (!sensor.empty()) {
             const int grid = scene_.samples_per_mesh();
@@ -153,6 +165,14 @@ class Reading {
 
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
+        if (wanted_.samples_per_mesh > 0.0) {
+            how = fmt::format("{:.6g} samples a mesh period", wanted_.samples_per_mesh);
+            std::vector<double> phase(samples);
+            for (std::size_t i = 0; i < samples; ++i) {
+                phase[i] = static_cast<double>(i) / wanted_.samples_per_mesh;
+            }
+            return phase;
+        }
         if (file_->has(kPhase) && wanted_.sampling_Hz <= 0.0) {
             how = "column mesh_phase";
             std::vector<double> phase = column(kPhase);
@@ -177,6 +197,26 @@ class Reading {
                   ? "column speed_rpm"
                   : "column speed_rpm, which is negative: turning backwards";
         return integrated(phase, speed_rpm);
+    }
+
+    // Whole planet turns in mesh phase, as averages are kept, go on from their beginning: without
+    // that, the grid's points behind the last sample would be lost, and the last mesh with them.
+    void close_turn(std::vector<double>& sensor, std::vector<double>& te,
+                    std::vector<double>& phase) const {
+        constexpr std::size_t kMore = 8;
+        const double turns = static_cast<double>(phase.size()) /
+                             (wanted_.samples_per_mesh * scene_.span().planet_teeth);
+        if (!(wanted_.samples_per_mesh > 0.0) || std::abs(turns - std::round(turns)) > 1e-9) {
+            return;
+        }
+        for (std::size_t i = 0; i < kMore; ++i) {
+            phase.push_back(static_cast<double>(phase.size()) / wanted_.samples_per_mesh);
+            for (std::vector<double>* signal : {&sensor, &te}) {
+                if (!signal->empty()) {
+                    signal->push_back((*signal)[i]);
+                }
+            }
+        }
     }
 
     // A gearbox that turns about passes its meshes again, and loads its other flanks.

@@ -10,10 +10,6 @@
 namespace gearpod::mc {
 namespace {
 
-signals::GearTurns planet_turns(const Scene& scene) {
-    return {scene.span().planet_teeth, scene.span().ring_teeth};
-}
-
 features::TurnSignals views(std::span<const double> turn, const signals::MeshSeparation& parts) {
     return {turn,
             parts.regular(),
@@ -65,10 +61,11 @@ void SpanAnalysis::te(std::span<const double> turn, features::FeatureInput& inpu
     }
 }
 
-void SpanAnalysis::sensor(std::span<const double> samples, int planet_offset,
+void SpanAnalysis::sensor(std::span<const double> samples, int planet_turns, int planet_offset,
                           features::FeatureInput& input) {
     const auto phases = static_cast<std::size_t>(scene_.samples_per_mesh());
-    const auto span = samples.first(static_cast<std::size_t>(scene_.span_meshes()) * phases);
+    const signals::GearTurns planet{scene_.span().planet_teeth, planet_turns};
+    const auto span = samples.first(static_cast<std::size_t>(planet.meshes()) * phases);
     if (sensor_turn_) {
         average_ = signals::synchronous_average(
             span, static_cast<std::size_t>(scene_.span().planet_teeth) * phases);
@@ -80,7 +77,7 @@ void SpanAnalysis::sensor(std::span<const double> samples, int planet_offset,
             span, static_cast<std::size_t>(scene_.path_meshes()) * phases);
     }
     if ((needs_ & features::kPlanetMoments) != 0) {
-        planet_ = signals::tooth_statistics(span, planet_turns(scene_), window_, planet_offset);
+        planet_ = signals::tooth_statistics(span, planet, window_, planet_offset);
         input.planet = views(planet_);
     }
     if ((needs_ & features::kSun) != 0) {

@@ -19,10 +19,12 @@ class SpanAnalysis {
   public:
     SpanAnalysis(const Scene& scene, unsigned needs);
 
-    // `samples`: m/s^2, P a mesh period, at least meshes_needed() of them. `planet_offset`: of the
-    // best first window of the planets' teeth. Fills what was needed; `input` looks at this
-    // object's memory.
-    void sensor(std::span<const double> samples, int planet_offset, features::FeatureInput& input);
+    // `samples`: m/s^2, P a mesh period, at least meshes_needed() of them, or, of features of the
+    // planets' teeth and turns alone, those of `planet_turns`: the span's Z_r, or fewer of a short
+    // recording. `planet_offset`: of the best first window of the planets' teeth. Fills what was
+    // needed; `input` looks at this object's memory.
+    void sensor(std::span<const double> samples, int planet_turns, int planet_offset,
+                features::FeatureInput& input);
     // `turn`: rad, the averaged TE.
     void te(std::span<const double> turn, features::FeatureInput& input);
 

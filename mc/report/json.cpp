@@ -7,6 +7,7 @@
 #include "analysis/report/reliability_json.hpp"
 #include "features/feature.hpp"
 #include "mc/numerics/numerical_error.hpp"
+#include "mc/report/alarms_over_time.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/layout.hpp"
@@ -125,6 +126,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
     json["failures"] = failures_json(frame, rows);
+    json["over_time"] = alarms_json(frame, alarms_over_time(frame, rows));
     json["gearboxes"] = json["failures"]["gearboxes"];
     json["failed"] = count_rows(rows).failed();
     json["provenance"] = Json::object();

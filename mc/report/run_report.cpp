@@ -7,6 +7,7 @@
 #include "analysis/report/detection_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
+#include "mc/report/alarms_over_time.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
@@ -70,6 +71,8 @@ std::string results_text(const Results& frame, const RowSource& rows,
     }
     text += analysis::detection_text(frame.detection, frame.request) + "\n" +
             reliability_text(reliability, frame);
+    const std::string times = alarms_text(frame, alarms_over_time(frame, rows), reliability);
+    text += times.empty() ? "" : "\n" + times;
     const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
     return numerical.empty() ? text : text + "\n" + numerical;
 }

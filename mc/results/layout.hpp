@@ -9,7 +9,7 @@ inline constexpr const char* kResultsFormat = "gearpod results";
 inline constexpr const char* kStatusMeanings =
     "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
     "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
-inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded";
+inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
 
 inline const char* alarm_text(analysis::Alarm alarm) {
     return alarm == analysis::Alarm::high ? "high" : "low";

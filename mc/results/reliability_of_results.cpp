@@ -61,6 +61,9 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     Columns healthy(shape), graded(shape);
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
+            if (block.group[row] == kUngraded) {
+                continue;
+            }
             const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
             (sets_threshold ? healthy : graded)
                 .add(block.values.data() + row * shape.values(), shape);

@@ -2,7 +2,7 @@
 //
 //   /                      attributes: format, format_version and the provenance
 //   /instances/<parameter> one value a gearbox, attribute `unit`
-//   /instances/group       0 threshold sample, 1 graded
+//   /instances/group       0 threshold sample, 1 graded, 2 neither (recordings of unknown state)
 //   /features/<feature>    gearboxes x noise levels, attributes `unit` and `alarm`
 //   /noise_levels          factors on the sensor and encoder noise
 //   /status                one value a gearbox, attribute `meanings`
@@ -45,6 +45,12 @@ enum class Status {
     no_equilibrium = 6
 };
 inline constexpr int kStatuses = 7;
+
+// Beside the groups of random numbers (Group): a row that neither sets thresholds nor is graded.
+inline constexpr int kUngraded = 2;
+
+// The provenance's `kind` where the rows are measured recordings; a run's results have none.
+inline constexpr const char* kRecordingsKind = "recordings";
 
 struct ParameterResult {
     std::string name;

@@ -24,6 +24,9 @@ std::size_t size_column(const Results& frame) {
 void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at, std::size_t first,
               Sample& healthy, Sample& graded) {
     for (std::size_t row = 0; row < block.count(); ++row) {
+        if (block.group[row] == kUngraded) {
+            continue;
+        }
         const double* values = block.values.data() + row * shape.values();
         Sample& sample = block.group[row] == static_cast<int>(Group::threshold) ? healthy : graded;
         sample.size.push_back(size_at < shape.parameters ? values[size_at] : 0.0);

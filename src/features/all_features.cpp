@@ -162,6 +162,10 @@ std::span<const Feature> all_features() {
     return catalogue.all();
 }
 
+std::span<const Feature> record_features() {
+    return kFeatures;
+}
+
 const Feature* find_feature(std::string_view name) {
     for (const Feature& feature : all_features()) {
         if (feature.name == name) {

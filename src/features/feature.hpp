@@ -91,6 +91,9 @@ struct Feature {
 // Those of the record alone come first, then those of its change, then those over the baseline's.
 std::span<const Feature> all_features();
 
+// The former: what can be had of one record.
+std::span<const Feature> record_features();
+
 // nullptr if there is none of this name.
 const Feature* find_feature(std::string_view name);
 

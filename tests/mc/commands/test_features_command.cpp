@@ -207,7 +207,7 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
             "no column sensr; its columns are mesh_phase, accel");
     refused(folder.file("other.csv") + " --sensor sensr --te angle", "no column angle");
     refused(folder.file("other.csv") + " --sensor accel",
-            "too short: 10 mesh periods of sensor signal and 0 of transmission error; at least 385 "
+            "too short: 10 mesh periods of sensor signal and 0 of transmission error; at least 11 "
             "are needed");
     write_csv(folder.file("te.csv"), {{"mesh_phase", phase}, {"te", good}});
     refused(folder.file("te.csv"), "at least 11 are needed");

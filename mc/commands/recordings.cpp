@@ -1,0 +1,126 @@
+// features of many recordings: a results file and a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/progress.hpp"
+#include "mc/ensemble/thread_count.hpp"
+#include "mc/files/signal_file.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/recordings/measure_recordings.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// What the options ask for together that they cannot have.
+Problems option_problems(const FeaturesOptions& options) {
+    Problems problems;
+    const auto reject = [&](const char* what, const char* remedy) {
+        problems.push_back({"features", 0, "", what, remedy});
+    };
+    if (options.manifest.empty() == options.signals.empty()) {
+        reject(options.manifest.empty() ? "no signal" : "signals and --manifest",
+               "name signal files, or a manifest of them");
+    }
+    if (!options.json.empty()) {
+        reject("--json is for one signal", "many have --out and --csv; `report` gives JSON");
+    }
+    if (options.out.empty() && options.csv.empty()) {
+        reject("many signals need a place to go", "give --out F.h5, --csv T.csv, or both");
+    }
+    return problems;
+}
+
+bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
+    std::vector<FileRole> read{{"the study", options.study.path}};
+    if (!options.manifest.empty()) {
+        read.push_back({"the manifest", options.manifest});
+    }
+    std::string last;
+    for (const Recording& recording : list.recordings) {
+        if (recording.file != last) {
+            read.push_back({"a recording", recording.file});
+            last = recording.file;
+        }
+    }
+    const bool out_good = can_write({"--out", options.out}, read);
+    read.push_back({"--out", options.out.empty() ? "-" : options.out});
+    return can_write({"--csv", options.csv}, read) && out_good;
+}
+
+RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
+    try {
+        return options.manifest.empty() ? recordings_of(options.signals, problems)
+                                        : read_manifest(options.manifest, problems);
+    } catch (const SignalError& error) {
+        problems.push_back({printable(error.what()), 0, "", "", ""});
+        return {};
+    }
+}
+
+// Names the recordings without features, and says what came out; the exit code.
+int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
+    const auto bad =
+        std::count_if(measured.begin(), measured.end(),
+                      [](const MeasuredRecording& one) { return !one.problem.empty(); });
+    for (const MeasuredRecording& one : measured) {
+        if (!one.problem.empty()) {
+            fmt::print(stderr, "{}\n", printable(one.problem));
+        }
+    }
+    if (!options.quiet && options.csv != "-") {
+        fmt::print("recordings: {} of {} have features\n",
+                   static_cast<std::ptrdiff_t>(measured.size()) - bad, measured.size());
+        for (const std::string& path : {options.out, options.csv}) {
+            if (!path.empty()) {
+                fmt::print("written: {}\n", path);
+            }
+        }
+    }
+    return bad > 0 ? kSomeFailed : kDone;
+}
+
+}  // namespace
+
+int recordings_command(const FeaturesOptions& options) {
+    Problems problems = option_problems(options);
+    RecordingList list;
+    if (problems.empty()) {
+        list = list_of(options, problems);
+    }
+    if (!problems.empty()) {
+        print_problems(problems);
+        return kBadInput;
+    }
+    const bool writable = can_write_all(options, list);
+    const auto scene = load_scene(options.study).scene;
+    if (!scene || !writable) {
+        return kBadInput;
+    }
+    try {
+        const HealthyReference healthy =
+            options.healthy.empty()
+                ? HealthyReference()
+                : measured_reference(options.healthy, options.columns, *scene, 1);
+        const int threads = thread_count(scene->study());
+        Progress progress(static_cast<long>(list.recordings.size()),
+                          options.quiet || options.csv == "-");
+        const auto measured = measure_recordings(list, options.columns, *scene, healthy, threads,
+                                                 [&] { progress.advance(1); });
+        progress.finish();
+        const bool csv_good =
+            options.csv.empty() || write_text_to(options.csv, recordings_csv(list, measured));
+        if (!options.out.empty()) {
+            write_results(options.out, recordings_results(list, measured, *scene, threads));
+        }
+        return csv_good ? summary(options, measured) : kBadInput;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
+    }
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,215 @@
+#include "mc/gearbox/measured_features.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/files/signal_file.hpp"
+#include "mc/gearbox/span_analysis.hpp"
+#include "mc/scene/feature_needs.hpp"
+#include "signals/spectra/order_spectrum.hpp"
+#include "signals/spectra/synchronous_average.hpp"
+#include "signals/windowing/folded_signal.hpp"
+#include "signals/windowing/windowing.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using features::Feature;
+
+constexpr int kFewestOfParts = 4;  // samples a mesh period that can be parted (mesh_separation.hpp)
+
+// Why a feature cannot be had of this signal; "" if it can.
+std::string missing(const Feature& feature, const Scene& scene, const MeasuredSignal& signal,
+                    bool has_reference) {
+    const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
+    if ((feature.needs & (features::kSun | features::kRing)) != 0 && !planetary) {
+        return "the gearbox has no sun and no ring";
+    }
+    if (feature.from_sensor && scene.study().effects.quasi_static()) {
+        return "the study has no sensor (effects.motion)";
+    }
+    if (!(feature.from_sensor ? signal.has_sensor : signal.has_te)) {
+        return feature.from_sensor ? "no sensor signal" : "no transmission error";
+    }
+    const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
+    const int needed = meshes_of(feature, scene);
+    if (has < needed) {
+        return fmt::format("{} mesh periods, but it takes {}", has, needed);
+    }
+    if ((feature.needs & features::kTeParts) != 0 && scene.te_samples_per_mesh() < kFewestOfParts) {
+        return fmt::format("the study's encoders sample {} times a mesh period, but it takes {}",
+                           scene.te_samples_per_mesh(), kFewestOfParts);
+    }
+    if ((feature.needs & features::kHealthy) != 0 && !has_reference) {
+        return "no healthy gearboxes at that noise level to compare with: give --healthy or "
+               "--noise-level";
+    }
+    return "";
+}
+
+// The signals of a recording as features look at them.
+class MeasuredInput {
+  public:
+    MeasuredInput(const Scene& scene, unsigned needs) : scene_(scene), analysis_(scene, needs) {}
+
+    features::FeatureInput of(const MeasuredSignal& signal) {
+        features::FeatureInput input;
+        input.planet_teeth = scene_.span().planet_teeth;
+        input.te_harmonics = scene_.study().features.te_harmonics;
+        if (signal.te_meshes >= scene_.span().planet_teeth) {
+            add_te(signal, input);
+        }
+        if (const int turns = planet_turns(signal, scene_); turns > 0) {
+            add_sensor(signal, turns, input);
+        }
+        return input;
+    }
+
+  private:
+    // Over as many planet turns as there are, at most those of the span.
+    void add_te(const MeasuredSignal& signal, features::FeatureInput& input) {
+        const std::size_t turn = static_cast<std::size_t>(scene_.span().planet_teeth) *
+                                 static_cast<std::size_t>(scene_.te_samples_per_mesh());
+        const std::size_t span = turn * static_cast<std::size_t>(scene_.span().ring_teeth);
+        te_ = signals::synchronous_average(
+            std::span(signal.te).first(std::min(signal.te.size(), span)), turn);
+        double sum = 0.0, largest = 0.0, deviation = 0.0;
+        for (const double value : te_) {
+            sum += value;
+            largest = std::max(largest, std::abs(value));
+        }
+        for (double& value : te_) {
+            value -= sum / static_cast<double>(turn);
+            deviation = std::max(deviation, std::abs(value));
+        }
+        // What then is left is rounding, whose ratios say nothing.
+        if (deviation <= kRounding * largest) {
+            std::fill(te_.begin(), te_.end(), 0.0);
+        }
+        signals::OrderSpectrum spectrum(static_cast<int>(turn));
+        spectrum.load(te_);
+        amplitude_.resize(static_cast<std::size_t>(spectrum.orders()));
+        spectrum.amplitudes(0.0, amplitude_);
+        input.te_turn = te_;
+        input.te_amplitude = amplitude_;
+        analysis_.te(te_, input);
+    }
+
+    void add_sensor(const MeasuredSignal& signal, int turns, features::FeatureInput& input) {
+        const int phases = scene_.samples_per_mesh();
+        const std::size_t turn =
+            static_cast<std::size_t>(scene_.span().planet_teeth) * static_cast<std::size_t>(phases);
+        auto folded = signals::fold_of_squares(
+            std::span(signal.sensor).first(turn * static_cast<std::size_t>(turns)), turn);
+        // As many squares as of a whole span, whose number the windows divide by.
+        if (turns < scene_.span().ring_teeth) {
+            for (double& sum : folded) {
+                sum *= static_cast<double>(scene_.span().ring_teeth) / turns;
+            }
+        }
+        signals::Windowing windowing(scene_.span(), phases, scene_.study().features.tukey_taper);
+        tooth_rms_.resize(static_cast<std::size_t>(scene_.span().planet_teeth));
+        windowing.load(folded);
+        const int offset = windowing.search(0.0, tooth_rms_);
+        input.tooth_rms = tooth_rms_;
+        input.sensor_mean_square = windowing.mean_square(0.0);
+        analysis_.sensor(signal.sensor, turns, offset, input);
+    }
+
+    static constexpr double kRounding = 1e-13;
+
+    const Scene& scene_;
+    SpanAnalysis analysis_;
+    std::vector<double> te_, amplitude_, tooth_rms_;
+};
+
+// Why a feature has no number although its signal is there.
+std::string why_no_value(const Feature& feature, const features::FeatureInput& input,
+                         const Scene& scene) {
+    const auto zero = [](std::span<const double> values) {
+        return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+    };
+    if (!feature.from_sensor && zero(input.te_turn)) {
+        return "the transmission error is constant";
+    }
+    if (feature.compute == features::te_fm0 && scene.te_samples_per_mesh() <= 2) {
+        return fmt::format("no mesh harmonic: the study's encoders sample {} times a mesh period",
+                           scene.te_samples_per_mesh());
+    }
+    if (feature.from_sensor && input.sensor_mean_square == 0.0) {
+        return "the sensor's signal is zero";
+    }
+    return "no finite number: its definition divides by what is zero in this signal";
+}
+
+}  // namespace
+
+int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
+    return signal.has_sensor
+               ? std::min(signal.sensor_meshes / scene.span().planet_teeth, scene.span().ring_teeth)
+               : 0;
+}
+
+int meshes_of(const Feature& feature, const Scene& scene) {
+    constexpr unsigned kOfSpan = features::kSun | features::kRing | features::kFiltered;
+    return feature.from_sensor && (feature.needs & kOfSpan) != 0
+               ? meshes_needed(scene.study(), scene.span(), feature.needs)
+               : scene.span().planet_teeth;
+}
+
+std::vector<MeasuredFeature> measure(const Scene& scene, const MeasuredSignal& signal,
+                                     const HealthyReference& healthy) {
+    std::vector<MeasuredFeature> all;
+    unsigned needs = 0;
+    for (const Feature& feature : features::record_features()) {
+        all.push_back({&feature, 0.0, missing(feature, scene, signal, !healthy.amplitude.empty())});
+        needs |= all.back().missing.empty() ? feature.needs : 0U;
+    }
+    MeasuredInput measured(scene, needs);
+    features::FeatureInput input = measured.of(signal);
+    if (!healthy.amplitude.empty()) {
+        input.healthy = healthy.at(0);
+    }
+    for (MeasuredFeature& one : all) {
+        if (one.missing.empty()) {
+            one.value = one.feature->compute(input);
+            if (!std::isfinite(one.value)) {
+                one.missing = why_no_value(*one.feature, input, scene);
+            }
+        }
+    }
+    return all;
+}
+
+HealthyReference measured_reference(const std::vector<std::string>& paths,
+                                    const SignalColumns& columns, const Scene& scene, int turns) {
+    HealthyRecordsMean mean(1);
+    for (const std::string& path : paths) {
+        const MeasuredSignal signal = read_measured_signal(path, columns, scene);
+        if (planet_turns(signal, scene) < std::max(1, turns)) {
+            throw SignalError(fmt::format(
+                "{}: {} mesh periods of sensor signal, but a healthy record must have "
+                "{}, as many planet turns as the signal",
+                path, signal.sensor_meshes, std::max(1, turns) * scene.span().planet_teeth));
+        }
+        MeasuredInput input(scene, features::kSensorTurn);
+        mean.add(0, input.of(signal));
+    }
+    return mean.mean();
+}
+
+HealthyReference simulated_reference_at(double noise_level, const Scene& scene) {
+    const auto& levels = scene.study().sensor.noise_levels;
+    const auto level = std::find(levels.begin(), levels.end(), noise_level);
+    if (level == levels.end() || scene.study().effects.quasi_static()) {
+        return {};
+    }
+    const auto at = static_cast<std::size_t>(level - levels.begin());
+    const HealthyReference all =
+        simulated_reference(scene, Sampler(scene.study()), path_grid(scene));
+    return {{all.residual_variance[at]}, {all.envelope_variance[at]}, {all.amplitude[at]}};
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,39 @@
+// A study's features of measured signals: what each needs, and what it gives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "features/feature.hpp"
+#include "mc/gearbox/healthy_reference.hpp"
+#include "mc/gearbox/measured_signal.hpp"
+#include "mc/scene/scene.hpp"
+
+namespace gearpod::mc {
+
+struct MeasuredFeature {
+    const features::Feature* feature;
+    double value;
+    std::string missing;  // why it has none, else empty
+};
+
+// Whole planet turns of sensor signal that a recording has for the planets' teeth, at most the
+// span's. Fewer than the span's meet fewer ring teeth, and average less.
+int planet_turns(const MeasuredSignal& signal, const Scene& scene);
+
+// Mesh periods of its signal that a feature looks at, at least.
+int meshes_of(const features::Feature& feature, const Scene& scene);
+
+// All features, in their own order. `healthy` may be empty.
+std::vector<MeasuredFeature> measure(const Scene& scene, const MeasuredSignal& signal,
+                                     const HealthyReference& healthy);
+
+// Of recordings of healthy gearboxes, each as long as `turns` planet turns at least. Throws
+// SignalError.
+HealthyReference measured_reference(const std::vector<std::string>& paths,
+                                    const SignalColumns& columns, const Scene& scene, int turns);
+
+// The simulated one at a noise level; empty if the study lacks it.
+HealthyReference simulated_reference_at(double noise_level, const Scene& scene);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,250 @@
+#include "mc/recordings/measure_recordings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <set>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "machine/team.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/results/provenance.hpp"
+#include "mc/results/row_source.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+MeasuredRecording measure_one(const Recording& recording, SignalColumns columns, const Scene& scene,
+                              const HealthyReference& healthy) {
+    MeasuredRecording measured;
+    try {
+        columns.row = recording.row;
+        const MeasuredSignal signal = read_measured_signal(recording.file, columns, scene);
+        measured.sensor_meshes = signal.sensor_meshes;
+        measured.planet_turns = planet_turns(signal, scene);
+        bool any = false;
+        std::string why;
+        for (const MeasuredFeature& feature : measure(scene, signal, healthy)) {
+            measured.values.push_back(feature.missing.empty() ? feature.value : kNone);
+            any = any || feature.missing.empty();
+            const bool there = feature.feature->from_sensor ? signal.has_sensor : signal.has_te;
+            why = why.empty() && there ? feature.missing : why;
+        }
+        if (!any) {
+            measured.problem =
+                fmt::format("{}: no feature can be had of it: {}", recording.name(), why);
+        }
+    } catch (const std::exception& error) {
+        measured.problem = exception_text(error);
+    }
+    std::replace(measured.problem.begin(), measured.problem.end(), '\n', ';');
+    return measured;
+}
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\n;\t") == std::string::npos) {
+        return text;
+    }
+    std::string out = "\"";
+    for (const char c : text) {
+        out += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return out + "\"";
+}
+
+std::string header_of(const TableColumn& column) {
+    return column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+}
+
+const char* label_of(Condition condition) {
+    return condition == Condition::healthy  ? "healthy"
+           : condition == Condition::faulty ? "faulty"
+                                            : "";
+}
+
+std::string number_text(double value) {
+    return std::isfinite(value) ? fmt::format("{:.10g}", value) : "";
+}
+
+double shown_size(const RecordingList& list, double size) {
+    return list.size->unit == "mm" ? 1e3 * size : size;
+}
+
+bool any_value(const std::vector<MeasuredRecording>& measured, std::size_t feature) {
+    return std::any_of(measured.begin(), measured.end(), [&](const MeasuredRecording& one) {
+        return one.problem.empty() && std::isfinite(one.values[feature]);
+    });
+}
+
+std::string unit_or_one(const TableColumn& column) {
+    return column.unit.empty() ? "1" : column.unit;
+}
+
+// What the rows are graded by: the size, or a label.
+struct Grading {
+    std::string name, unit;
+    bool sized;
+
+    // Graded rows without a size have no place among those with one.
+    int group(const Recording& recording) const {
+        if (recording.condition == Condition::healthy) {
+            return static_cast<int>(Group::threshold);
+        }
+        const bool known =
+            recording.condition == Condition::faulty && (!sized || recording.size.has_value());
+        return known ? static_cast<int>(Group::graded) : kUngraded;
+    }
+    double size(const Recording& recording) const {
+        return sized ? recording.size.value_or(0.0)
+                     : (recording.condition == Condition::faulty ? 1.0 : 0.0);
+    }
+};
+
+Grading grading_of(const RecordingList& list) {
+    const bool sized =
+        std::any_of(list.recordings.begin(), list.recordings.end(),
+                    [](const Recording& one) { return one.size.value_or(0.0) > 0.0; });
+    if (!sized) {
+        return {"label", "1", false};
+    }
+    return {"size", list.size->unit == "mm" ? "m" : unit_or_one(*list.size), true};
+}
+
+// One group for each size, or, of more than twenty, twenty of about as many recordings.
+std::vector<analysis::SizeGroup> groups_of(const std::set<double>& sizes) {
+    constexpr std::size_t kMost = 20;
+    std::vector<analysis::SizeGroup> groups;
+    const std::vector<double> all(sizes.begin(), sizes.end());
+    const std::size_t parts = std::min(all.size(), kMost);
+    for (std::size_t i = 0; i < parts; ++i) {
+        const double high = all[(i + 1) * all.size() / parts - 1];
+        groups.push_back({all.size() <= kMost ? high : i == 0 ? 0.0 : groups.back().high, high});
+    }
+    return groups;
+}
+
+}  // namespace
+
+std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
+                                                  const SignalColumns& columns, const Scene& scene,
+                                                  const HealthyReference& healthy, int threads,
+                                                  const std::function<void()>& done) {
+    std::vector<MeasuredRecording> measured(list.recordings.size());
+    std::mutex one_at_a_time;
+    machine::for_each_index(measured.size(), threads, [&](std::size_t i) {
+        measured[i] = measure_one(list.recordings[i], columns, scene, healthy);
+        const std::lock_guard lock(one_at_a_time);
+        done();
+    });
+    return measured;
+}
+
+std::string recordings_csv(const RecordingList& list,
+                           const std::vector<MeasuredRecording>& measured) {
+    std::string out = "file,row,gearbox,label";
+    for (const auto& column : {list.time, list.size}) {
+        out += column ? "," + quoted(header_of(*column)) : "";
+    }
+    for (const TableColumn& column : list.inputs) {
+        out += "," + quoted(header_of(column));
+    }
+    for (const features::Feature& feature : features::record_features()) {
+        out += feature.unit == "1" ? fmt::format(",{}", feature.name)
+                                   : fmt::format(",{} [{}]", feature.name, feature.unit);
+    }
+    out += ",planet_turns,problem\n";
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        const Recording& recording = list.recordings[i];
+        out += fmt::format("{},{},{},{}", quoted(recording.file),
+                           recording.row ? std::to_string(*recording.row) : "",
+                           quoted(recording.gearbox), label_of(recording.condition));
+        out += list.time ? "," + number_text(recording.time) : "";
+        out += list.size ? "," + (recording.size ? number_text(shown_size(list, *recording.size))
+                                                 : std::string())
+                         : "";
+        for (const double input : recording.inputs) {
+            out += "," + number_text(input);
+        }
+        for (std::size_t f = 0; f < features::record_features().size(); ++f) {
+            out += "," + (measured[i].values.empty() ? std::string()
+                                                     : number_text(measured[i].values[f]));
+        }
+        out += fmt::format(",{},{}\n", measured[i].planet_turns, quoted(measured[i].problem));
+    }
+    return out;
+}
+
+Results recordings_results(const RecordingList& list,
+                           const std::vector<MeasuredRecording>& measured, const Scene& scene,
+                           int threads) {
+    const Grading grading = grading_of(list);
+    Results results;
+    results.noise_levels = {1.0};
+    for (const TableColumn& column : list.inputs) {
+        results.parameters.push_back({column.name, unit_or_one(column), {}});
+    }
+    if (list.time) {
+        results.parameters.push_back({"time", unit_or_one(*list.time), {}});
+    }
+    results.parameters.push_back({grading.name, grading.unit, {}});
+    std::vector<std::size_t> used;
+    for (std::size_t f = 0; f < features::record_features().size(); ++f) {
+        const features::Feature& feature = features::record_features()[f];
+        if (any_value(measured, f)) {
+            used.push_back(f);
+            results.features.push_back({std::string(feature.name),
+                                        std::string(feature.unit),
+                                        analysis::alarm_of(feature),
+                                        {}});
+        }
+    }
+    std::string names, gearboxes;
+    std::set<double> sizes;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        const Recording& recording = list.recordings[i];
+        if (!measured[i].problem.empty()) {
+            continue;
+        }
+        results.group.push_back(grading.group(recording));
+        results.status.push_back(static_cast<int>(Status::ok));
+        auto parameter = results.parameters.begin();
+        for (const double input : recording.inputs) {
+            (parameter++)->values.push_back(input);
+        }
+        if (list.time) {
+            (parameter++)->values.push_back(recording.time);
+        }
+        const double size = grading.size(recording);
+        parameter->values.push_back(size);
+        if (results.group.back() == static_cast<int>(Group::graded)) {
+            sizes.insert(size);
+        }
+        for (std::size_t f = 0; f < used.size(); ++f) {
+            results.features[f].values.push_back(measured[i].values[used[f]]);
+        }
+        names += recording.name() + "\n";
+        gearboxes += recording.gearbox + "\n";
+    }
+    const Study& study = scene.study();
+    results.request = {study.detection.false_alarm_rate,
+                       study.detection.confidence,
+                       results.noise_levels,
+                       groups_of(sizes),
+                       {grading.name, grading.unit}};
+    for (const auto& [name, value] : provenance(study, 1, threads)) {
+        // The recordings are of no study: it only says how they were looked at.
+        results.provenance.emplace_back(name == "study" ? "measured_by_study" : name, value);
+    }
+    results.provenance.emplace_back("kind", kRecordingsKind);
+    results.provenance.emplace_back("recordings", names);
+    results.provenance.emplace_back("recorded_gearboxes", gearboxes);
+    results.detection = detect_all(results, ColumnRows(results));
+    return results;
+}
+
+}  // namespace gearpod::mc

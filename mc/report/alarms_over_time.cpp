@@ -1,0 +1,183 @@
+#include "mc/report/alarms_over_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "analysis/detection/threshold.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::size_t kMostGroups = 40;
+
+std::optional<std::size_t> time_column(const Results& frame) {
+    for (std::size_t p = 0; p < frame.parameters.size(); ++p) {
+        if (frame.parameters[p].name == "time") {
+            return p;
+        }
+    }
+    return std::nullopt;
+}
+
+// The last time of each group.
+std::vector<double> ends_of(const std::vector<double>& times) {
+    const std::set<double> distinct(times.begin(), times.end());
+    if (distinct.size() <= kMostGroups) {
+        return {distinct.begin(), distinct.end()};
+    }
+    std::vector<double> sorted = times;
+    std::sort(sorted.begin(), sorted.end());
+    std::set<double> ends;
+    for (std::size_t i = 1; i <= kMostGroups; ++i) {
+        ends.insert(sorted[i * sorted.size() / kMostGroups - 1]);
+    }
+    return {ends.begin(), ends.end()};
+}
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double threshold_of(const Results& frame, std::size_t feature) {
+    return feature < frame.detection.size() && !frame.detection[feature].levels.empty()
+               ? frame.detection[feature].levels.front().threshold
+               : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Features in order of rank, those without a rank last.
+std::vector<std::size_t> ranked(const Results& frame,
+                                const std::optional<analysis::Reliability>& reliability) {
+    std::vector<std::size_t> order;
+    const auto add = [&](std::size_t feature) {
+        if (std::find(order.begin(), order.end(), feature) == order.end()) {
+            order.push_back(feature);
+        }
+    };
+    if (reliability && !reliability->rankings.empty()) {
+        for (const analysis::FeatureRank& rank : reliability->rankings.front().ranks) {
+            for (std::size_t f = 0; f < frame.features.size(); ++f) {
+                if (frame.features[f].name == rank.name) {
+                    add(f);
+                }
+            }
+        }
+    }
+    for (std::size_t f = 0; f < frame.features.size(); ++f) {
+        add(f);
+    }
+    return order;
+}
+
+}  // namespace
+
+std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows) {
+    const auto time = time_column(frame);
+    if (!time || frame.provenance_value("kind") != kRecordingsKind) {
+        return {};
+    }
+    const RowShape shape = row_shape(frame);
+    std::vector<double> times;
+    std::vector<std::vector<double>> values(shape.features);
+    rows.visit([&](const RowBlock& block) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const double* of_row = block.values.data() + row * shape.values();
+            times.push_back(of_row[*time]);
+            for (std::size_t f = 0; f < shape.features; ++f) {
+                values[f].push_back(of_row[shape.value_of(f, 0)]);
+            }
+        }
+    });
+    std::vector<TimeGroup> groups;
+    double before = -std::numeric_limits<double>::infinity();
+    for (const double end : ends_of(times)) {
+        TimeGroup group;
+        group.first = end;
+        group.last = end;
+        group.alarms.assign(shape.features, 0);
+        std::vector<std::vector<double>> here(shape.features);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            if (times[i] <= before || times[i] > end) {
+                continue;
+            }
+            group.first = std::min(group.first, times[i]);
+            ++group.recordings;
+            for (std::size_t f = 0; f < shape.features; ++f) {
+                if (std::isfinite(values[f][i])) {
+                    here[f].push_back(values[f][i]);
+                    group.alarms[f] += analysis::is_alarm(values[f][i], threshold_of(frame, f),
+                                                          frame.features[f].alarm);
+                }
+            }
+        }
+        for (const std::vector<double>& of_feature : here) {
+            group.medians.push_back(median_of(of_feature));
+        }
+        groups.push_back(std::move(group));
+        before = end;
+    }
+    return groups;
+}
+
+std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
+                        const std::optional<analysis::Reliability>& reliability) {
+    constexpr std::size_t kShown = 5;
+    if (groups.empty() || frame.features.empty()) {
+        return "";
+    }
+    auto order = ranked(frame, reliability);
+    order.resize(std::min(order.size(), kShown));
+    const std::size_t time = *time_column(frame);
+    const std::string unit = frame.parameters[time].unit;
+    std::string out =
+        fmt::format("Alarms over time{} (alarms of recordings; median of the feature)\n",
+                    unit == "1" ? "" : ", " + unit);
+    out += fmt::format("{:<16}{:>10}", "time", "recordings");
+    for (const std::size_t f : order) {
+        out += fmt::format("{:>18}", frame.features[f].name);
+    }
+    out += "\n";
+    for (const TimeGroup& group : groups) {
+        const std::string when = group.first == group.last
+                                     ? fmt::format("{:g}", group.last)
+                                     : fmt::format("{:g} to {:g}", group.first, group.last);
+        out += fmt::format("{:<16}{:>10}", when, group.recordings);
+        for (const std::size_t f : order) {
+            const double share =
+                static_cast<double>(group.alarms[f]) / static_cast<double>(group.recordings);
+            out += fmt::format("{:>9.0f} %{:>7.3g}", 100.0 * share, group.medians[f]);
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const TimeGroup& group : groups) {
+        nlohmann::json alarms = nlohmann::json::object(), medians = nlohmann::json::object();
+        for (std::size_t f = 0; f < frame.features.size(); ++f) {
+            alarms[frame.features[f].name] = group.alarms[f];
+            medians[frame.features[f].name] = std::isfinite(group.medians[f])
+                                                  ? nlohmann::json(group.medians[f])
+                                                  : nlohmann::json(nullptr);
+        }
+        json.push_back({{"first", group.first},
+                        {"last", group.last},
+                        {"recordings", group.recordings},
+                        {"alarms", alarms},
+                        {"medians", medians}});
+    }
+    return json;
+}
+
+}  // namespace gearpod::mc

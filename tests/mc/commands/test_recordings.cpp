@@ -1,0 +1,261 @@
+// gearpod features of many recordings, and the report on them.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "mc/files/hdf5_data.hpp"
+#include "mc/results/results_file.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
+                           "/tests/features/reference/small.toml --set "
+                           "detection.false_alarm_rate=0.1";
+constexpr int kTeeth = 11, kPerMesh = 8;
+
+// A turn of the planet, teeth alike but for one that is `worse` times as loud.
+std::vector<double> turn(double worse, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> noise;
+    std::vector<double> samples;
+    for (int tooth = 0; tooth < kTeeth; ++tooth) {
+        for (int i = 0; i < kPerMesh; ++i) {
+            samples.push_back(noise(engine) * (tooth == 4 ? worse : 1.0));
+        }
+    }
+    return samples;
+}
+
+void write_record(const std::string& path, const std::vector<double>& samples) {
+    std::ofstream stream(path);
+    stream.precision(17);
+    stream << "sensor [m/s^2]\n";
+    for (const double sample : samples) {
+        stream << sample << "\n";
+    }
+}
+
+nlohmann::json single(const std::string& path) {
+    const Outcome outcome =
+        program("features " + path + " --study " + kSmall + " --samples-per-mesh 8 --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.output);
+}
+
+TEST_CASE("A turn of the planet gives the features of its teeth, as many turns of it do") {
+    const Folder folder;
+    std::vector<double> once = turn(3.0, 1), many;
+    for (int i = 0; i < 35; ++i) {
+        many.insert(many.end(), once.begin(), once.end());
+    }
+    write_record(folder.file("once.csv"), once);
+    write_record(folder.file("many.csv"), many);
+    const auto one = single(folder.file("once.csv")), all = single(folder.file("many.csv"));
+    CHECK(one["planet_turns"] == 1);
+    CHECK(all["planet_turns"] == 35);
+    for (const char* name : {"sensor_rms", "window_ratio", "window_z", "crest_factor", "fm4", "m6a",
+                             "m8a", "energy_ratio", "sideband_index", "sideband_level",
+                             "window_kurtosis", "window_crest", "window_m8a"}) {
+        INFO(name);
+        REQUIRE(one["features"].contains(name));
+        CHECK(one["features"][name].get<double>() ==
+              Approx(all["features"][name].get<double>()).epsilon(1e-9));
+    }
+    CHECK(one["unavailable"].contains("frms"));  // takes carrier turns
+    CHECK(one["unavailable"].contains("sun_window_ratio"));
+}
+
+struct Recorded {
+    Folder folder;
+    std::string manifest;
+
+    Recorded() {
+        std::string table = "file,gearbox,time [day],label,size [mm],oil temperature [K]\n";
+        for (int i = 0; i < 60; ++i) {
+            const double size = i < 30 ? 0.0 : 0.05 * (i - 29);
+            const std::string name = "r" + std::to_string(i) + ".csv";
+            write_record(folder.file(name), turn(1.0 + 4.0 * size, 10U + static_cast<unsigned>(i)));
+            table += name + ",A," + std::to_string(i / 10) + "," + (i < 30 ? "healthy" : "faulty") +
+                     "," + std::to_string(size) + "," + std::to_string(300 + i) + "\n";
+        }
+        write_record(folder.file("unknown.csv"), turn(9.0, 99));
+        table += "unknown.csv,B,7,,,300\n";
+        table += "missing.csv,A,7,,,300\n";
+        write_bytes(folder.file("broken.csv"), "sensor\n1\nx\n");
+        table += "broken.csv,A,7,,,300\n";
+        manifest = folder.file("manifest.csv");
+        write_bytes(manifest, table);
+    }
+    Outcome features(const std::string& options, const std::string& before = "") const {
+        return shell(before + " " + std::string(GEARPOD_PROGRAM) + " features --manifest " +
+                     manifest + " --study " + kSmall + " --samples-per-mesh 8 " + options);
+    }
+};
+
+TEST_CASE("One bad recording stops no other, is named, and the exit code is 3") {
+    const Recorded recorded;
+    const Outcome outcome = recorded.features("--out " + recorded.folder.file("f.h5") + " --csv " +
+                                              recorded.folder.file("f.csv"));
+    INFO(outcome.output);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.mentions("61 of 63 have features"));
+    CHECK(outcome.mentions("missing.csv: no such file"));
+    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is no number"));
+    const auto results = mc::read_results(recorded.folder.file("f.h5"));
+    REQUIRE(results.group.size() == 61);
+    CHECK(results.group[0] == 0);
+    CHECK(results.group[59] == 1);
+    CHECK(results.group[60] == mc::kUngraded);
+    CHECK(results.request.size.unit == "m");
+    // The table has the numbers of one recording alone.
+    const auto alone = single(recorded.folder.file("r50.csv"));
+    for (const auto& feature : results.features) {
+        CHECK(feature.values[50] == alone["features"][feature.name].get<double>());
+    }
+    std::ifstream table(recorded.folder.file("f.csv"));
+    std::string line;
+    long lines = 0;
+    while (std::getline(table, line)) {
+        ++lines;
+    }
+    CHECK(lines == 64);
+}
+
+TEST_CASE("Many recordings have the same results for any threads") {
+    const Recorded recorded;
+    recorded.features("--out " + recorded.folder.file("1.h5"), "OMP_NUM_THREADS=1");
+    recorded.features("--out " + recorded.folder.file("3.h5"), "OMP_NUM_THREADS=3");
+    CHECK(bits(mc::read_results(recorded.folder.file("1.h5"))) ==
+          bits(mc::read_results(recorded.folder.file("3.h5"))));
+}
+
+TEST_CASE("The report on recordings has thresholds, POD where sizes are known, alarms over time") {
+    const Recorded recorded;
+    const std::string results = recorded.folder.file("f.h5");
+    recorded.features("--out " + results);
+    const Outcome outcome = program("report " + results + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto json = nlohmann::json::parse(outcome.output);
+    const auto& features = json["reliability"]["features"];
+    const auto ratio = std::find_if(features.begin(), features.end(), [](const auto& feature) {
+        return feature["name"] == "window_ratio";
+    });
+    REQUIRE(ratio != features.end());
+    const auto& level = (*ratio)["levels"][0];
+    CHECK(level["auc"]["healthy"] == 30);
+    CHECK(level["auc"]["faulty"] == 30);
+    CHECK(level["hit_miss"]["refusal"].is_null());
+    CHECK(level["hit_miss"]["a90"]["estimate"]["size"].get<double>() < 1.5e-3);
+    REQUIRE(json["over_time"].size() == 7);
+    CHECK(json["over_time"][6]["recordings"] == 1);  // of unknown state, and loud
+    CHECK(json["over_time"][6]["alarms"]["window_ratio"] == 1);
+    CHECK(json["over_time"][0]["alarms"]["window_ratio"].get<int>() <= 2);
+    CHECK(program("report " + results).mentions("Alarms over time, day"));
+}
+
+TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
+    const Folder folder;
+    const std::vector<double> first = turn(1.0, 1), second = turn(3.0, 2);
+    std::vector<double> both = first;
+    both.insert(both.end(), second.begin(), second.end());
+    for (double& value : both) {
+        value /= 4.0;
+    }
+    {
+        const auto file = mc::create_file(folder.file("rows.h5"));
+        mc::write_numbers(file.get(), "sensor", {2, first.size()}, both);
+        mc::write_number(file.get(), "sensor", "scale", 4.0);
+    }
+    write_record(folder.file("second.csv"), second);
+    write_bytes(folder.file("m.csv"), "file,row\nrows.h5,1\nsecond.csv,\nrows.h5,2\n");
+    const Outcome outcome = program("features --manifest " + folder.file("m.csv") + " --study " +
+                                    kSmall + " --samples-per-mesh 8 --csv -");
+    INFO(outcome.output);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.mentions("sensor has 2 rows, but row 2 is asked for"));
+    std::istringstream lines(outcome.output);
+    std::string header, row, alone;
+    std::getline(lines, header);
+    while (header.rfind("file,", 0) != 0) {
+        std::getline(lines, header);
+    }
+    std::getline(lines, row);
+    std::getline(lines, alone);
+    CHECK(row.substr(row.find(",,") + 2) == alone.substr(alone.find(",,,") + 3));
+}
+
+TEST_CASE("What a manifest cannot mean is said with its line, all at once") {
+    const Folder folder;
+    const std::string manifest = folder.file("m.csv");
+    const auto refused = [&](const std::string& text) {
+        write_bytes(manifest, text);
+        const Outcome outcome = program("features --manifest " + manifest + " --study " + kSmall +
+                                        " --csv " + folder.file("t.csv"));
+        CHECK(outcome.code == 2);
+        return outcome;
+    };
+    const Outcome outcome = refused(
+        "file,row,label,size,torque\na.csv,x,,,1\nb.csv,,broken,,1\nc.csv,,healthy,2,1\n"
+        "d.csv,,,-1,one\n");
+    INFO(outcome.output);
+    CHECK(outcome.mentions("m.csv:2: row: \"x\" is no row"));
+    CHECK(outcome.mentions("m.csv:3: label: \"broken\" is neither healthy nor faulty"));
+    CHECK(outcome.mentions("m.csv:4: label: healthy does not fit the size"));
+    CHECK(outcome.mentions("m.csv:5: size: is negative"));
+    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is no finite number"));
+    CHECK(refused("name\na\n").mentions("has no column file"));
+    CHECK(refused("file\n").mentions("names no recording"));
+}
+
+// The HUMS 2023 challenge's recordings, where they are (studies/README.md).
+TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
+    const char* file = std::getenv("GEARPOD_HUMS_DATA");
+    if (file == nullptr || !std::filesystem::exists(file)) {
+        WARN("HUMS data not there: set GEARPOD_HUMS_DATA to hums2023.h5");
+        return;
+    }
+    const Folder folder;
+    const mc::Hdf5Handle data(H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file);
+    const auto days = mc::read_integers(data.get(), "day", 1000000);
+    std::string table = "file,row,time [day],label\n";
+    for (std::size_t i = 0; i < days.size(); ++i) {
+        table += std::string(file) + "," + std::to_string(i) + "," + std::to_string(days[i]) + "," +
+                 (days[i] <= 20 ? "healthy" : "faulty") + "\n";
+    }
+    write_bytes(folder.file("m.csv"), table);
+    REQUIRE(program("features --manifest " + folder.file("m.csv") + " --study " +
+                    study("bell-206b.toml") + " --samples-per-mesh 117 --out " +
+                    folder.file("f.h5"))
+                .code == 0);
+    const auto json =
+        nlohmann::json::parse(program("report " + folder.file("f.h5") + " --json -").output);
+    double best = 0.0;
+    for (const auto& feature : json["features"]) {
+        const std::string name = feature["name"];
+        long healthy = 0, alarms = 0;
+        double day_26 = 0.0, day_27 = 0.0;
+        for (const auto& group : json["over_time"]) {
+            const long here = group["alarms"][name], all = group["recordings"];
+            const double share = static_cast<double>(here) / static_cast<double>(all);
+            healthy += group["last"] <= 20 ? all : 0;
+            alarms += group["last"] <= 20 ? here : 0;
+            day_26 = group["last"] == 26 ? share : day_26;
+            day_27 = group["last"] == 27 ? share : day_27;
+        }
+        CHECK(100 * alarms <= healthy);
+        best = day_27 == 1.0 ? std::max(best, day_26) : best;
+    }
+    CHECK(best >= 0.6);
+}
+
+}  // namespace
+}  // namespace gearpod::test
