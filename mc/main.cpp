@@ -225,6 +225,10 @@ int run_program(int argc, char** argv) {
         stiffness_app->add_option("--csv", stiffness.csv, "write curves to a file, or to -"));
     stiffness_app->add_option("--points", stiffness.points, "phases in the table")
         ->check(CLI::Range(2, 1000000));
+    stiffness_app->add_flag(
+        "--te", stiffness.te,
+        "static transmission error of the meshes under the nominal load, relief "
+        "included, in place of their stiffness");
     stiffness_app->callback([&] { code = stiffness_command(stiffness); });
 
     ModesOptions modes;

@@ -51,6 +51,7 @@ struct StiffnessOptions {
     StudyOptions study;
     std::string csv;  // "": a summary; "-": standard output
     int points = 1000;
+    bool te = false;  // the loaded static transmission error in place of the stiffness
 };
 int stiffness_command(const StiffnessOptions& options);
 

@@ -65,6 +65,23 @@ void print_fixed_shaft(const Study& study) {
     }
 }
 
+// A rack leaves no involute below its form circle: flanks that are touched deeper rub in the
+// fillet.
+void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry& mesh) {
+    for (const int which : {1, 2}) {
+        const gears::Gear& gear = mesh.gear(which);
+        const double lowest = mesh.contact_radius(which, which == 1 ? 0.0 : mesh.contact_ratio());
+        if (!gear.internal && lowest < gear.form_radius()) {
+            print_entry("fillet interference",
+                        fmt::format("the {} is touched down to a diameter of {:.4f} mm, but the "
+                                    "fillet that a rack leaves begins at {:.4f} mm (a tip circle "
+                                    "of its mate farther away avoids it)",
+                                    member_name(which == 1 ? members.driver : members.driven),
+                                    2e3 * lowest, 2e3 * gear.form_radius()));
+        }
+    }
+}
+
 // Shifts, and what follows from them; nothing for standard gears.
 void print_shifts(const Scene& scene) {
     const Study& study = scene.study();
@@ -92,6 +109,7 @@ void print_shifts(const Scene& scene) {
                                     g.working_pressure_angle() * 180.0 / std::numbers::pi,
                                     1e3 * g.backlash(), 1e3 * g.tip_clearance(1),
                                     1e3 * g.tip_clearance(2)));
+            print_fillet_warnings(mesh.members, g);
         }
     }
 }

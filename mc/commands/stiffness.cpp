@@ -71,6 +71,35 @@ std::string csv_text(const Scene& scene, int points) {
     return text;
 }
 
+std::string te_text(const Scene& scene, int points) {
+    std::string text = "phase";
+    for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+        text += fmt::format(",{}_te_um", scene.drive().pair_name(pair));
+    }
+    text += "\n";
+    for (int i = 0; i < points; ++i) {
+        const double phase = static_cast<double>(i) / points;
+        text += fmt::format("{:.9g}", phase);
+        for (int pair = 0; pair < scene.pairs().pairs(); ++pair) {
+            text += fmt::format(",{:.9g}", 1e6 * loaded_approach(scene, pair, phase));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+void print_te(const Scene& scene) {
+    for (const SceneMesh& mesh : scene.meshes()) {
+        const stiffness::LoadedMesh::Range te = mesh.loaded->range();
+        fmt::print(
+            "{:<11}: {:.6g} N, transmission error {:.4f} um on average, {:.4f} um peak to "
+            "peak\n",
+            mesh_name(mesh.members), mesh.loaded->force_N(), 1e6 * te.mean,
+            1e6 * te.peak_to_peak());
+    }
+    fmt::print("curves: --csv FILE, or --csv - for standard output\n");
+}
+
 void print_summary(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         fmt::print(
@@ -102,10 +131,12 @@ int stiffness_command(const StiffnessOptions& options) {
         return kBadInput;
     }
     if (options.csv.empty()) {
-        print_summary(*scene);
+        options.te ? print_te(*scene) : print_summary(*scene);
         return kDone;
     }
-    return write_text_to(options.csv, csv_text(*scene, options.points)) ? kDone : kBadInput;
+    const std::string text =
+        options.te ? te_text(*scene, options.points) : csv_text(*scene, options.points);
+    return write_text_to(options.csv, text) ? kDone : kBadInput;
 }
 
 }  // namespace gearpod::mc

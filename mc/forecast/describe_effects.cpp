@@ -155,7 +155,10 @@ void print_meshes(const Study& study) {
                                       1e3 * study.gearbox.backlash_m.value_or(0.0)));
     }
     if (has_static_errors(study)) {
-        print_entry("transmission error", "harmonics of the mesh period");
+        print_entry("transmission error", has_relief(study)
+                                              ? "tip and root relief under the nominal load, and "
+                                                "harmonics of the mesh period if given"
+                                              : "harmonics of the mesh period");
     }
     if (has_tooth_errors(study)) {
         print_entry("tooth errors", tooth_errors(study) + "; every mesh is marched");

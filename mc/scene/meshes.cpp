@@ -58,6 +58,21 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     }
 }
 
+std::unique_ptr<const stiffness::LoadedMesh> make_loaded(const Study& study, double force_N,
+                                                         const SceneMesh& mesh) {
+    const gears::FlankRelief one = relief_of(study, mesh.members.driver),
+                             two = relief_of(study, mesh.members.driven);
+    if (!mesh.geometry || !(one.any() || two.any())) {
+        return std::make_unique<const stiffness::LoadedMesh>(
+            *mesh.stiffness, [](double) { return 0.0; }, std::vector<double>{}, force_N);
+    }
+    const gears::MeshGeometry& geometry = *mesh.geometry;
+    return std::make_unique<const stiffness::LoadedMesh>(
+        *mesh.stiffness,
+        [geometry, one, two](double tau) { return gears::relief_gap(geometry, one, two, tau); },
+        gears::relief_kinks(geometry, one, two), force_N);
+}
+
 }  // namespace
 
 double body_radius_m(const Study& study, Member member) {
@@ -84,6 +99,7 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
                     study.numerics.stiffness_tolerance);
             }
         }
+        mesh.loaded = make_loaded(study, force_N, mesh);
         meshes.push_back(std::move(mesh));
     }
     return meshes;

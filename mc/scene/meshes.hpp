@@ -10,6 +10,7 @@
 #include "mc/scene/drive.hpp"
 #include "mc/study/gears.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
+#include "stiffness/loaded_mesh.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 
 namespace gearpod::mc {
@@ -19,6 +20,8 @@ struct SceneMesh {
     MeshMembers members;
     std::optional<gears::MeshGeometry> geometry;
     std::unique_ptr<const stiffness::MeshStiffness> stiffness;
+    // Under what a pair carries on average, with the gears' relief.
+    std::unique_ptr<const stiffness::LoadedMesh> loaded;
     // Of either gear, if the mesh has one.
     const stiffness::FilletFoundation* body[2] = {nullptr, nullptr};
 };
@@ -27,7 +30,7 @@ struct SceneMesh {
 double body_radius_m(const Study& study, Member member);
 
 // One for each of meshes_of(kind); `force_N` is what a pair carries on average, for contacts that
-// stiffen with it. Throws SceneError.
+// stiffen with it and for relief. Throws SceneError.
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N);
 
 // All pairs of the gearbox and their phases.

@@ -56,7 +56,7 @@ class Planner {
             march.mesh_law = dynamics::MeshLaw::pushing;
         } else if (study_.effects.separation != Separation::none) {
             march.mesh_law = dynamics::MeshLaw::separating;
-        } else if (!first_errors().amplitude_m.empty() || !second_errors().amplitude_m.empty()) {
+        } else if (has_static_errors(study_)) {
             march.mesh_law = dynamics::MeshLaw::with_error;
         }
     }
@@ -75,8 +75,21 @@ class Planner {
                 static_cast<std::size_t>(drive_.pairs_per_mesh()), first_errors());
             errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
             lockstep::add_errors(pairs, march.grid, errors, march.nodes);
+            add_relief(march);
         }
         return march;
+    }
+
+    void add_relief(lockstep::MarchPlan& march) const {
+        if (!has_relief(study_)) {
+            return;
+        }
+        std::vector<const stiffness::LoadedMesh*> loaded;
+        for (const SceneMesh& mesh : stiffness_.meshes()) {
+            loaded.insert(loaded.end(), static_cast<std::size_t>(drive_.pairs_per_mesh()),
+                          mesh.loaded.get());
+        }
+        lockstep::add_relief(stiffness_.pairs(), march.grid, loaded, march.nodes);
     }
 
     void add_tooth_pairs(lockstep::MarchPlan& march) const {

@@ -1,5 +1,7 @@
 #include "mc/scene/stiffness_curves.hpp"
 
+#include <cmath>
+
 namespace gearpod::mc {
 
 std::vector<int> faulty_pairs(const Scene& scene) {
@@ -19,6 +21,18 @@ double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& m
     const double tau = pairs.reversed ? mesh.duration() - since : since;
     const auto limit = pairs.reversed ? stiffness::Limit::from_below : stiffness::Limit::from_above;
     return total_at(mesh, pairs.curve(pair).transitions(), tau, limit);
+}
+
+double loaded_approach(const Scene& scene, int pair, double phase) {
+    constexpr double kBeside = 1e-9;  // mesh periods, to later phases
+    const lockstep::PairSet& pairs = scene.pairs();
+    const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
+    const double tau = pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
+    const double inside = pairs.reversed ? tau - kBeside : tau + kBeside;
+    const double period = std::floor(inside);
+    const SceneMesh& mesh =
+        scene.meshes()[static_cast<std::size_t>(pair / scene.drive().pairs_per_mesh())];
+    return mesh.loaded->approach(tau - period, inside - period);
 }
 
 }  // namespace gearpod::mc

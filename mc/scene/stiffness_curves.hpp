@@ -14,4 +14,8 @@ std::vector<int> faulty_pairs(const Scene& scene);
 // after its engagement that of the healthy pair.
 double faulty_total(const Scene& scene, int pair, const stiffness::FaultyMesh& mesh, double since);
 
+// How far the gears of a pair approach along the line of action at a phase of the mesh period under
+// the nominal load, m: the pair's loaded static transmission error.
+double loaded_approach(const Scene& scene, int pair, double phase);
+
 }  // namespace gearpod::mc

@@ -72,7 +72,8 @@ bool any_random(const Study& study, std::initializer_list<const char*> keys) {
 
 bool has_static_errors(const Study& study) {
     const MeshErrors& e = study.errors;
-    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
+    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty() ||
+           has_relief(study);
 }
 
 bool has_tooth_quality(const Study& study) {
@@ -220,6 +221,18 @@ gears::PlanetRoom planet_room(const Study& study) {
     const double module = study.gearbox.module_m.value();
     return {centre_distance_m(study) / module,
             2.0 * gear_of(study, Member::planet).tip_radius() / module};
+}
+
+gears::FlankRelief relief_of(const Study& study, Member member) {
+    const MemberValues& given = study.gearbox.bodies[member];
+    return {given.tip_relief_m.value_or(0.0), given.tip_relief_length_m.value_or(0.0),
+            given.root_relief_m.value_or(0.0), given.root_relief_length_m.value_or(0.0),
+            study.gearbox.relief_shape};
+}
+
+bool has_relief(const Study& study) {
+    return std::any_of(kAllMembers.begin(), kAllMembers.end(),
+                       [&](Member member) { return relief_of(study, member).any(); });
 }
 
 double working_angle_rad(const Study& study, MeshKind mesh) {

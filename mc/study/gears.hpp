@@ -47,13 +47,16 @@ std::vector<std::string> shift_keys();
 gears::WorkingShifts working_shifts(const Study& study);
 // A planet's axis and tip circle, in modules; only of studies with shifts given.
 gears::PlanetRoom planet_room(const Study& study);
+// What is ground off a member's flanks, and whether anything is off anyone's.
+gears::FlankRelief relief_of(const Study& study, Member member);
+bool has_relief(const Study& study);
 // Of a mesh in the plane in which the gears turn. The study must have gears.
 double working_angle_rad(const Study& study, MeshKind mesh);
 
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);
 
-// Whether any mesh has a static transmission error.
+// Whether any mesh has a static transmission error: harmonics, or relief under load.
 bool has_static_errors(const Study& study);
 // Whether the teeth of any gearbox have errors of their own; a quality that says how large;
 // measured ones.

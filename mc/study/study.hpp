@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "gears/flank_relief.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
 #include "lockstep/plan/integrator.hpp"
 #include "machine/dispatch.hpp"
@@ -63,6 +64,8 @@ struct MemberValues {
     std::optional<int> teeth;
     std::optional<double> profile_shift;   // in modules; positive: thicker teeth, of the ring too
     std::optional<double> tip_diameter_m;  // by the usual rules if not given
+    // Ground off every flank, lengths along the line of action from the end of contact.
+    std::optional<double> tip_relief_m, tip_relief_length_m, root_relief_m, root_relief_length_m;
     // Of the foundation: diameter of the bore, of a ring the outer one.
     std::optional<double> held_diameter_m;
     std::optional<double> mass_kg;
@@ -101,6 +104,7 @@ struct Gearbox {
     double addendum_coefficient = 1.0;
     double dedendum_coefficient = 1.25;
     ToothProfile tooth_profile = ToothProfile::root_circle;
+    gears::ReliefShape relief_shape = gears::ReliefShape::linear;
     std::optional<double> ring_to_sun_phase;  // mesh periods; by default from the geometry
     double support_stiffness_N_m = 0.0;       // tangential, holds the fixed member
     double support_damping_N_s_m = 0.0;

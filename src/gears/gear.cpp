@@ -95,7 +95,12 @@ std::vector<std::string> shape_problems(const Gear& gear) {
         return problems;
     }
     add_inside_out(gear, problems);
-    if (gear.tip_radius() < gear.base_radius())
+    if (!gear.internal && gear.tip_radius() < gear.base_radius())
+        problems.push_back(fmt::format(
+            "the tip circle of {} teeth, {:.6g} mm in diameter, lies inside the base circle, "
+            "{:.6g} mm, so they have no involute",
+            gear.teeth, 2e3 * gear.tip_radius(), 2e3 * gear.base_radius()));
+    else if (gear.tip_radius() < gear.base_radius())
         problems.push_back(fmt::format(
             "the tip circle of the internal gear lies inside its base circle, so the involute "
             "does not reach the tip (use at least {:.0f} teeth instead of {})",

@@ -222,6 +222,10 @@ double MeshGeometry::centre_distance() const {
     return centre_distance_.value_or(tight_centre_distance(gear_1_, gear_2_));
 }
 
+double MeshGeometry::base_pitch() const {
+    return pi * gear_1_.module_m * std::cos(gear_1_.pressure_angle_rad);
+}
+
 double MeshGeometry::working_pitch_radius(int which) const {
     return working_radius(gear(which), working_angle_);
 }

@@ -37,6 +37,8 @@ class MeshGeometry {
     double contact_angle_at_start(int which) const { return start_[which - 1]; }
     double contact_angle_rate(int which) const { return rate_[which - 1]; }  // rad per mesh period
     double centre_distance() const;
+    // Along the line of action; of contact one mesh period.
+    double base_pitch() const;
     double working_pressure_angle() const { return working_angle_; }
     double working_pitch_radius(int which) const;
     // Between the flanks that do not work, along the working pitch circles, m.

@@ -170,6 +170,31 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
     }
 }
 
+// Reliefs of a gear that reach farther than its contact in that mesh.
+void check_relief(StudyDraft& draft, const gears::MeshGeometry& mesh, Member member) {
+    const gears::FlankRelief relief = relief_of(draft.study, member);
+    const double path_mm = kMmPerM * mesh.contact_ratio() * mesh.base_pitch();
+    for (const auto& [end, length_m] :
+         {std::pair{"tip", relief.tip_length_m}, std::pair{"root", relief.root_length_m}}) {
+        if (kMmPerM * length_m > path_mm) {
+            draft.reject(fmt::format("gearbox.{}_{}_relief_length_mm", member_name(member), end),
+                         fmt::format("{:.6g} mm is more than the length of contact, {:.6g} mm",
+                                     kMmPerM * length_m, path_mm),
+                         "give a shorter relief");
+        }
+    }
+}
+
+void check_reliefs(StudyDraft& draft) {
+    for (const MeshMembers& mesh : meshes_of(draft.study.gearbox.kind)) {
+        const gears::MeshGeometry geometry(gear_of(draft.study, mesh.driver),
+                                           gear_of(draft.study, mesh.driven),
+                                           working_shifts(draft.study).centre_distance_m);
+        check_relief(draft, geometry, mesh.driver);
+        check_relief(draft, geometry, mesh.driven);
+    }
+}
+
 // Where the stiffness is given, the teeth need not be possible ones.
 void check_gear_shapes(StudyDraft& draft) {
     if (stiffness_given(draft.study) || !teeth_usable(draft) || !has_gears(draft.study) ||
@@ -190,6 +215,7 @@ void check_gear_shapes(StudyDraft& draft) {
     }
     // Teeth whose mates reach below their base circle are named for that.
     if (draft.problems.size() == before) {
+        check_reliefs(draft);
         for (const Member member : toothed_members(draft.study)) {
             for (const std::string& what : gears::undercut_problems(gear_of(draft.study, member))) {
                 draft.reject(teeth_key(member), "the gear cannot be cut (" + what + ")", "");

@@ -14,6 +14,9 @@ constexpr ChoiceName kProfiles[] = {
     name("fillet", ToothProfile::fillet), name("constant", ToothProfile::constant),
     name("square-wave", ToothProfile::square_wave)};
 
+constexpr ChoiceName kReliefShapes[] = {name("linear", gears::ReliefShape::linear),
+                                        name("parabolic", gears::ReliefShape::parabolic)};
+
 using G = Gearbox;
 using F = FixedShaft;
 using E = MeshErrors;
@@ -42,6 +45,27 @@ const Key kKeys[] = {
     {"gearbox", "ring_tip_mm", number<Member::ring, &B::tip_diameter_m>, kMm, kPositive, planetary<shifted_teeth>, kGeometry, "that of the ring"},
     {"gearbox", "pinion_tip_mm", number<Member::pinion, &B::tip_diameter_m>, kMm, kPositive, fixed_shaft<shifted_teeth>, kGeometry, "that of the pinion"},
     {"gearbox", "gear_tip_mm", number<Member::gear, &B::tip_diameter_m>, kMm, kPositive, fixed_shaft<shifted_teeth>, kGeometry, "that of the gear"},
+    {"gearbox", "sun_tip_relief_um", number<Member::sun, &B::tip_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the sun's flanks at the tip, along the line of action; the transmission error of relief is that under the nominal load"},
+    {"gearbox", "sun_tip_relief_length_mm", number<Member::sun, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::sun>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "sun_root_relief_um", number<Member::sun, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the sun's flanks at the end of contact near the root, along the line of action"},
+    {"gearbox", "sun_root_relief_length_mm", number<Member::sun, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::sun>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "planet_tip_relief_um", number<Member::planet, &B::tip_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the planets' flanks at the tip, along the line of action"},
+    {"gearbox", "planet_tip_relief_length_mm", number<Member::planet, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::planet>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "planet_root_relief_um", number<Member::planet, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the planets' flanks at the end of contact near the root, along the line of action"},
+    {"gearbox", "planet_root_relief_length_mm", number<Member::planet, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::planet>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "ring_tip_relief_um", number<Member::ring, &B::tip_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the ring's flanks at the tip, along the line of action"},
+    {"gearbox", "ring_tip_relief_length_mm", number<Member::ring, &B::tip_relief_length_m>, kMm, kPositive, planetary<tip_relief_length<Member::ring>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "ring_root_relief_um", number<Member::ring, &B::root_relief_m>, kUm, kNotNegative, planetary<tooth_model>, kGeometry, "ground off the ring's flanks at the end of contact near the root, along the line of action"},
+    {"gearbox", "ring_root_relief_length_mm", number<Member::ring, &B::root_relief_length_m>, kMm, kPositive, planetary<root_relief_length<Member::ring>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "pinion_tip_relief_um", number<Member::pinion, &B::tip_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "ground off the pinion's flanks at the tip, along the line of action"},
+    {"gearbox", "pinion_tip_relief_length_mm", number<Member::pinion, &B::tip_relief_length_m>, kMm, kPositive, fixed_shaft<tip_relief_length<Member::pinion>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "pinion_root_relief_um", number<Member::pinion, &B::root_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "ground off the pinion's flanks at the end of contact near the root, along the line of action"},
+    {"gearbox", "pinion_root_relief_length_mm", number<Member::pinion, &B::root_relief_length_m>, kMm, kPositive, fixed_shaft<root_relief_length<Member::pinion>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "gear_tip_relief_um", number<Member::gear, &B::tip_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "ground off the gear's flanks at the tip, along the line of action"},
+    {"gearbox", "gear_tip_relief_length_mm", number<Member::gear, &B::tip_relief_length_m>, kMm, kPositive, fixed_shaft<tip_relief_length<Member::gear>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "gear_root_relief_um", number<Member::gear, &B::root_relief_m>, kUm, kNotNegative, fixed_shaft<tooth_model>, kGeometry, "ground off the gear's flanks at the end of contact near the root, along the line of action"},
+    {"gearbox", "gear_root_relief_length_mm", number<Member::gear, &B::root_relief_length_m>, kMm, kPositive, fixed_shaft<root_relief_length<Member::gear>>, kGeometry, "how far that reaches, along the line of action from the end of contact"},
+    {"gearbox", "relief_shape", choice<&G::relief_shape>(kReliefShapes), kNone, kAny, relief_shape, kGeometry, "how relief grows towards the end of contact: \"linear\" or \"parabolic\""},
     {"gearbox", "module_mm", number<&G::module_m>, kMm, kPositive, tooth_module, kGeometry, "module; in the transverse plane if the teeth are helical"},
     {"gearbox", "pressure_angle_deg", number<&G::pressure_angle_rad>, kDeg, inside(0, 45), always, kGeometry, "pressure angle; in the normal plane if the teeth are helical"},
     {"gearbox", "helix_angle_deg", number<&G::helix_angle_rad>, kDeg, Range{0.0, 45.0, false, true}, planetary<helix>, kGeometry, "helix angle"},

@@ -1,5 +1,7 @@
 #include "mc/study/schema/presence.hpp"
 
+#include <fmt/format.h>
+
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 
@@ -78,6 +80,20 @@ Presence shifted_teeth(const Study& s) {
                         : Presence{Need::forbidden,
                                    "it needs the gears' teeth and module",
                                    {"gearbox.module_mm"}};
+}
+
+Presence relief_shape(const Study& s) {
+    return has_relief(s) ? kOptional
+                         : Presence{Need::forbidden, "only with tip or root relief", {}};
+}
+
+Presence relief_length(const Study& s, Member member, std::string_view end) {
+    const MemberValues& body = s.gearbox.bodies[member];
+    const auto& amount = end == "tip" ? body.tip_relief_m : body.root_relief_m;
+    const std::string key = fmt::format("gearbox.{}_{}_relief_um", member_name(member), end);
+    return !amount         ? Presence{Need::forbidden, "only with " + key, {}}
+           : *amount > 0.0 ? Presence{Need::required, key + " is given", {}}
+                           : kOptional;
 }
 
 Presence tooth_body(const Study& s) {

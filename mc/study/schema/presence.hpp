@@ -19,9 +19,21 @@ Presence fixed_shaft(const Study& s) {
     return of_kind(s, GearboxKind::fixed_shaft, Rule);
 }
 
+// The length of a member's relief: with its amount, and then required.
+Presence relief_length(const Study&, Member member, std::string_view end);
+template <Member kMember>
+Presence tip_relief_length(const Study& s) {
+    return relief_length(s, kMember, "tip");
+}
+template <Member kMember>
+Presence root_relief_length(const Study& s) {
+    return relief_length(s, kMember, "root");
+}
+
 Presence tooth_numbers(const Study&);       // unless the stiffness is constant
 Presence tooth_module(const Study&);        // as these; a fixed-shaft gearbox always needs it
 Presence shifted_teeth(const Study&);       // only if the gears are known
+Presence relief_shape(const Study&);        // only with relief
 Presence tooth_body(const Study&);          // unless the stiffness is given
 Presence tooth_model(const Study&);         // only if it is not
 Presence helix(const Study&);               // only if the stiffness is given

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lockstep/plan/stiffness_nodes.hpp"
+#include "stiffness/loaded_mesh.hpp"
 
 namespace gearpod::lockstep {
 
@@ -27,5 +28,9 @@ ErrorValue error_at(const MeshError& error, double x);
 // Adds the pairs' errors, one each, to the nodes' columns.
 void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const MeshError> errors,
                 StiffnessNodes& nodes);
+
+// The same of relieved flanks under the load they are given with, one each.
+void add_relief(const PairSet& pairs, const PhaseGrid& grid,
+                std::span<const stiffness::LoadedMesh* const> loaded, StiffnessNodes& nodes);
 
 }  // namespace gearpod::lockstep

