@@ -131,7 +131,7 @@ void check_train(StudyDraft& draft) {
     if (placed && problems.empty()) {
         check_positions_fit(draft, train);
     }
-    if (placed && draft.usable("gearbox.planet_positions_deg")) {
+    if (placed && problems.empty() && draft.usable("gearbox.planet_positions_deg")) {
         for (const std::string& what : assembly_problems(draft, all)) {
             draft.reject("gearbox.planet_positions_deg", what, "");
         }

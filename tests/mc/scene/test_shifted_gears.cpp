@@ -110,6 +110,13 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets where the
     }
 }
 
+TEST_CASE("Standard planets that cannot be spaced equally go to the nearest places, too") {
+    const auto three = mc::planetary_train(study_of(tests::kExampleStudy, {"gearbox.planets=3"}));
+    CHECK(gears::planet_places(three).place == std::vector<int>{0, 33, 67});
+    const auto four = mc::planetary_train(study_of(tests::kExampleStudy));
+    CHECK(four.positions_rad.empty());
+}
+
 TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their shape") {
     for (const std::string profile : {"base-circle", "root-circle", "fillet"}) {
         for (const std::string where :
