@@ -16,6 +16,9 @@ std::string teeth(const Study& study) {
     if (!has_tooth_errors(study)) {
         return "identical teeth";
     }
+    if (study.find_random("gearbox.tooth_quality") != nullptr) {
+        return "teeth of ISO 1328 grades that vary";
+    }
     return study.errors.tooth_quality
                ? fmt::format("teeth of ISO 1328 grade {:g}", *study.errors.tooth_quality)
                : "teeth that differ";

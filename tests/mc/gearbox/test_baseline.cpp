@@ -34,8 +34,8 @@ class Computed {
           features_(scene_, &healthy_) {
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             REQUIRE(tile_.status[lane] == Status::ok);
-            values_.push_back(features_.compute(signals(static_cast<int>(lane)),
-                                                tile_.inputs[lane], ids[lane]));
+            values_.push_back(
+                features_.compute(signals(static_cast<int>(lane)), tile_.inputs[lane], ids[lane]));
         }
     }
     double value(std::size_t feature, std::size_t level = 0, std::size_t gearbox = 0) const {
@@ -76,8 +76,8 @@ TEST_CASE("Without noise and at the same torque a healthy gearbox is as its base
 }
 
 TEST_CASE("Over its baseline a feature is that of the gearbox before its fault") {
-    const Study study = study_with({kCompared, "sensor.noise_levels=[0, 1]",
-                                    "features.baseline_torque_scatter=0.03"});
+    const Study study = study_with(
+        {kCompared, "sensor.noise_levels=[0, 1]", "features.baseline_torque_scatter=0.03"});
     const Computed faulty(study, {kFaulty});
     GearboxId before = kFaulty;
     before.record = Record::baseline;
@@ -120,7 +120,8 @@ TEST_CASE("A baseline's values do not depend on the gearboxes beside it") {
 
 TEST_CASE("The torque of baseline records is scattered as asked for, on both shafts") {
     const Study study = test::shipped_study(
-        "tian-fig-4-9.toml", {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
+        "tian-fig-4-9.toml",
+        {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
     const Sampler sampler(study);
     double sum = 0.0, squares = 0.0;
     constexpr int kGearboxes = 4000;

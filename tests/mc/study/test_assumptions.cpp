@@ -21,4 +21,8 @@ TEST_CASE("An answer says which teeth and planets it is for") {
 
     CHECK_THAT(assumptions(shipped_study("planet-crack.toml", {"gearbox.pitch_error_um=2"})),
                Catch::Contains("teeth that differ"));
+    CHECK_THAT(
+        assumptions(shipped_study("real-teeth.toml")),
+        Catch::Contains("grades that vary") &&
+            Catch::Contains("a healthy record of the same gearbox, at a torque 2 % (rms) off"));
 }
