@@ -9,8 +9,9 @@ namespace {
 
 // At a distance from the end of contact.
 double ground_off(double amount, double length, ReliefShape shape, double distance) {
-    if (!(amount > 0) || distance >= length)
+    if (!(amount > 0) || distance >= length) {
         return 0;
+    }
     const double part = 1 - distance / length;
     return amount * (shape == ReliefShape::linear ? part : part * part);
 }
@@ -32,8 +33,9 @@ std::vector<double> relief_kinks(const MeshGeometry& mesh, const FlankRelief& ge
     const double ratio = mesh.contact_ratio(), pitch = mesh.base_pitch();
     std::vector<double> kinks;
     const auto add = [&](double amount, double tau) {
-        if (amount > 0 && tau > 0 && tau < ratio)
+        if (amount > 0 && tau > 0 && tau < ratio) {
             kinks.push_back(tau);
+        }
     };
     add(gear_1.root_m, gear_1.root_length_m / pitch);
     add(gear_2.tip_m, gear_2.tip_length_m / pitch);

@@ -15,16 +15,18 @@ double involute(double angle_rad) {
 }
 
 double inverse_involute(double value) {
-    if (!(value > 0))
+    if (!(value > 0)) {
         return 0;
+    }
     // tan a - a is near a^3 / 3 for small angles and convex: Newton's method falls to the root from
     // above.
     double angle = std::min(std::cbrt(3 * value), 1.57);
     for (int step = 0; step < 60; ++step) {
         const double slope = std::tan(angle) * std::tan(angle);
         const double next = angle - (involute(angle) - value) / slope;
-        if (!(next < angle))
+        if (!(next < angle)) {
             break;
+        }
         angle = next;
     }
     return angle;
@@ -39,8 +41,9 @@ double Gear::base_radius() const {
 }
 
 double Gear::tip_radius() const {
-    if (given_tip_radius_m)
+    if (given_tip_radius_m) {
         return *given_tip_radius_m;
+    }
     const double addendum = (addendum_coefficient + profile_shift - tip_shortening) * module_m;
     return internal ? pitch_radius() - addendum : pitch_radius() + addendum;
 }
@@ -78,12 +81,13 @@ namespace {
 void add_inside_out(const Gear& gear, std::vector<std::string>& problems) {
     const bool inside_out = gear.internal ? gear.tip_radius() >= gear.root_radius()
                                           : gear.tip_radius() <= gear.root_radius();
-    if (inside_out)
+    if (inside_out) {
         problems.push_back(
             fmt::format("the tip circle of {} teeth, {:.6g} mm in diameter, does not lie {} the "
                         "root circle, {:.6g} mm",
                         gear.teeth, 2e3 * gear.tip_radius(), gear.internal ? "inside" : "outside",
                         2e3 * gear.root_radius()));
+    }
 }
 
 std::vector<std::string> shape_problems(const Gear& gear) {
@@ -95,31 +99,32 @@ std::vector<std::string> shape_problems(const Gear& gear) {
         return problems;
     }
     add_inside_out(gear, problems);
-    if (!gear.internal && gear.tip_radius() < gear.base_radius())
+    if (!gear.internal && gear.tip_radius() < gear.base_radius()) {
         problems.push_back(fmt::format(
             "the tip circle of {} teeth, {:.6g} mm in diameter, lies inside the base circle, "
             "{:.6g} mm, so they have no involute",
             gear.teeth, 2e3 * gear.tip_radius(), 2e3 * gear.base_radius()));
-    else if (gear.tip_radius() < gear.base_radius())
+    } else if (gear.tip_radius() < gear.base_radius()) {
         problems.push_back(fmt::format(
             "the tip circle of the internal gear lies inside its base circle, so the involute "
             "does not reach the tip (use at least {:.0f} teeth instead of {})",
             std::ceil(2 * (gear.addendum_coefficient + gear.profile_shift - gear.tip_shortening) /
                       (1 - std::cos(gear.pressure_angle_rad))),
             gear.teeth));
-    else if (gear.half_angle_at(gear.tip_radius()) <= 0)
+    } else if (gear.half_angle_at(gear.tip_radius()) <= 0) {
         problems.push_back(fmt::format(
             "the flanks of a tooth cross below the tip circle, where it would be {:.3f} mm thick "
             "({} teeth, addendum {:.4g} modules: use a smaller addendum{})",
             1e3 * gear.thickness_at(gear.tip_radius()), gear.teeth,
             std::abs(gear.tip_radius() - gear.pitch_radius()) / gear.module_m,
             gear.profile_shift > 0 ? " or less shift" : ""));
-    else if (const double root = gear.root_radius();
-             gear.internal && 2 * pi / gear.teeth - 2 * gear.half_angle_at(root) <= 0)
+    } else if (const double root = gear.root_radius();
+               gear.internal && 2 * pi / gear.teeth - 2 * gear.half_angle_at(root) <= 0) {
         problems.push_back(fmt::format(
             "the spaces between {} internal teeth close before the root circle (shift them by "
             "more than {:g})",
             gear.teeth, gear.profile_shift));
+    }
     return problems;
 }
 
@@ -128,8 +133,9 @@ std::vector<std::string> shape_problems(const Gear& gear) {
 std::vector<std::string> gear_problems(const Gear& gear) {
     std::vector<std::string> problems;
     const auto require = [&](bool holds, std::string message) {
-        if (!holds)
+        if (!holds) {
             problems.push_back(std::move(message));
+        }
     };
     require(gear.teeth >= 4, fmt::format("a gear has {} teeth (at least 4)", gear.teeth));
     require(gear.module_m > 0, fmt::format("the module is {} m (must be positive)", gear.module_m));

@@ -78,18 +78,21 @@ double clearance_of_tip(const Gear& gear_1, const Gear& gear_2, double distance,
 
 std::vector<std::string> pair_problems(const Gear& gear_1, const Gear& gear_2) {
     std::vector<std::string> problems;
-    if (gear_1.internal)
+    if (gear_1.internal) {
         problems.emplace_back("gear 1 of a mesh is internal (the internal gear is gear 2)");
+    }
     if (gear_1.module_m != gear_2.module_m ||
-        gear_1.pressure_angle_rad != gear_2.pressure_angle_rad)
+        gear_1.pressure_angle_rad != gear_2.pressure_angle_rad) {
         problems.push_back(
             fmt::format("meshing gears differ in module ({} and {} m) or pressure angle ({} and {} "
                         "rad): use one",
                         gear_1.module_m, gear_2.module_m, gear_1.pressure_angle_rad,
                         gear_2.pressure_angle_rad));
-    if (gear_2.internal && gear_2.teeth <= gear_1.teeth)
+    }
+    if (gear_2.internal && gear_2.teeth <= gear_1.teeth) {
         problems.push_back(fmt::format("an internal gear of {} teeth cannot hold one of {}",
                                        gear_2.teeth, gear_1.teeth));
+    }
     return problems;
 }
 
@@ -100,22 +103,24 @@ void fit_problems(const Gear& gear_1, const Gear& gear_2, double angle,
     constexpr double kRounded = 2e-3;  // modules
     const double backlash = backlash_between(gear_1, gear_2, angle);
     const double distance = distance_at(gear_1, gear_2, angle);
-    if (backlash < -kRounded * gear_1.module_m)
+    if (backlash < -kRounded * gear_1.module_m) {
         problems.push_back(fmt::format(
             "teeth of {} and {} are {:.4f} mm thicker than the pitch at a centre distance of "
             "{:.6g} mm leaves room for (their shifts sum up to {:.4f}, {:.4f} fits)",
             gear_1.teeth, gear_2.teeth, -1e3 * backlash, 1e3 * distance,
             gear_1.profile_shift + gear_2.profile_shift,
             tight_shift_sum(gear_1, gear_2, distance)));
+    }
     for (const int which : {1, 2}) {
         const double clearance = clearance_of_tip(gear_1, gear_2, distance, which);
         const Gear& tip = which == 1 ? gear_1 : gear_2;
-        if (clearance < -kRounded * gear_1.module_m)
+        if (clearance < -kRounded * gear_1.module_m) {
             problems.push_back(fmt::format(
                 "the tips of {} teeth run {:.4f} mm into the root circle of {} teeth (let the tip "
                 "diameter be {:.6g} mm)",
                 tip.teeth, -1e3 * clearance, (which == 1 ? gear_2 : gear_1).teeth,
                 2e3 * (tip.tip_radius() + (tip.internal ? -clearance : clearance))));
+        }
     }
 }
 
@@ -125,8 +130,9 @@ void crossing_problems(const Gear& gear_1, const Gear& gear_2, double angle,
                        std::vector<std::string>& problems) {
     const double a = distance_at(gear_1, gear_2, angle);
     const double r_1 = gear_1.tip_radius(), r_2 = gear_2.tip_radius();
-    if (!gear_2.internal || r_2 >= a + r_1)
+    if (!gear_2.internal || r_2 >= a + r_1) {
         return;
+    }
     const auto inv_at = [](const Gear& gear, double radius) {
         return involute(std::acos(std::min(1.0, gear.base_radius() / radius)));
     };
@@ -136,11 +142,12 @@ void crossing_problems(const Gear& gear_1, const Gear& gear_2, double angle,
     const double turn_2 = angle_of((a * a + r_2 * r_2 - r_1 * r_1) / (2 * a * r_2));
     const double room =
         turn_1 * gear_1.teeth / gear_2.teeth + involute(angle) - inv_at(gear_2, r_2) - turn_2;
-    if (room < 0)
+    if (room < 0) {
         problems.push_back(fmt::format(
             "the tips of {} teeth overlap those of the {} internal teeth by {:.3f} degrees where "
             "they pass (a larger difference of tooth numbers, or smaller addenda)",
             gear_1.teeth, gear_2.teeth, -room * 180 / pi));
+    }
 }
 
 void contact_problems(const Gear& gear_1, const Gear& gear_2, double angle,
@@ -154,17 +161,20 @@ void contact_problems(const Gear& gear_1, const Gear& gear_2, double angle,
             "a smaller addendum or tip circles given)",
             high.teeth, low.teeth, 1e3 * below));
     };
-    if (line.start < 0)
+    if (line.start < 0) {
         interference(gear_1, gear_2, -line.start);
-    if (!gear_2.internal && end_on_2 < 0)
+    }
+    if (!gear_2.internal && end_on_2 < 0) {
         interference(gear_2, gear_1, -end_on_2);
+    }
     const double base_pitch = pi * gear_1.module_m * std::cos(gear_1.pressure_angle_rad);
     const double contact_ratio = (line.end - line.start) / base_pitch;
-    if (problems.empty() && contact_ratio < 1)
+    if (problems.empty() && contact_ratio < 1) {
         problems.push_back(
             fmt::format("the contact ratio of {} against {} teeth is {:.3f}: at times no "
                         "pair touches (use a larger addendum)",
                         gear_1.teeth, gear_2.teeth, contact_ratio));
+    }
 }
 
 }  // namespace
@@ -172,12 +182,15 @@ void contact_problems(const Gear& gear_1, const Gear& gear_2, double angle,
 std::vector<std::string> mesh_problems(const Gear& gear_1, const Gear& gear_2,
                                        std::optional<double> centre_distance_m) {
     std::vector<std::string> problems = gear_problems(gear_1);
-    for (auto& problem : gear_problems(gear_2))
+    for (auto& problem : gear_problems(gear_2)) {
         problems.push_back(std::move(problem));
-    for (auto& problem : pair_problems(gear_1, gear_2))
+    }
+    for (auto& problem : pair_problems(gear_1, gear_2)) {
         problems.push_back(std::move(problem));
-    if (!problems.empty())
+    }
+    if (!problems.empty()) {
         return problems;
+    }
     const double angle = working_angle(gear_1, gear_2, centre_distance_m);
     if (!(angle > 0)) {
         const double base = 1e3 * base_centre_distance(gear_1, gear_2);
@@ -202,8 +215,9 @@ MeshGeometry::MeshGeometry(const Gear& gear_1, const Gear& gear_2,
       centre_distance_(centre_distance_m),
       working_angle_(working_angle(gear_1, gear_2, centre_distance_m)) {
     const auto problems = mesh_problems(gear_1, gear_2, centre_distance_m);
-    if (!problems.empty())
+    if (!problems.empty()) {
         throw std::invalid_argument(fmt::format("{}", fmt::join(problems, "; ")));
+    }
     const LineOfAction line = line_of_action(gear_1, gear_2, working_angle_);
     const double base_pitch = pi * gear_1.module_m * std::cos(gear_1.pressure_angle_rad);
     contact_ratio_ = (line.end - line.start) / base_pitch;

@@ -52,11 +52,12 @@ void equal_spacing_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                         teeth, n, below, below + n));
     }
     const double between_axes = 2 * room.centre_distance * std::sin(pi / n);
-    if (n > 1 && between_axes <= room.tip_diameter)
+    if (n > 1 && between_axes <= room.tip_diameter) {
         problems.push_back(
             fmt::format("the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
                         "diameter {:.2f} modules (at most {} planets)",
                         n, between_axes, room.tip_diameter, planets_with_room(room)));
+    }
 }
 
 double degrees(double angle_rad) {
@@ -74,36 +75,40 @@ void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                                        psi.size(), train.planets));
         return;
     }
-    if (psi[0] != 0)
+    if (psi[0] != 0) {
         problems.push_back(fmt::format(
             "planet 1 is at {:.4g} degrees (positions are counted from it: 0)", degrees(psi[0])));
+    }
     for (std::size_t n = 1; n < psi.size(); ++n)
-        if (!(psi[n] > psi[n - 1] && psi[n] < 2 * pi))
+        if (!(psi[n] > psi[n - 1] && psi[n] < 2 * pi)) {
             problems.push_back(
                 fmt::format("planet {} at {:.4g} degrees does not follow planet {} at {:.4g} "
                             "degrees (positions "
                             "ascend from 0 and stay below 360)",
                             n + 1, degrees(psi[n]), n, degrees(psi[n - 1])));
+        }
     const int places = train.sun_teeth + train.ring_teeth;
     for (std::size_t n = 0; n < psi.size(); ++n) {
         const double place = psi[n] * places / (2 * pi);
-        if (!(std::abs(place - std::round(place)) <= kPlaceTolerance))
+        if (!(std::abs(place - std::round(place)) <= kPlaceTolerance)) {
             problems.push_back(fmt::format(
                 "planet {} does not mesh at {:.6g} degrees, (sun + ring) x position / 360 = {:.4f} "
                 "is not an integer ({:.6f} or {:.6f} degrees would do)",
                 n + 1, degrees(psi[n]), place, std::floor(place) * 360 / places,
                 std::ceil(place) * 360 / places));
+        }
     }
     const PlanetPlaces at = planet_places(train);
     for (int n = 0; n < train.planets; ++n)
         for (int m = 0; m < n; ++m) {
             const double apart = planet_angle(at, n) - planet_angle(at, m);
             const double between_axes = 2 * room.centre_distance * std::abs(std::sin(apart / 2));
-            if (between_axes <= room.tip_diameter)
+            if (between_axes <= room.tip_diameter) {
                 problems.push_back(fmt::format(
                     "the tip circles of planets {} and {} touch: axes {:.2f} modules apart, tip "
                     "diameter {:.2f} modules (move them apart)",
                     m + 1, n + 1, between_axes, room.tip_diameter));
+            }
         }
 }
 
@@ -113,8 +118,9 @@ PlanetPlaces planet_places(const PlanetaryTrain& train) {
     PlanetPlaces at;
     if (train.positions_rad.empty()) {
         at.places = train.planets;
-        for (int n = 0; n < train.planets; ++n)
+        for (int n = 0; n < train.planets; ++n) {
             at.place.push_back(n);
+        }
         return at;
     }
     at.places = train.sun_teeth + train.ring_teeth;
@@ -143,12 +149,13 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train,
                                            double addendum_coefficient) {
     const int s = train.sun_teeth, p = train.planet_teeth, r = train.ring_teeth;
     auto problems = assembly_problems(train, standard_room(train, addendum_coefficient));
-    if (s >= 1 && p >= 1 && r >= 1 && train.planets >= 1 && r != s + 2 * p)
+    if (s >= 1 && p >= 1 && r >= 1 && train.planets >= 1 && r != s + 2 * p) {
         problems.insert(
             problems.begin(),
             fmt::format("the ring has {} teeth, sun + 2 planet is {} + 2 x {} = {} (the planets "
                         "fit between sun and ring only if they are equal, or with profile shift)",
                         r, s, p, s + 2 * p));
+    }
     return problems;
 }
 
@@ -160,10 +167,11 @@ std::vector<std::string> assembly_problems(const PlanetaryTrain& train, const Pl
             "sun {}, planet {}, ring {} teeth and {} planets must be positive", s, p, r, n));
         return problems;
     }
-    if (train.positions_rad.empty())
+    if (train.positions_rad.empty()) {
         equal_spacing_problems(train, room, problems);
-    else
+    } else {
         position_problems(train, room, problems);
+    }
     return problems;
 }
 
@@ -221,9 +229,10 @@ Speeds train_speeds(const PlanetaryTrain& train, FixedMember fixed, Member given
     const bool stands = (fixed == FixedMember::ring && given == Member::ring) ||
                         (fixed == FixedMember::sun && given == Member::sun) ||
                         (fixed == FixedMember::carrier && given == Member::carrier);
-    if (stands)
+    if (stands) {
         throw std::invalid_argument(
             "the speed of the fixed member is given (it is 0: give another one)");
+    }
     // Relative to the carrier sun and ring turn as -Z_r : Z_s. Take their speeds there for a unit
     // tooth speed.
     const double sun = 1 / s, ring = -1 / r, planet = -1 / p;

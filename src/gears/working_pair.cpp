@@ -38,30 +38,34 @@ double base_centre_distance(const Gear& gear_1, const Gear& gear_2) {
 }
 
 double working_angle_at(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
-    if (is_reference(gear_1, gear_2, centre_distance_m))
+    if (is_reference(gear_1, gear_2, centre_distance_m)) {
         return gear_1.pressure_angle_rad;
+    }
     const double cosine = base_centre_distance(gear_1, gear_2) / centre_distance_m;
     return cosine < 1 ? std::acos(cosine) : 0;
 }
 
 double tight_working_angle(const Gear& gear_1, const Gear& gear_2) {
     const double sum = gear_1.profile_shift + gear_2.profile_shift;
-    if (sum == 0)
+    if (sum == 0) {
         return gear_1.pressure_angle_rad;
+    }
     const double slope = 2 * std::tan(gear_1.pressure_angle_rad);
     const double teeth = signed_teeth(gear_1) + signed_teeth(gear_2);
     return inverse_involute(involute(gear_1.pressure_angle_rad) + slope * sum / teeth);
 }
 
 double tight_centre_distance(const Gear& gear_1, const Gear& gear_2) {
-    if (gear_1.profile_shift + gear_2.profile_shift == 0)
+    if (gear_1.profile_shift + gear_2.profile_shift == 0) {
         return reference_centre_distance(gear_1, gear_2);
+    }
     return base_centre_distance(gear_1, gear_2) / std::cos(tight_working_angle(gear_1, gear_2));
 }
 
 double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_distance_m) {
-    if (is_reference(gear_1, gear_2, centre_distance_m))
+    if (is_reference(gear_1, gear_2, centre_distance_m)) {
         return 0;
+    }
     const double grown = involute(working_angle_at(gear_1, gear_2, centre_distance_m)) -
                          involute(gear_1.pressure_angle_rad);
     const double teeth = signed_teeth(gear_1) + signed_teeth(gear_2);
@@ -71,8 +75,9 @@ double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_dis
 std::vector<std::string> undercut_problems(const Gear& gear) {
     constexpr double kHarmless = 0.2;
     const double least = gear.shift_without_undercut() - kHarmless * gear.addendum_coefficient;
-    if (gear.internal || gear.profile_shift >= least)
+    if (gear.internal || gear.profile_shift >= least) {
         return {};
+    }
     return {
         fmt::format("{} teeth are undercut with a profile shift of {:g} (shift by {:.3f} or "
                     "more, or use a larger pressure angle)",
@@ -96,12 +101,14 @@ WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear*
         set.second = drawn.second.value_or(0);
         distance = tight_centre_distance(shifted(gear_1, set.first), shifted(gear_2, set.second));
     }
-    if (ring != nullptr)
+    if (ring != nullptr) {
         set.ring = drawn.ring.value_or(tight_shift_sum(gear_2, *ring, distance) - set.second);
+    }
     const bool standard = is_reference(gear_1, gear_2, distance) &&
                           (ring == nullptr || is_reference(gear_2, *ring, distance));
-    if (!standard)
+    if (!standard) {
         set.centre_distance_m = distance;
+    }
     const double grown =
         is_reference(gear_1, gear_2, distance)
             ? 0

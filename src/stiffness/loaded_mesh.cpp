@@ -25,8 +25,9 @@ double approach_of(std::vector<TouchingPair> pairs, double force) {
         stiffness += pairs[n].stiffness;
         preload += pairs[n].stiffness * pairs[n].gap;
         const double d = (force + preload) / stiffness;
-        if (n + 1 == pairs.size() || d <= pairs[n + 1].gap)
+        if (n + 1 == pairs.size() || d <= pairs[n + 1].gap) {
             return d;
+        }
     }
     return std::numeric_limits<double>::infinity();
 }
@@ -36,8 +37,9 @@ double approach_of(std::vector<TouchingPair> pairs, double force) {
 LoadedMesh::LoadedMesh(const MeshStiffness& mesh, std::function<double(double)> gap,
                        std::vector<double> kinks, double force_N)
     : mesh_(mesh), gap_(std::move(gap)), force_(force_N), phases_(mesh.transitions()) {
-    for (const double kink : kinks)
+    for (const double kink : kinks) {
         phases_.push_back(kink - std::floor(kink));
+    }
     std::sort(phases_.begin(), phases_.end());
     phases_.erase(std::unique(phases_.begin(), phases_.end(),
                               [](double a, double b) { return b - a < kPositionTolerance; }),
@@ -54,8 +56,9 @@ double LoadedMesh::approach(double tau, double inside) const {
         const double position = tau + age;
         double share = 0;
         mesh_.share({&position, 1}, inside + age, {&share, 1});
-        if (share > 0)
+        if (share > 0) {
             pairs.push_back({share * total, gap_(position)});
+        }
     }
     return approach_of(std::move(pairs), force_);
 }

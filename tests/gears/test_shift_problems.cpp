@@ -26,17 +26,19 @@ Gear gear(int teeth, double shift = 0) {
 
 bool says(const std::vector<std::string>& problems, const std::string& text) {
     for (const auto& problem : problems)
-        if (problem.find(text) != std::string::npos)
+        if (problem.find(text) != std::string::npos) {
             return true;
+        }
     return false;
 }
 
 }  // namespace
 
 TEST_CASE("the inverse of the involute is its inverse") {
-    for (const double degrees : {0.01, 1.0, 15.0, 20.0, 45.0, 80.0})
+    for (const double degrees : {0.01, 1.0, 15.0, 20.0, 45.0, 80.0}) {
         CHECK(inverse_involute(involute(degrees * kDegree)) ==
               Approx(degrees * kDegree).epsilon(1e-9));
+    }
     CHECK(inverse_involute(0) == 0);
     CHECK(inverse_involute(-1) == 0);
 }
@@ -159,8 +161,9 @@ TEST_CASE("the ring mesh follows the sun mesh as the planet's flanks do") {
     for (int tooth = 0; tooth < 35; ++tooth) {
         const double leading = half_at_sun + tooth * pitch + half_at_ring;
         const double turn = std::numbers::pi - leading;
-        if (turn >= 0 && turn < pitch)
+        if (turn >= 0 && turn < pitch) {
             later = turn / pitch;
+        }
     }
     const PlanetaryTrain train{27, 35, 99, 4};
     CHECK(ring_to_sun_phase(train, planet, sun_angle, ring_angle, PlanetSense::clockwise) ==

@@ -83,8 +83,9 @@ TEST_CASE("a shifted tooth gives way like the slices between its flanks") {
             for (const double part : {0.1, 0.5, 0.9}) {
                 const gears::Gear& own = mesh.gear(which);
                 // Where the root lies above the base circle the beam is involute all along.
-                if (!own.internal && own.root_radius() < own.base_radius())
+                if (!own.internal && own.root_radius() < own.base_radius()) {
                     continue;
+                }
                 const double tau = part * mesh.contact_ratio();
                 const ToothProfile profile(own, Profile::root_circle);
                 CHECK(tooth_compliance(profile, kSteel, mesh.contact_angle(which, tau)).total() ==
@@ -113,9 +114,10 @@ TEST_CASE("both gears of a shifted pair are touched at one point of the line of 
     }
     // At the pitch point both are touched on their working circles.
     for (const gears::MeshGeometry& mesh : {sun, ring})
-        for (const int which : {1, 2})
+        for (const int which : {1, 2}) {
             CHECK(mesh.contact_radius(which, mesh.pitch_position()) ==
                   Approx(mesh.working_pitch_radius(which)).epsilon(1e-12));
+        }
 }
 
 TEST_CASE("thicker roots stiffen a pinion, and explicit zero shifts change no bit") {
@@ -123,8 +125,9 @@ TEST_CASE("thicker roots stiffen a pinion, and explicit zero shifts change no bi
         shifted(gear(23, 0.4), gear(41, -0.4)), zero(gear(23, 0.0), gear(41, 0.0), 96e-3);
     for (const Profile profile : {Profile::base_circle, Profile::root_circle, Profile::fillet}) {
         const AdditiveMesh one(plain, kSteel, profile), two(zero, kSteel, profile);
-        for (const double tau : {0.1, 0.7, 1.2})
+        for (const double tau : {0.1, 0.7, 1.2}) {
             CHECK(one.tooth_pair(tau) == two.tooth_pair(tau));
+        }
         const auto at_pitch = [&](const gears::MeshGeometry& mesh) {
             return tooth_compliance(ToothProfile(mesh.gear(1), profile), kSteel,
                                     mesh.contact_angle(1, mesh.pitch_position()))
