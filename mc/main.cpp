@@ -59,6 +59,28 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
+void add_signal_reading(CLI::App& command, SignalColumns& columns) {
+    command.add_option("--sensor-unit", columns.sensor_unit,
+                       "unit of the acceleration where the file says none (default: m/s^2)");
+    command.add_option(
+        "--tachometer", columns.tachometer,
+        "column of a tachometer's pulses, of the member whose speed the study gives");
+    command
+        .add_option("--pulses-per-turn", columns.pulses_per_turn, "of the tachometer (default: 1)")
+        ->check(CLI::Range(1.0, 1e5));
+    command
+        .add_option_function<std::string>(
+            "--speed",
+            [&columns](const std::string& value) {
+                columns.speed = value == "found"    ? SpeedCheck::follow
+                                : value == "stated" ? SpeedCheck::ignore
+                                                    : SpeedCheck::refuse;
+            },
+            "check (default): refuse a speed that the mesh lines do not fit; found: take theirs; "
+            "stated: do not look")
+        ->check(CLI::IsMember({"check", "found", "stated"}));
+}
+
 void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
     auto* command = app.add_subcommand(
         "features", "the features of measured signals (CSV, HDF5, MAT), one or many");
@@ -94,6 +116,11 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
         command->add_option("--out", features.out, "of many: results file (HDF5) for `report`"));
     needs_name(command->add_option("--csv", features.csv, "of many: table, to a file, or to -"));
     command->add_flag("--quiet", features.quiet, "no progress");
+    add_signal_reading(*command, features.columns);
+    needs_name(command->add_option("--against", features.against,
+                                   "alarm or not, by the healthy gearboxes of a results file"));
+    command->add_option("--feature", features.feature,
+                        "the feature that decides it (default: the best ranked there)");
     command->callback([&] { code = features_command(features); });
 }
 

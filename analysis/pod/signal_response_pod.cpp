@@ -12,7 +12,7 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr std::size_t kFewest = 10;  // points for the checks to mean anything
-constexpr double kPod = 0.9;
+constexpr double kFoundShare = 0.9;
 
 ResponseRows rows_of(std::span<const double> sizes, std::span<const double> responses,
                      std::span<const long> specimen) {
@@ -129,9 +129,9 @@ SignalResponsePod signal_response_pod(std::span<const double> sizes,
     const double smallest = *distinct.begin(), largest = *distinct.rbegin();
     const auto bounds = bounds_of(*best, request.threshold, request);
     pod.a50 = bounds->size(0.5, smallest, largest);
-    pod.a90 = bounds->size(kPod, smallest, largest);
+    pod.a90 = bounds->size(kFoundShare, smallest, largest);
     if (request.target) {
-        pod.specimens_factor = bounds->specimens(kPod, *request.target);
+        pod.specimens_factor = bounds->specimens(kFoundShare, *request.target);
     }
     for (int i = 0; i < request.band_points; ++i) {
         pod.band.push_back(
@@ -143,7 +143,7 @@ SignalResponsePod signal_response_pod(std::span<const double> sizes,
 ThresholdBounds bounds_at(const SignalResponsePod& pod, const SignalResponseRequest& request,
                           double threshold, double smallest, double largest) {
     const auto bounds = bounds_of(pod.candidates[pod.chosen], threshold, request);
-    return {bounds->size(0.5, smallest, largest), bounds->size(kPod, smallest, largest)};
+    return {bounds->size(0.5, smallest, largest), bounds->size(kFoundShare, smallest, largest)};
 }
 
 }  // namespace gearpod::analysis

@@ -11,14 +11,14 @@ using Function = std::function<double(const Eigen::VectorXd&)>;
 
 constexpr double kStep = 1e-4;  // of the differences, against parameters of order 1
 
-struct Slopes {
+struct Curvature {
     Eigen::VectorXd score;
     Eigen::MatrixXd information;
 };
 
-Slopes differences(const Function& function, const Eigen::VectorXd& at, double value) {
+Curvature differences(const Function& function, const Eigen::VectorXd& at, double value) {
     const Eigen::Index n = at.size();
-    Slopes slopes{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
+    Curvature curvature{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
     const auto moved = [&](Eigen::Index i, double by_i, Eigen::Index j, double by_j) {
         Eigen::VectorXd there = at;
         there[i] += by_i;
@@ -28,30 +28,30 @@ Slopes differences(const Function& function, const Eigen::VectorXd& at, double v
     for (Eigen::Index i = 0; i < n; ++i) {
         const double h = kStep * std::max(1.0, std::abs(at[i]));
         const double up = moved(i, h, i, 0.0), down = moved(i, -h, i, 0.0);
-        slopes.score[i] = (up - down) / (2.0 * h);
-        slopes.information(i, i) = (2.0 * value - up - down) / (h * h);
+        curvature.score[i] = (up - down) / (2.0 * h);
+        curvature.information(i, i) = (2.0 * value - up - down) / (h * h);
         for (Eigen::Index j = 0; j < i; ++j) {
             const double k = kStep * std::max(1.0, std::abs(at[j]));
             const double mixed =
                 moved(i, h, j, k) - moved(i, h, j, -k) - moved(i, -h, j, k) + moved(i, -h, j, -k);
-            slopes.information(i, j) = slopes.information(j, i) = -mixed / (4.0 * h * k);
+            curvature.information(i, j) = curvature.information(j, i) = -mixed / (4.0 * h * k);
         }
     }
-    return slopes;
+    return curvature;
 }
 
 // Newton's step; towards the steepest rise as far as the function is not concave.
-Eigen::VectorXd uphill(const Slopes& slopes) {
-    const double scale = std::max(1e-12, slopes.information.diagonal().cwiseAbs().maxCoeff());
+Eigen::VectorXd uphill(const Curvature& curvature) {
+    const double scale = std::max(1e-12, curvature.information.diagonal().cwiseAbs().maxCoeff());
     for (double damping = 0.0; damping < 1e8; damping = damping == 0.0 ? 1e-6 : 10.0 * damping) {
-        Eigen::MatrixXd system = slopes.information;
+        Eigen::MatrixXd system = curvature.information;
         system.diagonal().array() += damping * scale;
         const Eigen::LLT<Eigen::MatrixXd> solver(system);
         if (solver.info() == Eigen::Success) {
-            return solver.solve(slopes.score);
+            return solver.solve(curvature.score);
         }
     }
-    return slopes.score / scale;
+    return curvature.score / scale;
 }
 
 }  // namespace
@@ -64,13 +64,13 @@ NumericMaximum numeric_maximum(const Function& function, const Eigen::VectorXd& 
     maximum.at = start;
     maximum.value = function(start);
     for (int step = 0; step < kMostSteps && !maximum.converged; ++step) {
-        const Slopes slopes = differences(function, maximum.at, maximum.value);
-        maximum.information = slopes.information;
-        if (!slopes.score.allFinite() || !slopes.information.allFinite()) {
+        const Curvature curvature = differences(function, maximum.at, maximum.value);
+        maximum.information = curvature.information;
+        if (!curvature.score.allFinite() || !curvature.information.allFinite()) {
             return maximum;
         }
-        Eigen::VectorXd move = uphill(slopes);
-        const double gain = slopes.score.dot(move);
+        Eigen::VectorXd move = uphill(curvature);
+        const double gain = curvature.score.dot(move);
         const double longest = move.cwiseAbs().maxCoeff();
         move *= std::min(1.0, kLongest / longest);
         maximum.converged = gain < kConverged * std::max(1.0, 1e-3 * std::abs(maximum.value));

@@ -88,6 +88,8 @@ struct FeaturesOptions {
     double noise_level = 1.0;          // of the simulated ones, where there are no recordings
     std::string json;                  // "": none; "-": standard output
     std::string out, csv;              // of many: results file and table
+    std::string against;               // results file of healthy gearboxes to compare with
+    std::string feature;               // that decides; "": the best ranked there
     bool quiet = false;
 };
 // Of one recording what it gives, of many a results file and a table.

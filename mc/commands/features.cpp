@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "mc/commands/support.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/measured_features.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/recordings/population.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -35,8 +38,8 @@ void print_text(const std::vector<MeasuredFeature>& all, const MeasuredSignal& s
     }
 }
 
-std::string measured_json(const std::vector<MeasuredFeature>& all, const MeasuredSignal& signal,
-                          const Scene& scene) {
+nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
+                                     const MeasuredSignal& signal, const Scene& scene) {
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
     json["sensor_meshes"] = signal.sensor_meshes;
@@ -53,7 +56,57 @@ std::string measured_json(const std::vector<MeasuredFeature>& all, const Measure
             json["features"][name] = one.value;
         }
     }
-    return json_text(json, 2) + "\n";
+    return json;
+}
+
+// Alarm or not, as text and into the JSON.
+std::string compare(const FeaturesOptions& options, const Measurement& measured,
+                    const MeasuredSignal& signal, const Scene& scene,
+                    nlohmann::ordered_json& json) {
+    const Population population =
+        read_population(options.against, options.noise_level, scene.study());
+    const auto verdicts = judge(population, values_of(measured.features), options.feature);
+    const std::string sentence =
+        verdict_sentence(options.signals.front(), population, verdicts.front(), measured.teeth);
+    std::string text = fmt::format("\n{:<22}{:>14}{:>14}{:>10}{:>22}\n", "feature", "value",
+                                   "threshold", "", "healthy less extreme");
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Verdict& one : verdicts) {
+        const auto healthy = static_cast<double>(one.population->healthy.size());
+        text += fmt::format("{:<22}{:>14.6g}{:>14.6g}{:>10}{:>15} of {}\n", one.population->name,
+                            one.value, one.population->threshold, one.alarm ? "ALARM" : "",
+                            one.less_extreme, one.population->healthy.size());
+        list.push_back({{"feature", one.population->name},
+                        {"value", one.value},
+                        {"threshold", one.population->threshold},
+                        {"alarm", one.alarm},
+                        {"margin", one.margin},
+                        {"quantile", static_cast<double>(one.less_extreme) / healthy},
+                        {"healthy", one.population->healthy.size()}});
+    }
+    text += "\n" + sentence + "\n";
+    const int turns = planet_turns(signal, scene);
+    if (!population.recordings && turns < scene.span().ring_teeth && signal.has_sensor) {
+        text += fmt::format(
+            "The simulated gearboxes were looked at over {} planet turns, the recording over {}: "
+            "it "
+            "averages less, and its features scatter more.\n",
+            scene.span().ring_teeth, turns);
+    }
+    nlohmann::ordered_json teeth = nlohmann::ordered_json::array();
+    for (const WorstTooth& tooth : measured.teeth) {
+        teeth.push_back({{"gear", tooth.gear},
+                         {"tooth", tooth.tooth},
+                         {"teeth", tooth.teeth},
+                         {"ratio", tooth.ratio}});
+    }
+    json["against"] = {{"file", options.against},
+                       {"alarm", verdicts.front().alarm},
+                       {"feature", verdicts.front().population->name},
+                       {"sentence", sentence},
+                       {"features", list},
+                       {"teeth", teeth}};
+    return text;
 }
 
 // Says so if no feature can be had, and what the shortest takes.
@@ -88,6 +141,10 @@ bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& pat
 }  // namespace
 
 int features_command(const FeaturesOptions& options) {
+    if (options.against.empty() && !options.feature.empty()) {
+        fmt::print(stderr, "--feature {}: is of --against\n", options.feature);
+        return kBadInput;
+    }
     const bool many = options.signals.size() != 1 || !options.manifest.empty() ||
                       !options.out.empty() || !options.csv.empty();
     if (many) {
@@ -97,6 +154,9 @@ int features_command(const FeaturesOptions& options) {
                                {"the signal", options.signals.front()}};
     for (const std::string& path : options.healthy) {
         read.push_back({"a recording of --healthy", path});
+    }
+    if (!options.against.empty()) {
+        read.push_back({"the file of --against", options.against});
     }
     const bool writable = can_write({"--json", options.json}, read);
     const auto scene = load_scene(options.study).scene;
@@ -115,19 +175,28 @@ int features_command(const FeaturesOptions& options) {
         } else if (long_enough) {
             healthy = simulated_reference_at(options.noise_level, *scene);
         }
-        const auto all = measure(*scene, signal, healthy);
+        const Measurement measured = measure(*scene, signal, healthy);
+        const auto& all = measured.features;
         if (!any_feature(all, options.signals.front(), *scene, signal)) {
             return kBadInput;
         }
+        nlohmann::ordered_json json = measured_json(all, signal, *scene);
+        std::string verdict;
+        if (!options.against.empty()) {
+            verdict = compare(options, measured, signal, *scene, json);
+        }
         if (options.json.empty()) {
             print_text(all, signal, *scene);
+            fmt::print("{}", verdict);
             return kDone;
         }
-        return write_text_to(options.json, measured_json(all, signal, *scene)) ? kDone : kBadInput;
+        return write_text_to(options.json, json_text(json, 2) + "\n") ? kDone : kBadInput;
     } catch (const SignalError& error) {
         fmt::print(stderr, "{}\n", error.what());
-        return kBadInput;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
     }
+    return kBadInput;
 }
 
 }  // namespace gearpod::mc

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/progress.hpp"
@@ -11,6 +12,7 @@
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/recordings/measure_recordings.hpp"
+#include "mc/recordings/population.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -28,8 +30,9 @@ Problems option_problems(const FeaturesOptions& options) {
     if (!options.json.empty()) {
         reject("--json is for one signal", "many have --out and --csv; `report` gives JSON");
     }
-    if (options.out.empty() && options.csv.empty()) {
-        reject("many signals need a place to go", "give --out F.h5, --csv T.csv, or both");
+    if (options.out.empty() && options.csv.empty() && options.against.empty()) {
+        reject("many signals need a place to go",
+               "give --out F.h5, --csv T.csv, or --against F.h5");
     }
     return problems;
 }
@@ -38,6 +41,9 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
     std::vector<FileRole> read{{"the study", options.study.path}};
     if (!options.manifest.empty()) {
         read.push_back({"the manifest", options.manifest});
+    }
+    if (!options.against.empty()) {
+        read.push_back({"the file of --against", options.against});
     }
     std::string last;
     for (const Recording& recording : list.recordings) {
@@ -58,6 +64,18 @@ RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
     } catch (const SignalError& error) {
         problems.push_back({printable(error.what()), 0, "", "", ""});
         return {};
+    }
+}
+
+// A sentence a recording.
+void print_verdicts(const FeaturesOptions& options, const Population& population,
+                    const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (measured[i].problem.empty()) {
+            const auto verdicts = judge(population, measured[i].values, options.feature);
+            fmt::print("{}\n", verdict_sentence(list.recordings[i].name(), population,
+                                                verdicts.front(), measured[i].teeth));
+        }
     }
 }
 
@@ -101,6 +119,10 @@ int recordings_command(const FeaturesOptions& options) {
         return kBadInput;
     }
     try {
+        std::optional<Population> population;
+        if (!options.against.empty()) {
+            population = read_population(options.against, options.noise_level, scene->study());
+        }
         const HealthyReference healthy =
             options.healthy.empty()
                 ? HealthyReference()
@@ -115,6 +137,9 @@ int recordings_command(const FeaturesOptions& options) {
             options.csv.empty() || write_text_to(options.csv, recordings_csv(list, measured));
         if (!options.out.empty()) {
             write_results(options.out, recordings_results(list, measured, *scene, threads));
+        }
+        if (population) {
+            print_verdicts(options, *population, list, measured);
         }
         return csv_good ? summary(options, measured) : kBadInput;
     } catch (const std::exception& error) {

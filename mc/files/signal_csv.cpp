@@ -2,40 +2,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <string_view>
 #include <unordered_set>
 
 #include "mc/files/signal_file.hpp"
+#include "mc/files/text_table.hpp"
 
 namespace gearpod::mc {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r\"";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) {
-        return {};
-    }
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 std::vector<std::string_view> fields(std::string_view line, char separator) {
     std::vector<std::string_view> parts;
     for (std::size_t end = 0; end != std::string_view::npos; line.remove_prefix(end + 1)) {
         end = line.find(separator);
-        parts.push_back(trimmed(line.substr(0, end)));
+        parts.push_back(trimmed_field(line.substr(0, end)));
         if (end == std::string_view::npos) {
             break;
         }
     }
     return parts;
-}
-
-// "sensor [m/s^2]" is named sensor.
-std::string name_of(std::string_view field) {
-    return std::string(trimmed(field.substr(0, field.find('['))));
 }
 
 class SignalCsv : public SignalFile {
@@ -47,7 +33,10 @@ class SignalCsv : public SignalFile {
         }
         std::string line;
         for (long number = 1; std::getline(stream, line); ++number) {
-            const std::string_view text = trimmed(line);
+            if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {  // a byte order mark
+                line.erase(0, 3);
+            }
+            const std::string_view text = trimmed_field(line);
             if (text.empty() || text.front() == '#') {
                 continue;
             }
@@ -71,9 +60,14 @@ class SignalCsv : public SignalFile {
         return columns_[static_cast<std::size_t>(at)];
     }
 
+    std::string unit(const std::string& name) override {
+        const auto at = std::find(names_.begin(), names_.end(), name) - names_.begin();
+        return units_[static_cast<std::size_t>(at)];
+    }
+
   private:
     void read_header(std::string_view line, long number) {
-        for (const char candidate : {',', ';', '\t'}) {
+        for (const char candidate : {';', '\t', ','}) {
             if (line.find(candidate) != std::string_view::npos) {
                 separator_ = candidate;
                 break;
@@ -81,14 +75,14 @@ class SignalCsv : public SignalFile {
         }
         std::unordered_set<std::string> known;
         for (const std::string_view field : fields(line, separator_)) {
-            double value = 0.0;
-            const auto end = field.data() + field.size();
-            if (field.empty() || std::from_chars(field.data(), end, value).ptr == end) {
+            if (field.empty() || number_of(field, true)) {
                 throw SignalError(fmt::format(
                     "{}:{}: column {} has no name; the first line must name the columns", path_,
                     number, names_.size() + 1));
             }
-            names_.push_back(name_of(field));
+            const TableColumn column = column_of(field);
+            names_.push_back(column.name);
+            units_.push_back(column.unit);
             if (!known.insert(names_.back()).second) {
                 throw SignalError(
                     fmt::format("{}:{}: two columns are named {}", path_, number, names_.back()));
@@ -104,20 +98,18 @@ class SignalCsv : public SignalFile {
                                           path_, number, parts.size(), names_.size()));
         }
         for (std::size_t c = 0; c < parts.size(); ++c) {
-            double value = 0.0;
-            const auto end = parts[c].data() + parts[c].size();
-            const auto result = std::from_chars(parts[c].data(), end, value);
-            if (parts[c].empty() || result.ec != std::errc{} || result.ptr != end) {
+            const auto value = number_of(parts[c], separator_ != ',');
+            if (!value) {
                 throw SignalError(fmt::format("{}:{}: column {}: \"{}\" is no number", path_,
                                               number, names_[c], parts[c].substr(0, 40)));
             }
-            columns_[c].push_back(value);
+            columns_[c].push_back(*value);
         }
     }
 
     std::string path_;
     char separator_ = ',';
-    std::vector<std::string> names_;
+    std::vector<std::string> names_, units_;
     std::vector<std::vector<double>> columns_;
 };
 

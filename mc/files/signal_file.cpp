@@ -33,8 +33,20 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
     if (kind == ".mat") {
         return open_signal_mat(path);
     }
+    if (kind == ".wav") {
+        return open_signal_wav(path);
+    }
+    if (kind == ".uff" || kind == ".unv") {
+        return open_signal_uff(path);
+    }
+    if (kind == ".tdms") {
+        throw SignalError(path +
+                          ": TDMS files are not read; export it as HDF5 or CSV, in Python with "
+                          "nptdms: TdmsFile.read(FILE).as_hdf(OUT)");
+    }
     throw SignalError(path +
-                      ": unknown kind of file; its name must end in .csv, .h5, .hdf5 or .mat");
+                      ": unknown kind of file; its name must end in .csv, .h5, .hdf5, .mat, .wav, "
+                      ".uff or .unv");
 }
 
 }  // namespace gearpod::mc

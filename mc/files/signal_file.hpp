@@ -23,6 +23,8 @@ class SignalFile {
     virtual std::vector<std::string> names() const = 0;
     // A column of that name, which must be there. Throws SignalError.
     virtual std::vector<double> read(const std::string& name) = 0;
+    // The unit of a column, if the file says so; else "".
+    virtual std::string unit(const std::string&) { return ""; }
     // The sampling rate, if the file says so.
     virtual std::optional<double> sampling_Hz() { return std::nullopt; }
 
@@ -30,15 +32,18 @@ class SignalFile {
 };
 
 // Opens a file by the end of its name. Throws SignalError.
-//   .csv         a header line of names, units in brackets behind them left aside ("sensor
-//                [m/s^2]"), then a line of numbers a sample; commas, semicolons or tabs between
-//                them; lines that begin with # are comments
+//   .csv         a header line of names with their units in brackets ("sensor [m/s^2]"), then a line
+//                of numbers a sample; commas, semicolons or tabs between them, decimal commas where
+//                none stand between; lines that begin with # are comments
 //   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root, or a row of
 //   those
 //                of two; the rate may be an attribute sampling_Hz of the group or the root; an
-//                attribute scale of a dataset is a factor on its values
+//                attribute scale of a dataset is a factor on its values, unit their unit
 //   .mat         variables that are real vectors (MATLAB 4 to 7.3); the rate may be a variable
 //                sampling_Hz
+//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the full
+//                scale
+//   .uff, .unv   dataset 58, real and even in time: the column sensor, or function1, function2, ...
 // `row`, from 0: the record of an HDF5 file whose datasets hold one in each row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
@@ -48,5 +53,7 @@ std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);
 std::unique_ptr<SignalFile> open_signal_mat(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_wav(const std::string& path);
+std::unique_ptr<SignalFile> open_signal_uff(const std::string& path);
 
 }  // namespace gearpod::mc

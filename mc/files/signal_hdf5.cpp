@@ -84,6 +84,18 @@ class SignalHdf5 : public SignalFile {
         }
     }
 
+    std::string unit(const std::string& name) override {
+        const SilentHdf5 silent;
+        if (H5Aexists_by_name(group_.get(), name.c_str(), "unit", H5P_DEFAULT) <= 0) {
+            return "";
+        }
+        try {
+            return read_text(group_.get(), name, "unit");
+        } catch (const Hdf5Error&) {
+            throw SignalError(fmt::format("{}: the unit of {} must be a text", path_, name));
+        }
+    }
+
     std::optional<double> sampling_Hz() override {
         const SilentHdf5 silent;
         for (const hid_t object : {group_.get(), file_.get()}) {

@@ -18,7 +18,7 @@ constexpr std::size_t kMostColumns = 10000;
 constexpr std::size_t kLongestLine = 1 << 20;
 
 // Quoted fields may hold the separator, and quotes doubled.
-std::vector<std::string> fields(std::string_view line, char separator) {
+std::vector<std::string> quoted_fields(std::string_view line, char separator) {
     std::vector<std::string> parts(1);
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -48,7 +48,7 @@ void read_header(TextTable& table, std::string_view line, long number) {
         }
     }
     std::unordered_set<std::string> known;
-    for (const std::string& field : fields(line, table.separator)) {
+    for (const std::string& field : quoted_fields(line, table.separator)) {
         table.columns.push_back(column_of(field));
         const std::string& name = table.columns.back().name;
         if (name.empty() || number_of(name, false)) {
@@ -71,7 +71,7 @@ void read_row(TextTable& table, std::string_view line, long number) {
     if (table.rows.size() == kMostRows) {
         throw SignalError(fmt::format("{}:{}: more than {} rows", table.path, number, kMostRows));
     }
-    table.rows.push_back(fields(line, table.separator));
+    table.rows.push_back(quoted_fields(line, table.separator));
     table.lines.push_back(number);
     if (table.rows.back().size() != table.columns.size()) {
         throw SignalError(fmt::format("{}:{}: {} values, but the header names {} columns",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/span_analysis.hpp"
@@ -144,6 +145,17 @@ std::string why_no_value(const Feature& feature, const features::FeatureInput& i
     return "no finite number: its definition divides by what is zero in this signal";
 }
 
+WorstTooth worst_tooth(const char* gear, std::span<const double> rms) {
+    const auto worst = std::max_element(rms.begin(), rms.end());
+    std::vector<double> sorted(rms.begin(), rms.end());
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    const double median =
+        sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+    return {gear, static_cast<int>(worst - rms.begin()) + 1, static_cast<int>(rms.size()),
+            *worst / median};
+}
+
 }  // namespace
 
 int planet_turns(const MeasuredSignal& signal, const Scene& scene) {
@@ -159,9 +171,10 @@ int meshes_of(const Feature& feature, const Scene& scene) {
                : scene.span().planet_teeth;
 }
 
-std::vector<MeasuredFeature> measure(const Scene& scene, const MeasuredSignal& signal,
-                                     const HealthyReference& healthy) {
-    std::vector<MeasuredFeature> all;
+Measurement measure(const Scene& scene, const MeasuredSignal& signal,
+                    const HealthyReference& healthy) {
+    Measurement measurement;
+    std::vector<MeasuredFeature>& all = measurement.features;
     unsigned needs = 0;
     for (const Feature& feature : features::record_features()) {
         all.push_back({&feature, 0.0, missing(feature, scene, signal, !healthy.amplitude.empty())});
@@ -180,7 +193,14 @@ std::vector<MeasuredFeature> measure(const Scene& scene, const MeasuredSignal& s
             }
         }
     }
-    return all;
+    const std::pair<const char*, std::span<const double>> gears[] = {
+        {"planet", input.tooth_rms}, {"sun", input.sun.rms}, {"ring", input.ring.rms}};
+    for (const auto& [gear, rms] : gears) {
+        if (!rms.empty()) {
+            measurement.teeth.push_back(worst_tooth(gear, rms));
+        }
+    }
+    return measurement;
 }
 
 HealthyReference measured_reference(const std::vector<std::string>& paths,

@@ -17,6 +17,14 @@ struct MeasuredFeature {
     std::string missing;  // why it has none, else empty
 };
 
+// The loudest tooth of a gear.
+struct WorstTooth {
+    std::string gear;  // "planet"
+    int tooth = 0;     // from 1, the one whose window is the recording's first
+    int teeth = 0;
+    double ratio = 0.0;  // of its RMS to the median
+};
+
 // Whole planet turns of sensor signal that a recording has for the planets' teeth, at most the
 // span's. Fewer than the span's meet fewer ring teeth, and average less.
 int planet_turns(const MeasuredSignal& signal, const Scene& scene);
@@ -24,9 +32,14 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 // Mesh periods of its signal that a feature looks at, at least.
 int meshes_of(const features::Feature& feature, const Scene& scene);
 
-// All features, in their own order. `healthy` may be empty.
-std::vector<MeasuredFeature> measure(const Scene& scene, const MeasuredSignal& signal,
-                                     const HealthyReference& healthy);
+// All features, in their own order; of every gear that features look at, its loudest tooth.
+// `healthy` may be empty.
+struct Measurement {
+    std::vector<MeasuredFeature> features;
+    std::vector<WorstTooth> teeth;
+};
+Measurement measure(const Scene& scene, const MeasuredSignal& signal,
+                    const HealthyReference& healthy);
 
 // Of recordings of healthy gearboxes, each as long as `turns` planet turns at least. Throws
 // SignalError.

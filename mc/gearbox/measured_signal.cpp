@@ -9,8 +9,11 @@
 
 #include "features/feature.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/gearbox/sample_times.hpp"
+#include "mc/gearbox/signal_units.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "signals/spectra/mesh_speed.hpp"
 #include "signals/spectra/order_tracking.hpp"
 
 namespace gearpod::mc {
@@ -19,6 +22,7 @@ namespace {
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
+constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s
 
 class Reading {
   public:
@@ -34,8 +38,8 @@ class Reading {
             ~Closed() { file.reset(); }
         } closed{file_};
         file_ = open_signal_file(path_, wanted_.row);
-        std::vector<double> sensor = chosen(wanted_.sensor, "sensor");
-        std::vector<double> te = chosen(wanted_.te, "te");
+        std::vector<double> sensor = chosen(wanted_.sensor, "sensor", Quantity::acceleration);
+        std::vector<double> te = chosen(wanted_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
                 fmt::format("no column sensor and none te; its columns are {}; choose with "
@@ -53,8 +57,29 @@ class Reading {
         lock.unlock();
         check_rate(phase, !sensor.empty(), !te.empty());
         stop_at_problems();
-        close_turn(sensor, te, phase);
-        const signals::OrderTracking tracking(std::move(phase));
+        if (wanted_.samples_per_mesh > 0.0) {
+            close_turn({&sensor, &te}, phase,
+                       wanted_.samples_per_mesh * scene_.span().planet_teeth);
+        }
+        keep(sensor, phase.size());
+        keep(te, phase.size());
+        resample(sensor, te, phase, measured);
+        const double ratio = speed_of_lines(measured);
+        stop_at_problems();
+        if (ratio != 1.0) {
+            for (double& value : phase) {
+                value *= ratio;
+            }
+            measured.tracking += fmt::format(", times {:.5f} after the mesh lines", ratio);
+            resample(sensor, te, phase, measured);
+        }
+        return measured;
+    }
+
+  private:
+    void resample(const std::vector<double>& sensor, const std::vector<double>& te,
+                  const std::vector<double>& phase, MeasuredSignal& measured) const {
+        const signals::OrderTracking tracking(phase);
         if (!sensor.empty()) {
             const int grid = scene_.samples_per_mesh();
             measured.sensor_meshes = tracking.meshes(grid);
@@ -66,10 +91,7 @@ class Reading {
             measured.te_meshes = tracking.meshes(grid);
             measured.te = tracking.resample(te, grid, std::min(measured.te_meshes, most_meshes()));
         }
-        return measured;
     }
-
-  private:
     void reject(const std::string& what) {
         problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, printable(what));
     }
@@ -89,9 +111,28 @@ class Reading {
                              : fmt::format("{}{}", fmt::join(names.begin(), end, ", "), rest);
     }
 
+    // What the values of a column are times.
+    double factor(const std::string& name, Quantity quantity) {
+        std::string unit = file_->unit(name);
+        if (unit.empty() && quantity == Quantity::acceleration) {
+            unit = wanted_.sensor_unit;
+        }
+        const auto factor = unit_factor(quantity, unit);
+        if (!factor) {
+            reject(fmt::format("column {}: unknown unit {}; known are {}", name, unit,
+                               known_units(quantity)));
+        }
+        return factor.value_or(1.0);
+    }
+
     // A column of finite numbers as long as the others.
-    std::vector<double> column(const std::string& name) {
+    std::vector<double> column(const std::string& name, Quantity quantity) {
         std::vector<double> values = file_->read(name);
+        if (const double times = factor(name, quantity); times != 1.0) {
+            for (double& value : values) {
+                value *= times;
+            }
+        }
         const auto is_bad = [](double value) { return !std::isfinite(value); };
         const auto bad = std::find_if(values.begin(), values.end(), is_bad);
         if (bad != values.end()) {
@@ -121,10 +162,15 @@ class Reading {
         return values;
     }
 
-    std::vector<double> chosen(const std::string& name, const std::string& usual) {
+    std::vector<double> chosen(const std::string& name, const std::string& usual,
+                               Quantity quantity) {
         const std::string& taken = name.empty() ? usual : name;
         if (file_->has(taken)) {
-            return column(taken);
+            std::vector<double> values = column(taken, quantity);
+            if (const std::string cut = clipping(values); !cut.empty()) {
+                reject(fmt::format("column {}: {}", taken, cut));
+            }
+            return values;
         }
         if (!name.empty()) {
             reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
@@ -135,17 +181,15 @@ class Reading {
     // Seconds of every sample.
     std::vector<double> times(std::size_t samples) {
         if (wanted_.sampling_Hz <= 0.0 && file_->has(kTime)) {
-            const std::vector<double> time = column(kTime);
-            const double step = (time.back() - time.front()) / static_cast<double>(samples - 1);
-            for (std::size_t i = 1; i < time.size() && problems_.empty(); ++i) {
-                if (!(std::abs(time[i] - time[i - 1] - step) <= kEven * step)) {
-                    reject(
-                        fmt::format("column {}: {:.6g} s from sample {} to the next, but {:.6g} "
-                                    "s on average; the samples must be evenly spaced",
-                                    kTime, time[i] - time[i - 1], i, step));
-                }
+            std::vector<double> written = column(kTime, Quantity::time);
+            if (!problems_.empty()) {
+                return {};
             }
-            return time;
+            SampleTimes time = sample_times(std::move(written));
+            if (!time.problem.empty()) {
+                reject(fmt::format("column {}: {}", kTime, time.problem));
+            }
+            return std::move(time.seconds);
         }
         const double rate =
             wanted_.sampling_Hz > 0.0 ? wanted_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
@@ -173,11 +217,12 @@ class Reading {
             }
             return phase;
         }
+        if (!wanted_.tachometer.empty()) {
+            return phases_of_pulses(how);
+        }
         if (file_->has(kPhase) && wanted_.sampling_Hz <= 0.0) {
             how = "column mesh_phase";
-            std::vector<double> phase = column(kPhase);
-            check_rises(phase);
-            return phase;
+            return rising(column(kPhase, Quantity::phase));
         }
         std::vector<double> phase = times(samples);
         if (!problems_.empty()) {
@@ -191,7 +236,7 @@ class Reading {
             }
             return phase;
         }
-        const std::vector<double> speed_rpm = column(kSpeed);
+        const std::vector<double> speed_rpm = column(kSpeed, Quantity::speed);
         check_direction(speed_rpm);
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
@@ -199,24 +244,67 @@ class Reading {
         return integrated(phase, speed_rpm);
     }
 
-    // Whole planet turns in mesh phase, as averages are kept, go on from their beginning: without
-    // that, the grid's points behind the last sample would be lost, and the last mesh with them.
-    void close_turn(std::vector<double>& sensor, std::vector<double>& te,
-                    std::vector<double>& phase) const {
-        constexpr std::size_t kMore = 8;
-        const double turns = static_cast<double>(phase.size()) /
-                             (wanted_.samples_per_mesh * scene_.span().planet_teeth);
-        if (!(wanted_.samples_per_mesh > 0.0) || std::abs(turns - std::round(turns)) > 1e-9) {
-            return;
+    // Of a tachometer; the samples between its first pulse and its last are left.
+    std::vector<double> phases_of_pulses(std::string& how) {
+        if (!file_->has(wanted_.tachometer)) {
+            reject(fmt::format("no column {}; its columns are {}", wanted_.tachometer,
+                               columns_text()));
+            return {};
         }
-        for (std::size_t i = 0; i < kMore; ++i) {
-            phase.push_back(static_cast<double>(phase.size()) / wanted_.samples_per_mesh);
-            for (std::vector<double>* signal : {&sensor, &te}) {
-                if (!signal->empty()) {
-                    signal->push_back((*signal)[i]);
-                }
-            }
+        const std::vector<double> heights = column(wanted_.tachometer, Quantity::phase);
+        if (!problems_.empty()) {
+            return {};
         }
+        const Pulses pulses = tachometer_pulses(heights);
+        if (!pulses.problem.empty()) {
+            reject(fmt::format("column {}: {}", wanted_.tachometer, pulses.problem));
+            return {};
+        }
+        how = fmt::format("{} pulses of column {}, {:g} a turn", pulses.at.size(),
+                          wanted_.tachometer, wanted_.pulses_per_turn);
+        PulseCount counted = count_pulses(pulses.at);
+        // A turn a second is as many meshes as radians a second.
+        const double meshes_per_pulse =
+            std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
+            (2.0 * std::numbers::pi) / wanted_.pulses_per_turn;
+        for (double& phase : counted.count) {
+            phase *= meshes_per_pulse;
+        }
+        first_sample_ = counted.first;
+        return std::move(counted.count);
+    }
+
+    void keep(std::vector<double>& signal, std::size_t count) const {
+        if (!signal.empty() && signal.size() != count) {
+            signal = {signal.begin() + static_cast<std::ptrdiff_t>(first_sample_),
+                      signal.begin() + static_cast<std::ptrdiff_t>(first_sample_ + count)};
+        }
+    }
+
+    // How many times the speed that the phase was made with the mesh lines show; 1 where they say
+    // nothing else.
+    double speed_of_lines(const MeasuredSignal& measured) {
+        if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor) {
+            return 1.0;
+        }
+        const auto found =
+            signals::mesh_speed(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes());
+        constexpr double kClearly = 0.5;  // of the best fit
+        if (!found || found->stated > kClearly * found->fit) {
+            return 1.0;
+        }
+        const std::string lines = fmt::format(
+            "the mesh lines lie at {:.4f}{} times the stated speed ({})", found->ratio,
+            found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "", measured.tracking);
+        if (wanted_.speed == SpeedCheck::refuse) {
+            reject(
+                fmt::format("{}: {:.0f} % of their amplitudes there, {:.0f} % here; correct the "
+                            "speed, or take theirs by --speed found",
+                            lines, 100.0 * found->fit, 100.0 * found->stated));
+        } else if (found->other > 0.0) {
+            reject(lines + " and do not tell which; correct the speed");
+        }
+        return found->ratio;
     }
 
     // A gearbox that turns about passes its meshes again, and loads its other flanks.
@@ -235,9 +323,8 @@ class Reading {
         if (!problems_.empty()) {
             return {};
         }
-        constexpr double kRadPerSInRpm = 2.0 * std::numbers::pi / 60.0;
         const auto frequency_Hz = [&](double rpm) {
-            return std::abs(scene_.drive().mesh_frequency_rad_s(std::abs(rpm) * kRadPerSInRpm)) /
+            return std::abs(scene_.drive().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
                    (2.0 * std::numbers::pi);
         };
         std::vector<double> phase(time.size(), 0.0);
@@ -246,16 +333,16 @@ class Reading {
                 phase[i - 1] + 0.5 * (time[i] - time[i - 1]) *
                                    (frequency_Hz(speed_rpm[i - 1]) + frequency_Hz(speed_rpm[i]));
         }
-        check_rises(phase);
-        return phase;
+        return rising(std::move(phase));
     }
 
-    void check_rises(const std::vector<double>& phase) {
+    std::vector<double> rising(std::vector<double> phase) {
         for (std::size_t i = 1; i < phase.size() && problems_.empty(); ++i) {
             if (!(phase[i] > phase[i - 1])) {
                 reject(fmt::format("the mesh phase does not rise from sample {} to the next", i));
             }
         }
+        return phase;
     }
 
     // A grid coarser than the samples would fold high frequencies down.
@@ -291,7 +378,6 @@ class Reading {
                              planetary ? features::kSun | features::kRing : 0U);
     }
 
-    static constexpr double kEven = 1e-3;
     static constexpr double kFewestSamples = 2.0;  // a mesh period
     static constexpr double kLargest = 1e18;
     static constexpr double kSpareRate = 1.02;
@@ -301,7 +387,7 @@ class Reading {
     const Scene& scene_;
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
-    std::size_t samples_ = 0;
+    std::size_t samples_ = 0, first_sample_ = 0;
 };
 
 }  // namespace

@@ -29,7 +29,9 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
         measured.planet_turns = planet_turns(signal, scene);
         bool any = false;
         std::string why;
-        for (const MeasuredFeature& feature : measure(scene, signal, healthy)) {
+        Measurement all = measure(scene, signal, healthy);
+        measured.teeth = std::move(all.teeth);
+        for (const MeasuredFeature& feature : all.features) {
             measured.values.push_back(feature.missing.empty() ? feature.value : kNone);
             any = any || feature.missing.empty();
             const bool there = feature.feature->from_sensor ? signal.has_sensor : signal.has_te;

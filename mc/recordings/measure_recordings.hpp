@@ -15,6 +15,7 @@ namespace gearpod::mc {
 struct MeasuredRecording {
     std::string problem;         // why it has none, else empty
     std::vector<double> values;  // by features::all_features(); NaN: none
+    std::vector<WorstTooth> teeth;
     int sensor_meshes = 0, planet_turns = 0;
 };
 

@@ -185,8 +185,8 @@ TEST_CASE("What is wrong with a signal is said in one message, with exit code 2"
     bad[17] = bad[40] = NAN;
 
     refused(folder.file("none.csv"), "no such file");
-    write_bytes(folder.file("a.wav"), "RIFF");
-    refused(folder.file("a.wav"), "must end in .csv, .h5, .hdf5 or .mat");
+    write_bytes(folder.file("a.xls"), "RIFF");
+    refused(folder.file("a.xls"), "must end in .csv, .h5, .hdf5, .mat, .wav, .uff or .unv");
     for (const char* name : {"a.h5", "a.mat"}) {
         write_bytes(folder.file(name), "not what the name says");
         refused(folder.file(name), "or damaged");

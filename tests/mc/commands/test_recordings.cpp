@@ -82,7 +82,7 @@ struct Recorded {
         for (int i = 0; i < 60; ++i) {
             const double size = i < 30 ? 0.0 : 0.05 * (i - 29);
             const std::string name = "r" + std::to_string(i) + ".csv";
-            write_record(folder.file(name), turn(1.0 + 4.0 * size, 10U + static_cast<unsigned>(i)));
+            write_record(folder.file(name), turn(1.0 + 1.2 * size, 10U + static_cast<unsigned>(i)));
             table += name + ",A," + std::to_string(i / 10) + "," + (i < 30 ? "healthy" : "faulty") +
                      "," + std::to_string(size) + "," + std::to_string(300 + i) + "\n";
         }

@@ -1,0 +1,232 @@
+#include "mc/gearbox/sample_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kEven = 1e-3;  // of a step
+
+// The coarsest power of ten that all values are multiples of, 0 if none down to 1e-9 is.
+double decimals_of(const std::vector<double>& values) {
+    for (int digits = 0; digits <= 9; ++digits) {
+        const double unit = std::pow(10.0, -digits);
+        const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
+            const double multiple = value / unit;
+            return std::abs(multiple - std::round(multiple)) < 1e-4;
+        });
+        if (all) {
+            return unit;
+        }
+    }
+    return 0.0;
+}
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// Farthest from even spacing.
+double unevenness(const std::vector<double>& time, double start, double step) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        most = std::max(most, std::abs(time[i] - start - static_cast<double>(i) * step));
+    }
+    return most;
+}
+
+std::string what_is_uneven(const std::vector<double>& time, double unit, double average) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        steps.push_back(time[i] - time[i - 1]);
+    }
+    const auto back =
+        std::find_if(steps.begin(), steps.end(), [&](double step) { return step < -1.01 * unit; });
+    if (back != steps.end()) {
+        return fmt::format(
+            "runs back by {:.6g} s from sample {} to the next; the samples must be "
+            "evenly spaced",
+            -*back, back - steps.begin() + 1);
+    }
+    const double usual = median_of(steps);
+    const double allowed = std::max(0.5 * std::abs(usual), 1.01 * unit);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (std::abs(steps[i] - usual) <= allowed) {
+            continue;
+        }
+        const double samples = usual > 0.0 ? std::round(steps[i] / usual) - 1.0 : 0.0;
+        return samples >= 1.0
+                   ? fmt::format(
+                         "{:.6g} s from sample {} to the next instead of {:.6g} s: {:.0f} "
+                         "sample(s) are missing; cut the recording there",
+                         steps[i], i + 1, usual, samples)
+                   : fmt::format(
+                         "{:.6g} s from sample {} to the next, but {:.6g} s usually; the "
+                         "samples must be evenly spaced",
+                         steps[i], i + 1, usual);
+    }
+    const auto worst = std::max_element(steps.begin(), steps.end(), [&](double a, double b) {
+        return std::abs(a - average) < std::abs(b - average);
+    });
+    return fmt::format(
+        "{:.6g} s from sample {} to the next, but {:.6g} s on average; the samples "
+        "must be evenly spaced",
+        *worst, worst - steps.begin() + 1, average);
+}
+
+}  // namespace
+
+SampleTimes sample_times(std::vector<double> column) {
+    const auto last = static_cast<double>(column.size() - 1);
+    double average = (column.back() - column.front()) / last;
+    bool even = average > 0.0;
+    for (std::size_t i = 1; i < column.size() && even; ++i) {
+        even = std::abs(column[i] - column[i - 1] - average) <= kEven * average;
+    }
+    if (even) {
+        return {std::move(column), ""};
+    }
+    // Rounded times scatter about even ones by half a unit; the line through them is nearer.
+    const double unit = decimals_of(column);
+    double mean = 0.0, slope = 0.0, squares = 0.0;
+    for (const double value : column) {
+        mean += value / (last + 1.0);
+    }
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        const double from_middle = static_cast<double>(i) - 0.5 * last;
+        slope += from_middle * (column[i] - mean);
+        squares += from_middle * from_middle;
+    }
+    const double step = slope / squares, start = mean - 0.5 * last * step;
+    if (!(step > 0.0 && unevenness(column, start, step) <= std::max(kEven * step, 1.01 * unit))) {
+        return {{}, what_is_uneven(column, unit, average)};
+    }
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        column[i] = start + static_cast<double>(i) * step;
+    }
+    return {std::move(column), ""};
+}
+
+Pulses tachometer_pulses(std::span<const double> column) {
+    constexpr std::size_t kFewest = 3;
+    constexpr double kHysteresis = 0.2;  // of the height, either side of half of it
+    constexpr double kIrregular = 1.5;
+    const auto [low, high] = std::minmax_element(column.begin(), column.end());
+    const double height = *high - *low, half = 0.5 * (*high + *low);
+    Pulses pulses;
+    bool armed = false;
+    double crossing = 0.0;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        if (i > 0 && column[i - 1] < half && column[i] >= half) {
+            crossing = static_cast<double>(i) - (column[i] - half) / (column[i] - column[i - 1]);
+        }
+        if (column[i] < half - kHysteresis * height) {
+            armed = true;
+        } else if (armed && column[i] > half + kHysteresis * height) {
+            armed = false;
+            pulses.at.push_back(crossing);
+        }
+    }
+    if (pulses.at.size() < kFewest) {
+        pulses.problem = fmt::format("{} pulse(s); it takes {}", pulses.at.size(), kFewest);
+        return pulses;
+    }
+    for (std::size_t i = 2; i < pulses.at.size(); ++i) {
+        const double here = pulses.at[i] - pulses.at[i - 1];
+        const double before = pulses.at[i - 1] - pulses.at[i - 2];
+        if (here > kIrregular * before || before > kIrregular * here) {
+            pulses.problem = fmt::format(
+                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly apart: one is "
+                "missing "
+                "or one too many",
+                pulses.at[i - 2] + 1.0, pulses.at[i - 1] + 1.0, pulses.at[i] + 1.0);
+            return pulses;
+        }
+    }
+    return pulses;
+}
+
+PulseCount count_pulses(const std::vector<double>& pulses) {
+    const std::size_t n = pulses.size();
+    // Pulses a sample at each pulse, from its neighbours.
+    std::vector<double> speed(n);
+    for (std::size_t p = 0; p < n; ++p) {
+        const std::size_t before = p == 0 ? 0 : p - 1, after = std::min(p + 1, n - 1);
+        speed[p] = static_cast<double>(after - before) / (pulses[after] - pulses[before]);
+    }
+    PulseCount out;
+    out.first = static_cast<std::size_t>(std::ceil(pulses.front()));
+    std::size_t p = 0;
+    for (auto at = static_cast<double>(out.first); at <= pulses.back(); at += 1.0) {
+        while (p + 2 < n && at > pulses[p + 1]) {
+            ++p;
+        }
+        const double length = pulses[p + 1] - pulses[p], t = (at - pulses[p]) / length;
+        // Hermite's cubic from p to p + 1.
+        out.count.push_back(static_cast<double>(p) + t * t * (3.0 - 2.0 * t) +
+                            length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
+    }
+    return out;
+}
+
+void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,
+                double samples_per_turn) {
+    constexpr std::size_t kMore = 8;
+    const double turns = static_cast<double>(phase.size()) / samples_per_turn;
+    if (std::abs(turns - std::round(turns)) > 1e-9 || phase.size() < kMore) {
+        return;
+    }
+    const double step = phase[1] - phase[0];
+    for (std::size_t i = 0; i < kMore; ++i) {
+        phase.push_back(step * static_cast<double>(phase.size()));
+        for (std::vector<double>* signal : signals) {
+            if (!signal->empty()) {
+                signal->push_back((*signal)[i]);
+            }
+        }
+    }
+}
+
+std::string clipping(std::span<const double> samples) {
+    constexpr std::size_t kRun = 3;
+    constexpr long kFewestRuns = 2;
+    constexpr double kJump = 4.0;  // in the least difference between samples
+    const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+    double resolution = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double difference = std::abs(samples[i] - samples[i - 1]);
+        resolution = difference > 0.0 ? std::min(resolution, difference) : resolution;
+    }
+    long runs = 0, clipped = 0;
+    double level = 0.0;
+    for (std::size_t i = 0; i < samples.size();) {
+        std::size_t end = i + 1;  // a NaN is not even its own equal
+        while (end < samples.size() && samples[end] == samples[i]) {
+            ++end;
+        }
+        const bool extreme = samples[i] == *high || samples[i] == *low;
+        const bool steep = i > 0 && end < samples.size() &&
+                           std::abs(samples[i] - samples[i - 1]) > kJump * resolution &&
+                           std::abs(samples[i] - samples[end]) > kJump * resolution;
+        if (extreme && steep && end - i >= kRun && *high > *low) {
+            ++runs;
+            clipped += static_cast<long>(end - i);
+            level = samples[i];
+        }
+        i = end;
+    }
+    return runs >= kFewestRuns
+               ? fmt::format(
+                     "{} samples in {} runs stand at the signal's end, {:.6g}: clipped; "
+                     "record with a larger range",
+                     clipped, runs, level)
+               : "";
+}
+
+}  // namespace gearpod::mc

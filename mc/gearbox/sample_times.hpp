@@ -1,0 +1,47 @@
+// When the samples of a recording were taken: columns of time as they are written, pulses of a
+// tachometer, and what tells that samples are missing or were cut off.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gearpod::mc {
+
+// Evenly spaced times, or what is wrong with them.
+struct SampleTimes {
+    std::vector<double> seconds;
+    std::string problem;
+};
+
+// Of a column that may have been rounded to some decimals. Where samples are missing, or time
+// stands or runs back by more than that, it is said where. Two values at least.
+SampleTimes sample_times(std::vector<double> column);
+
+// Where a tachometer's pulses rise through half of their height, in samples; or what is wrong with
+// them: too few, or some that are missing or too many.
+struct Pulses {
+    std::vector<double> at;
+    std::string problem;
+};
+Pulses tachometer_pulses(std::span<const double> column);
+
+// Pulses that have passed at each of the samples from the first pulse to the last, by cubic
+// interpolation; `first` is the first of these samples.
+struct PulseCount {
+    std::size_t first = 0;
+    std::vector<double> count;
+};
+PulseCount count_pulses(const std::vector<double>& pulses);
+
+// Whole turns of so many samples, as averages are kept, go on from their beginning: without that a
+// finer grid's points behind the last sample would be lost, and the last mesh with them. Adds some
+// samples to phase and signals, empty ones aside, unless they are no whole turns.
+void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,
+                double samples_per_turn);
+
+// "" unless the signal was cut off at its largest or least value: several runs of equal samples
+// there that it enters and leaves by more than its own resolution.
+std::string clipping(std::span<const double> samples);
+
+}  // namespace gearpod::mc

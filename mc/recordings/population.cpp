@@ -1,0 +1,182 @@
+#include "mc/recordings/population.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/detection/threshold.hpp"
+#include "analysis/statistics/auc.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw std::runtime_error(path + ": " + why);
+}
+
+// Features of other teeth are other numbers.
+void check_teeth(const std::string& path, const Results& results, const Study& study) {
+    std::string text = results.provenance_value("study");
+    if (text.empty()) {
+        text = results.provenance_value("measured_by_study");
+    }
+    const auto theirs = read_study_text(text, path).study;
+    if (!theirs) {
+        return;
+    }
+    for (const Member member : {Member::sun, Member::planet, Member::ring}) {
+        const auto own = teeth_of(study, member), other = teeth_of(*theirs, member);
+        if (own != other) {
+            refuse(path,
+                   fmt::format("is of a gearbox with {} teeth where the study has {}; compare "
+                               "with one of the same gearbox",
+                               other.value_or(0), own.value_or(0)));
+        }
+    }
+}
+
+std::size_t level_of(const std::string& path, const Results& results, double noise_level) {
+    const auto found =
+        std::find(results.noise_levels.begin(), results.noise_levels.end(), noise_level);
+    if (found == results.noise_levels.end()) {
+        refuse(path, fmt::format("has no noise level {:g}, but {:g}; choose with --noise-level",
+                                 noise_level, fmt::join(results.noise_levels, ", ")));
+    }
+    return static_cast<std::size_t>(found - results.noise_levels.begin());
+}
+
+PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t level,
+                             const std::vector<double>& sizes) {
+    PopulationFeature feature;
+    feature.name = results.features[f].name;
+    feature.alarm = results.features[f].alarm;
+    std::vector<double> faulty;
+    const std::size_t levels = results.noise_levels.size();
+    for (std::size_t row = 0; row < results.group.size(); ++row) {
+        const double value = results.features[f].values[row * levels + level];
+        if (!std::isfinite(value) || results.group[row] == kUngraded) {
+            continue;
+        }
+        const bool healthy =
+            results.group[row] == static_cast<int>(Group::threshold) || sizes[row] == 0.0;
+        (healthy ? feature.healthy : faulty).push_back(value);
+    }
+    std::sort(feature.healthy.begin(), feature.healthy.end());
+    feature.auc = analysis::auc(feature.healthy, faulty, feature.alarm == analysis::Alarm::high,
+                                results.request.confidence)
+                      .auc;
+    const analysis::LevelDetection& detection = results.detection[f].levels[level];
+    feature.threshold = detection.threshold;
+    return feature;
+}
+
+}  // namespace
+
+Population read_population(const std::string& path, double noise_level, const Study& study) {
+    const Results results = read_results(path);
+    check_teeth(path, results, study);
+    Population population;
+    population.file = path;
+    population.recordings = results.provenance_value("kind") == kRecordingsKind;
+    population.noise_level = noise_level;
+    population.false_alarm_rate = results.request.false_alarm_rate;
+    const std::size_t level = level_of(path, results, noise_level);
+    std::vector<double> sizes(results.group.size(), 0.0);
+    for (const ParameterResult& parameter : results.parameters) {
+        if (parameter.name == results.request.size.name) {
+            sizes = parameter.values;
+        }
+    }
+    for (std::size_t f = 0; f < results.features.size(); ++f) {
+        PopulationFeature feature = feature_of(results, f, level, sizes);
+        if (!feature.healthy.empty() && std::isfinite(feature.threshold)) {
+            population.features.push_back(std::move(feature));
+        }
+    }
+    if (population.features.empty()) {
+        refuse(path, "has no healthy gearboxes to set a threshold by");
+    }
+    std::stable_sort(population.features.begin(), population.features.end(),
+                     [](const PopulationFeature& a, const PopulationFeature& b) {
+                         return (std::isfinite(a.auc) ? a.auc : 0.0) >
+                                (std::isfinite(b.auc) ? b.auc : 0.0);
+                     });
+    return population;
+}
+
+std::vector<Verdict> judge(const Population& population, const std::vector<double>& measured,
+                           const std::string& feature) {
+    std::vector<Verdict> verdicts;
+    for (const PopulationFeature& known : population.features) {
+        const features::Feature* named = features::find_feature(known.name);
+        if (named == nullptr) {
+            continue;
+        }
+        const double value =
+            measured[static_cast<std::size_t>(named - features::all_features().data())];
+        if (!std::isfinite(value)) {
+            continue;
+        }
+        Verdict verdict;
+        verdict.population = &known;
+        verdict.value = value;
+        verdict.alarm = analysis::is_alarm(value, known.threshold, known.alarm);
+        const double side = known.alarm == analysis::Alarm::high ? 1.0 : -1.0;
+        verdict.margin = side * (value - known.threshold) / std::abs(known.threshold);
+        verdict.less_extreme =
+            std::count_if(known.healthy.begin(), known.healthy.end(),
+                          [&](double healthy) { return side * healthy < side * value; });
+        verdicts.push_back(verdict);
+    }
+    const auto named = std::find_if(verdicts.begin(), verdicts.end(), [&](const Verdict& one) {
+        return feature.empty() || one.population->name == feature;
+    });
+    if (named == verdicts.end()) {
+        refuse(population.file, feature.empty()
+                                    ? "has none of the recording's features"
+                                    : fmt::format("or the recording has no feature {}", feature));
+    }
+    std::rotate(verdicts.begin(), named, named + 1);
+    return verdicts;
+}
+
+std::vector<double> values_of(const std::vector<MeasuredFeature>& measured) {
+    std::vector<double> values;
+    for (const MeasuredFeature& one : measured) {
+        values.push_back(one.missing.empty() ? one.value : kNoValue);
+    }
+    return values;
+}
+
+std::string verdict_sentence(const std::string& recording, const Population& population,
+                             const Verdict& verdict, const std::vector<WorstTooth>& teeth) {
+    const PopulationFeature& known = *verdict.population;
+    const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
+    std::string text = fmt::format(
+        "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} that {} {} set at {:.3g} % "
+        "false "
+        "alarms, and {} than {} of them ({:.4g} %)",
+        recording, verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
+        100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
+        known.healthy.size(), whom, 100.0 * population.false_alarm_rate,
+        known.alarm == analysis::Alarm::high ? "larger" : "smaller", verdict.less_extreme,
+        100.0 * static_cast<double>(verdict.less_extreme) /
+            static_cast<double>(known.healthy.size()));
+    for (const WorstTooth& tooth : teeth) {
+        text += fmt::format(
+            "{} {} tooth {} of {}, counted from the recording's first mesh, is {:.3g} "
+            "times as loud as the median",
+            &tooth == &teeth.front() ? "; the" : ", the", tooth.gear, tooth.tooth, tooth.teeth,
+            tooth.ratio);
+    }
+    return text + ".";
+}
+
+}  // namespace gearpod::mc

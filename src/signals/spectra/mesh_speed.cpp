@@ -1,0 +1,141 @@
+#include "signals/spectra/mesh_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "signals/spectra/order_spectrum.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+constexpr double kFarthest = 0.06;      // of the ratio from 1
+constexpr int kMostHarmonics = 8;       // beyond, the searched bands of neighbours overlap
+constexpr double kStandsOut = 5.0;      // amplitude over the median of its band
+constexpr double kSpread = 4.0;         // of a mesh's lines, in turns' frequencies
+constexpr double kFits = 0.3;           // share of the amplitudes
+constexpr double kNearlyAsWell = 0.85;  // as the best fit
+
+struct Line {
+    double order;  // per mesh
+    double amplitude;
+    int harmonic;
+};
+
+// The largest length with no other prime factors than 2, 3 and 5.
+int fast_length(int most) {
+    for (int n = most; n > 1; --n) {
+        int rest = n;
+        for (const int prime : {2, 3, 5}) {
+            while (rest % prime == 0) {
+                rest /= prime;
+            }
+        }
+        if (rest == 1 && n % 2 == 0) {
+            return n;
+        }
+    }
+    return 0;
+}
+
+std::vector<Line> strong_lines(const std::vector<double>& amplitude, double meshes) {
+    std::vector<Line> lines;
+    for (int k = 1; k <= kMostHarmonics; ++k) {
+        const auto first = static_cast<std::size_t>(std::ceil(k * (1.0 - kFarthest) * meshes));
+        const auto last = static_cast<std::size_t>(std::floor(k * (1.0 + kFarthest) * meshes));
+        if (last + 1 >= amplitude.size()) {
+            break;
+        }
+        std::vector<double> band(amplitude.begin() + static_cast<std::ptrdiff_t>(first),
+                                 amplitude.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+        const auto middle = band.begin() + static_cast<std::ptrdiff_t>(band.size() / 2);
+        std::nth_element(band.begin(), middle, band.end());
+        double most = 0.0;
+        for (std::size_t bin = first; bin <= last; ++bin) {
+            most = std::max(most, amplitude[bin]);
+        }
+        // What stands out of noise, and of the skirts of stronger lines.
+        const double least = std::max(kStandsOut * *middle, 0.05 * most);
+        for (std::size_t bin = first; bin <= last; ++bin) {
+            if (amplitude[bin] > least && amplitude[bin] >= amplitude[bin - 1] &&
+                amplitude[bin] >= amplitude[bin + 1]) {
+                // Every harmonic counts alike, whatever its strength.
+                lines.push_back({static_cast<double>(bin) / meshes, amplitude[bin] / most, k});
+            }
+        }
+    }
+    return lines;
+}
+
+// Share of the amplitudes on the comb stretched by `ratio`.
+double fit_of(const std::vector<Line>& lines, double ratio, int turn_meshes, double width) {
+    double on = 0.0, all = 0.0;
+    for (const Line& line : lines) {
+        const double offset = (line.order / ratio - line.harmonic) * turn_meshes;
+        const double from_tooth = std::abs(offset - std::round(offset)) / width;
+        const double near = std::exp(-0.5 * std::pow(offset / kSpread, 2));
+        on += line.amplitude * near * std::max(0.0, 1.0 - from_tooth);
+        all += line.amplitude;
+    }
+    return on / all;
+}
+
+}  // namespace
+
+std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mesh,
+                                    int turn_meshes) {
+    constexpr int kMostSamples = 1 << 20;
+    constexpr int kFewestTurns = 4, kFewestHarmonics = 3;
+    const int length = fast_length(static_cast<int>(
+        std::min<std::size_t>(samples.size(), static_cast<std::size_t>(kMostSamples))));
+    const double meshes = static_cast<double>(length) / per_mesh;
+    const double turns = meshes / turn_meshes;
+    if (turn_meshes < 2 || turns < kFewestTurns) {
+        return std::nullopt;
+    }
+    std::vector<double> windowed(samples.begin(), samples.begin() + length);
+    for (int i = 0; i < length; ++i) {
+        windowed[static_cast<std::size_t>(i)] *=
+            0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / length);
+    }
+    OrderSpectrum spectrum(length);
+    spectrum.load(windowed);
+    std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
+    spectrum.amplitudes(0.0, amplitude);
+    const std::vector<Line> lines = strong_lines(amplitude, meshes);
+    std::set<int> harmonics;
+    for (const Line& line : lines) {
+        harmonics.insert(line.harmonic);
+    }
+    if (harmonics.size() < kFewestHarmonics) {
+        return std::nullopt;
+    }
+    // A tooth of the comb is a bin and a half wide, at most a third of the way to the next.
+    const double width = std::min(0.33, 1.5 / turns);
+    const double step = 0.25 / (meshes * *harmonics.rbegin());
+    MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};
+    best.fit = best.stated;
+    const auto look = [&](const auto& use) {
+        for (double ratio = 1.0 - kFarthest; ratio <= 1.0 + kFarthest; ratio += step) {
+            use(ratio, fit_of(lines, ratio, turn_meshes, width));
+        }
+    };
+    look([&](double ratio, double fit) {
+        if (fit > best.fit) {
+            best.ratio = ratio;
+            best.fit = fit;
+        }
+    });
+    double next = kNearlyAsWell * best.fit;
+    look([&](double ratio, double fit) {
+        if (fit > next && std::abs(ratio - best.ratio) * turn_meshes > 0.5) {
+            best.other = ratio;
+            next = fit;
+        }
+    });
+    return best.fit > kFits ? std::optional(best) : std::nullopt;
+}
+
+}  // namespace gearpod::signals

@@ -1,0 +1,221 @@
+// Recordings as data loggers write them, made from simulated ones: the right features, or a reason.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "mc/files/hdf5_data.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
+                           "/tests/features/reference/small.toml --set fault.reduction=0.5";
+
+// A healthy gearbox over the longest span, with the study's noise.
+struct Simulated {
+    Folder folder;
+    std::vector<double> time, sensor;
+
+    Simulated() {
+        const std::string path = folder.file("s.h5");
+        REQUIRE(program("simulate " + kSmall + " --instance 2 --meshes 455 --out " + path).code ==
+                0);
+        const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                                  path);
+        const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
+        time = mc::read_numbers(group.get(), "time", 1000000).values;
+        sensor = mc::read_numbers(group.get(), "sensor_noise_1", 1000000).values;
+    }
+    std::string write(const std::string& header, const std::vector<std::vector<double>>& columns,
+                      int digits = 17) const {
+        const std::string path = folder.file("r.csv");
+        std::ofstream stream(path);
+        stream.precision(digits);
+        stream << header << "\n";
+        for (std::size_t i = 0; i < columns[0].size(); ++i) {
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                stream << (c == 0 ? "" : ",") << columns[c][i];
+            }
+            stream << "\n";
+        }
+        return path;
+    }
+};
+
+Outcome features(const std::string& path, const std::string& options = "") {
+    return program("features " + path + " --study " + kSmall + " " + options);
+}
+
+nlohmann::json features_of(const std::string& path, const std::string& options = "") {
+    const Outcome outcome = features(path, options + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.output)["features"];
+}
+
+void check_alike(const nlohmann::json& found, const nlohmann::json& expected, double share) {
+    for (const char* name : {"sensor_rms", "window_ratio", "crest_factor", "fm4", "energy_ratio",
+                             "frms", "sun_window_ratio", "ring_window_ratio"}) {
+        INFO(name);
+        REQUIRE(found.contains(name));
+        CHECK(found[name].get<double>() == Approx(expected[name].get<double>()).epsilon(share));
+    }
+}
+
+std::vector<double> times(std::vector<double> values, double factor) {
+    for (double& value : values) {
+        value *= factor;
+    }
+    return values;
+}
+
+TEST_CASE("Units are converted, and unknown ones refused with those that are known") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time [s],sensor [m/s^2]", {s.time, s.sensor}));
+    check_alike(features_of(s.write("time [ms],sensor [g]",
+                                    {times(s.time, 1e3), times(s.sensor, 1.0 / 9.80665)})),
+                plain, 1e-9);
+    check_alike(features_of(s.write("time,sensor (mm/s²)", {s.time, times(s.sensor, 1e3)})), plain,
+                1e-9);
+    check_alike(features_of(s.write("time,sensor", {s.time, times(s.sensor, 1.0 / 9.80665)}),
+                            "--sensor-unit g"),
+                plain, 1e-9);
+    const Outcome outcome = features(s.write("time,sensor [V]", {s.time, s.sensor}));
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("unknown unit V; known are m/s^2, mm/s^2, g, mg"));
+}
+
+TEST_CASE("Decimal commas are read where no comma stands between the fields") {
+    const Simulated s;
+    const std::string path = s.write("time,sensor", {s.time, s.sensor});
+    const auto plain = features_of(path);
+    std::string text = bytes_of(path);
+    std::replace(text.begin(), text.end(), ',', ';');
+    std::replace(text.begin(), text.end(), '.', ',');
+    write_bytes(path, "\xEF\xBB\xBF" + text);
+    check_alike(features_of(path), plain, 1e-9);
+}
+
+TEST_CASE("Rounded times are those of an even rate") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    std::vector<double> rounded = s.time;
+    for (double& value : rounded) {
+        value = std::round(value * 1e3) / 1e3;  // a quarter of a sample
+    }
+    const auto found = features_of(s.write("time,sensor", {rounded, s.sensor}));
+    for (const char* name : {"sensor_rms", "window_ratio", "crest_factor", "fm4", "energy_ratio"}) {
+        INFO(name);
+        CHECK(found[name].get<double>() == Approx(plain[name].get<double>()).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("Gaps in time, time that runs back and clipped samples are named") {
+    const Simulated s;
+    auto time = s.time, sensor = s.sensor;
+    time.erase(time.begin() + 100, time.begin() + 103);
+    sensor.erase(sensor.begin() + 100, sensor.begin() + 103);
+    Outcome outcome = features(s.write("time,sensor", {time, sensor}));
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("from sample 100 to the next"));
+    CHECK(outcome.mentions("3 sample(s) are missing"));
+    time = s.time;
+    std::swap(time[50], time[51]);
+    outcome = features(s.write("time,sensor", {time, s.sensor}));
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("evenly spaced"));
+    const double largest = *std::max_element(s.sensor.begin(), s.sensor.end());
+    sensor = s.sensor;
+    for (double& value : sensor) {
+        value = std::clamp(value, -0.3 * largest, 0.3 * largest);
+    }
+    outcome = features(s.write("time,sensor", {s.time, sensor}));
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("clipped; record with a larger range"));
+}
+
+TEST_CASE("A speed that is wrong by 2 % is noticed, and can be taken from the mesh lines") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    for (const double wrong : {0.98, 1.02}) {
+        const std::string path = s.write("time,sensor", {times(s.time, 1.0 / wrong), s.sensor});
+        const Outcome outcome = features(path);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("times the stated speed"));
+        CHECK(features(path, "--speed stated").code == 0);
+    }
+    const std::string path = s.write("time,sensor", {times(s.time, 1.0 / 1.02), s.sensor});
+    const auto found = features_of(path, "--speed found");
+    CHECK(found["sensor_rms"].get<double>() ==
+          Approx(plain["sensor_rms"].get<double>()).epsilon(0.02));
+    CHECK(found["window_ratio"].get<double>() ==
+          Approx(plain["window_ratio"].get<double>()).epsilon(0.05));
+}
+
+TEST_CASE("A tachometer's pulses give the mesh phase, and a missing one is named") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    // The carrier turns once in 35 mesh periods of 8 samples; five pulses a turn, from before the
+    // first sample on: 56 samples each.
+    std::vector<double> pulses, missing;
+    for (std::size_t i = 0; i < s.time.size(); ++i) {
+        const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) - 0.5) / 56.0;
+        pulses.push_back(std::sin(angle) > 0.0 ? 5.0 : 0.0);
+        missing.push_back(i > 1000 && i < 1060 ? 0.0 : pulses.back());
+    }
+    const std::string options = "--tachometer tacho --pulses-per-turn 5";
+    const auto counted =
+        features_of(s.write("time,sensor,tacho", {s.time, s.sensor, pulses}), options);
+    CHECK(counted["sensor_rms"].get<double>() ==
+          Approx(plain["sensor_rms"].get<double>()).epsilon(1e-2));
+    CHECK(counted["window_ratio"].get<double>() ==
+          Approx(plain["window_ratio"].get<double>()).epsilon(2e-2));
+    const Outcome outcome =
+        features(s.write("time,sensor,tacho", {s.time, s.sensor, missing}), options);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("one is missing or one too many"));
+    CHECK(features(s.write("time,sensor", {s.time, s.sensor}), "--tachometer tacho")
+              .mentions("no column tacho"));
+}
+
+TEST_CASE("A recording is judged against a results file, in a sentence") {
+    const Folder folder;
+    const std::string study = kSmall +
+                              " --set ensemble.threshold_instances=60 "
+                              "--set detection.false_alarm_rate=0.05 "
+                              "--set 'features.use=[\"window_ratio\",\"sensor_rms\"]'";
+    REQUIRE(program("run " + study + " --quiet --out " + folder.file("p.h5")).code == 0);
+    const Simulated s;  // with half of a tooth's stiffness gone
+    const std::string path = s.write("time,sensor", {s.time, s.sensor});
+    const Outcome outcome = features(path, "--against " + folder.file("p.h5") + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto against = nlohmann::json::parse(outcome.output)["against"];
+    REQUIRE(against["features"].size() == 2);
+    for (const auto& one : against["features"]) {
+        CHECK(one["healthy"] == 60);
+        CHECK(one["alarm"] == (one["value"].get<double>() > one["threshold"].get<double>()));
+        CHECK((one["margin"].get<double>() > 0.0) == one["alarm"].get<bool>());
+        if (one["alarm"]) {
+            CHECK(one["quantile"].get<double>() > 0.9);
+        }
+    }
+    CHECK_THAT(against["sentence"].get<std::string>(), Catch::Contains("simulated healthy"));
+    REQUIRE(against["teeth"].size() >= 1);
+    CHECK(against["teeth"][0]["teeth"] == 11);
+    const Outcome other = program("features " + path + " --study " + kSmall +
+                                  " --set gearbox.planets=4 --set gearbox.sun_teeth=15 --set "
+                                  "gearbox.ring_teeth=37 --against " +
+                                  folder.file("p.h5"));
+    CHECK(other.code == 2);
+    CHECK(features(path, "--feature window_ratio").mentions("is of --against"));
+    CHECK(features(path, "--feature fm4 --against " + folder.file("p.h5")).code == 2);
+}
+
+}  // namespace
+}  // namespace gearpod::test

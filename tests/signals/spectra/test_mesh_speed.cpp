@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "signals/spectra/mesh_speed.hpp"
+
+namespace gearpod::signals {
+namespace {
+
+constexpr int kPerMesh = 24;
+
+// Lines of a planetary gearbox at multiples of the carrier's turn of `turn_meshes`, in noise,
+// running at `ratio` times the speed that its samples are placed by.
+std::vector<double> gearbox(int turn_meshes, int planets, double ratio, double noise, int meshes,
+                            unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi), size(0.2, 1.0);
+    std::normal_distribution<double> normal;
+    std::vector<double> samples(static_cast<std::size_t>(meshes) * kPerMesh);
+    for (double& sample : samples) {
+        sample = noise * normal(engine);
+    }
+    for (int k = 1; k <= 6; ++k) {
+        for (int j = -5; j <= 5; ++j) {
+            // Planets in sequence leave the lines whose order is a multiple of their number.
+            if ((k * turn_meshes + j) % planets != 0) {
+                continue;
+            }
+            const double order = (k * turn_meshes + j) * ratio / turn_meshes;
+            const double start = phase(engine), amplitude = size(engine) / (1.0 + std::abs(j));
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                samples[i] += amplitude * std::cos(2.0 * std::numbers::pi * order *
+                                                       static_cast<double>(i) / kPerMesh +
+                                                   start);
+            }
+        }
+    }
+    return samples;
+}
+
+TEST_CASE("A speed that is wrong by 2 % shows in the mesh lines, a right one does not") {
+    for (const int turn_meshes : {35, 81, 99}) {
+        for (const double ratio : {0.96, 0.98, 0.995, 1.0, 1.02, 1.05}) {
+            for (const unsigned seed : {1U, 2U}) {
+                const auto found =
+                    mesh_speed(gearbox(turn_meshes, 4, ratio, 0.5, 10 * turn_meshes, seed),
+                               kPerMesh, turn_meshes);
+                INFO(turn_meshes << " " << ratio << " " << seed);
+                REQUIRE(found);
+                CHECK(found->ratio == Approx(ratio).margin(0.0015));
+                CHECK((found->stated < 0.5 * found->fit) == (ratio != 1.0));
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "Where three harmonics do not tell which tooth of the comb is which, both ratios are told") {
+    // Alone at +1, -1 and 0 turns of the carrier from the mesh's harmonics.
+    std::vector<double> samples(static_cast<std::size_t>(400) * kPerMesh);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        for (const int line : {35 + 1, 2 * 35 - 1, 3 * 35}) {
+            samples[i] += std::cos(2.0 * std::numbers::pi * 1.02 * line / 35.0 *
+                                   static_cast<double>(i) / kPerMesh);
+        }
+    }
+    const auto found = mesh_speed(samples, kPerMesh, 35);
+    REQUIRE(found);
+    CHECK(found->stated < 0.5 * found->fit);
+    const double ratios[] = {found->ratio, found->other};
+    CHECK(std::any_of(std::begin(ratios), std::end(ratios),
+                      [](double ratio) { return std::abs(ratio - 1.02) < 2e-3; }));
+}
+
+TEST_CASE("Noise, a single tone and short records say nothing of the speed") {
+    std::mt19937 engine(7);
+    std::normal_distribution<double> normal;
+    std::vector<double> noise(static_cast<std::size_t>(400) * kPerMesh), tone = noise;
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        noise[i] = normal(engine);
+        tone[i] = std::sin(0.271 * static_cast<double>(i)) + 0.01 * noise[i];
+    }
+    CHECK_FALSE(mesh_speed(noise, kPerMesh, 40));
+    CHECK_FALSE(mesh_speed(tone, kPerMesh, 40));
+    CHECK_FALSE(mesh_speed(gearbox(40, 3, 1.02, 0.1, 100, 1), kPerMesh, 40));
+}
+
+}  // namespace
+}  // namespace gearpod::signals
