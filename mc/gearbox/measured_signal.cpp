@@ -281,8 +281,7 @@ class Reading {
         }
     }
 
-    // How many times the speed that the phase was made with the mesh lines show; 1 where they say
-    // nothing else.
+    // How many times the speed of the phase the mesh lines show; 1 where they say nothing else.
     double speed_of_lines(const MeasuredSignal& measured) {
         if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor) {
             return 1.0;
@@ -290,6 +289,7 @@ class Reading {
         const auto found =
             signals::mesh_speed(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes());
         constexpr double kClearly = 0.5;  // of the best fit
+        constexpr int kEnough = 4;  // harmonics: fewer fit a tooth of the comb further as well
         if (!found || found->stated > kClearly * found->fit) {
             return 1.0;
         }
@@ -301,8 +301,8 @@ class Reading {
                 fmt::format("{}: {:.0f} % of their amplitudes there, {:.0f} % here; correct the "
                             "speed, or take theirs by --speed found",
                             lines, 100.0 * found->fit, 100.0 * found->stated));
-        } else if (found->other > 0.0) {
-            reject(lines + " and do not tell which; correct the speed");
+        } else if (found->other > 0.0 || found->harmonics < kEnough) {
+            reject(lines + ", but they are too few to tell it by; correct the speed");
         }
         return found->ratio;
     }

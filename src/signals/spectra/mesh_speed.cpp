@@ -117,6 +117,7 @@ std::optional<MeshSpeed> mesh_speed(std::span<const double> samples, int per_mes
     const double step = 0.25 / (meshes * *harmonics.rbegin());
     MeshSpeed best{1.0, 0.0, fit_of(lines, 1.0, turn_meshes, width)};
     best.fit = best.stated;
+    best.harmonics = static_cast<int>(harmonics.size());
     const auto look = [&](const auto& use) {
         for (double ratio = 1.0 - kFarthest; ratio <= 1.0 + kFarthest; ratio += step) {
             use(ratio, fit_of(lines, ratio, turn_meshes, width));

@@ -18,6 +18,7 @@ struct MeshSpeed {
     double fit = 0.0;     // share of the lines' amplitudes that the comb covers there
     double stated = 0.0;  // and at a ratio of 1
     double other = 0.0;   // another ratio that fits nearly as well; 0: none
+    int harmonics = 0;    // that have lines
 };
 
 // `samples`: evenly spaced in mesh phase, `per_mesh` a mesh period; `turn_meshes`: mesh periods of
