@@ -116,8 +116,8 @@ std::vector<Verdict> judge(const Population& population, const std::vector<doubl
     std::vector<Verdict> verdicts;
     for (const PopulationFeature& known : population.features) {
         const features::Feature* named = features::find_feature(known.name);
-        if (named == nullptr) {
-            continue;
+        if (named == nullptr || named->compared != features::Compared::nothing) {
+            continue;  // one recording has no baseline
         }
         const double value =
             measured[static_cast<std::size_t>(named - features::all_features().data())];
@@ -161,8 +161,7 @@ std::string verdict_sentence(const std::string& recording, const Population& pop
     const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
     std::string text = fmt::format(
         "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} that {} {} set at {:.3g} % "
-        "false "
-        "alarms, and {} than {} of them ({:.4g} %)",
+        "false alarms, and {} than {} of them ({:.4g} %)",
         recording, verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
         100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
         known.healthy.size(), whom, 100.0 * population.false_alarm_rate,
