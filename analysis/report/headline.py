@@ -44,9 +44,11 @@ def sentence(report):
     if best is None:
         return f"At {at} no feature has a detection rate."
     name, cell = best
+    whom = ("the faulty recordings" if report.sizes.name == "label" else
+            f"those of {report.sizes.group(cell['size_low'], cell['size_high'])}")
     return (f"No tested {_fault(report)} is found with {_promise(report)} at {at}. The best is "
             f"{name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
-            f"those of {report.sizes.group(cell['size_low'], cell['size_high'])}.")
+            f"{whom}.")
 
 
 def _noise_limit(report):
@@ -192,8 +194,13 @@ def facts(report):
     failed = failures["diverged"] + failures["not_settled"]
     healthy, faulty = report.sample()
     set_ = any(level["threshold"] is not None for f in report.detection for level in f["levels"])
-    thresholds = (f" Thresholds from an independent healthy sample at a false-alarm rate of "
+    recorded = bool(report.data["provenance"].get("recordings"))
+    sample = "those healthy ones" if recorded else "an independent healthy sample"
+    thresholds = (f" Thresholds from {sample} at a false-alarm rate of "
                   f"{percent(report.data['detection']['false_alarm_rate'])}." if set_ else "")
+    if recorded:
+        return (f"{count(failures['gearboxes'])} recordings, {count(healthy)} of them known as "
+                f"healthy and {count(faulty)} as faulty.{thresholds}")
     return (f"{noise_unit(report)}{count(failures['gearboxes'])} simulated gearboxes, of which "
             f"{plural(failed, 'failed', 'failed')}; {count(healthy)} healthy and {count(faulty)} "
             f"faulty ones have values.{thresholds}")

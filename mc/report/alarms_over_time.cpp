@@ -154,7 +154,7 @@ std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& grou
         for (const std::size_t f : order) {
             const double share =
                 static_cast<double>(group.alarms[f]) / static_cast<double>(group.recordings);
-            out += fmt::format("{:>9.0f} %{:>7.3g}", 100.0 * share, group.medians[f]);
+            out += fmt::format("{:>7.0f} %{:>9.3g}", 100.0 * share, group.medians[f]);
         }
         out += "\n";
     }
