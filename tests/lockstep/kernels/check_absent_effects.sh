@@ -15,14 +15,14 @@ cat > "$work/plain.cpp" <<'END'
 namespace gearpod::lockstep {
 __attribute__((target("arch=x86-64-v3"))) void explicit_4(
     const MarchPlan& plan, const dynamics::PlanetaryLanes<4>& lanes,
-    const machine::AlignedVector& filter, const std::vector<PairOverride>& overrides,
+    const machine::AlignedVector& filter, const MeshOverrides& overrides,
     TileState& state, MeshRecord& record) {
     march<RungeKutta4, dynamics::TorsionalMotion<dynamics::LinearMesh, 4>>(plan, lanes, filter,
                                                                            overrides, state, record);
 }
 __attribute__((target("arch=x86-64-v3"))) void implicit_4(
     const MarchPlan& plan, const ImplicitLanes<4>& lanes, const machine::AlignedVector& filter,
-    const std::vector<PairOverride>& overrides, TileState& state, MeshRecord& record) {
+    const MeshOverrides& overrides, TileState& state, MeshRecord& record) {
     march<Sdirk3, MatrixMotion<dynamics::LinearMesh, 4>>(plan, lanes, filter, overrides, state,
                                                          record);
 }
