@@ -5,6 +5,7 @@
 #include "lockstep/tile/quasi_static.hpp"
 #include "machine/thread_clock.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 #include "mc/gearbox/tooth_draws.hpp"
@@ -71,15 +72,7 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
 
 void march(const Scene& scene, std::span<const GearboxId> ids, int lanes, bool with_motion,
            GearboxTile& tile) {
-    if (lanes == 1) {
-        march<1>(scene, ids, with_motion, tile);
-    } else if (lanes == 4) {
-        march<4>(scene, ids, with_motion, tile);
-    } else if (lanes == 8) {
-        march<8>(scene, ids, with_motion, tile);
-    } else {
-        march<16>(scene, ids, with_motion, tile);
-    }
+    with_lane_count(lanes, [&](auto width) { march<width()>(scene, ids, with_motion, tile); });
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "features/worst_tooth.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/span_analysis.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -147,13 +148,8 @@ std::string why_no_value(const Feature& feature, const features::FeatureInput& i
 
 WorstTooth worst_tooth(const char* gear, std::span<const double> rms) {
     const auto worst = std::max_element(rms.begin(), rms.end());
-    std::vector<double> sorted(rms.begin(), rms.end());
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    const double median =
-        sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
     return {gear, static_cast<int>(worst - rms.begin()) + 1, static_cast<int>(rms.size()),
-            *worst / median};
+            features::worst_to_median(rms)};
 }
 
 }  // namespace

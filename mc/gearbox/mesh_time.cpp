@@ -13,6 +13,7 @@
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/thread_clock.hpp"
+#include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 
 namespace gearpod::mc {
@@ -108,16 +109,9 @@ double motion_bytes(const Scene& scene) {
 
 double mesh_period_s(const Scene& scene) {
     constexpr int kMarches = 5;
-    switch (scene.study().numerics.lanes) {
-        case 1:
-            return least_mesh_s<1>(scene, scene.plan(), true, kMarches);
-        case 4:
-            return least_mesh_s<4>(scene, scene.plan(), true, kMarches);
-        case 8:
-            return least_mesh_s<8>(scene, scene.plan(), true, kMarches);
-        default:
-            return least_mesh_s<16>(scene, scene.plan(), true, kMarches);
-    }
+    return with_lane_count(scene.study().numerics.lanes, [&](auto lanes) {
+        return least_mesh_s<lanes()>(scene, scene.plan(), true, kMarches);
+    });
 }
 
 double explicit_step_s(const Scene& scene) {

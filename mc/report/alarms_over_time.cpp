@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/detection/threshold.hpp"
+#include "features/median.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -37,15 +38,6 @@ std::vector<double> ends_of(const std::vector<double>& times) {
         ends.insert(sorted[i * sorted.size() / kMostGroups - 1]);
     }
     return {ends.begin(), ends.end()};
-}
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 double threshold_of(const Results& frame, std::size_t feature) {
@@ -120,7 +112,7 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
             }
         }
         for (const std::vector<double>& of_feature : here) {
-            group.medians.push_back(median_of(of_feature));
+            group.medians.push_back(features::median(of_feature));
         }
         groups.push_back(std::move(group));
         before = end;

@@ -1,7 +1,9 @@
 // Shipped studies as tests use them.
 #pragma once
 
+#include <bit>
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,28 @@ inline mc::Study shipped_study(const std::string& name,
     return *reading.study;
 }
 
+inline mc::Study study_of_text(const std::string& text,
+                               const std::vector<std::string>& overrides = {}) {
+    const auto reading = mc::read_study_text(text, "study.toml", overrides);
+    INFO(mc::format(reading.problems));
+    REQUIRE(reading.study);
+    return *reading.study;
+}
+
 inline mc::Results run(const mc::Study& study) {
     const mc::Scene scene(study);
     mc::Progress progress(1, true);
     return mc::run_ensemble(scene, progress);
+}
+
+inline std::vector<std::uint64_t> feature_bits(const mc::Study& study) {
+    std::vector<std::uint64_t> all;
+    for (const auto& feature : run(study).features) {
+        for (const double value : feature.values) {
+            all.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+    }
+    return all;
 }
 
 inline std::size_t feature_index(const mc::Results& results, const std::string& name) {

@@ -12,27 +12,10 @@ using mc::Scene;
 
 namespace {
 
-mc::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const auto reading = mc::read_study_text(text, "study.toml", overrides);
-    INFO(mc::format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
-}
-
 mc::GearboxTile run_one(const Scene& scene) {
     const mc::GearboxId id{mc::Group::graded, 0};
     return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
                              std::span(&id, 1), 1, true);
-}
-
-std::vector<std::uint64_t> feature_bits(const mc::Study& study) {
-    std::vector<std::uint64_t> all;
-    for (const auto& feature : test::run(study).features) {
-        for (const double value : feature.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
-    return all;
 }
 
 // Text without the line that begins with `key`.
@@ -47,7 +30,7 @@ std::string without(const std::string& text, const std::string& key) {
 TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is stiff") {
     const std::string integrator =
         GENERATE("numerics.integrator=rk4", "numerics.integrator=central-difference");
-    const mc::Study study = study_of(kFixedShaftStudy, {integrator});
+    const mc::Study study = test::study_of_text(kFixedShaftStudy, {integrator});
     // The coupling's damper between motor and pinion: c (1 / I_m + 1 / I_1).
     const double rate = 5e5 * (1.0 / 0.0021 + 1.0 / 4.3659e-4);
     try {
@@ -63,9 +46,10 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is 
         CHECK(std::stod(what.substr(at + 13)) == Approx(rate).epsilon(0.01));
         CHECK(error.remedy().find("sdirk3") != std::string::npos);
     }
-    CHECK(Scene(study_of(kFixedShaftStudy)).plan().integrator == lockstep::Integrator::sdirk3);
-    const Scene newmark(
-        study_of(kFixedShaftStudy, {"numerics.integrator=newmark", "numerics.steps_per_mesh=77"}));
+    CHECK(Scene(test::study_of_text(kFixedShaftStudy)).plan().integrator ==
+          lockstep::Integrator::sdirk3);
+    const Scene newmark(test::study_of_text(
+        kFixedShaftStudy, {"numerics.integrator=newmark", "numerics.steps_per_mesh=77"}));
     CHECK(newmark.plan().integrator == lockstep::Integrator::newmark);
     CHECK(newmark.plan().grid.steps.size() >= 77);
 }
@@ -94,7 +78,7 @@ TEST_CASE("Steps by which central differences are unstable are refused, their ow
 
 TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused with its part") {
     try {
-        const Scene scene(study_of(kFixedShaftStudy, {"numerics.precision=single"}));
+        const Scene scene(test::study_of_text(kFixedShaftStudy, {"numerics.precision=single"}));
         FAIL("accepted");
     } catch (const mc::SceneError& error) {
         CHECK(error.key() == "numerics.precision");
@@ -105,14 +89,16 @@ TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused
 
 TEST_CASE("A pilot grades the steps of a study, the same at every start") {
     const auto graded = [](const std::string& tolerance) {
-        return Scene(study_of(kFixedShaftStudy,
-                              {"numerics.grid=graded", "numerics.grid_tolerance=" + tolerance}))
+        return Scene(test::study_of_text(
+                         kFixedShaftStudy,
+                         {"numerics.grid=graded", "numerics.grid_tolerance=" + tolerance}))
             .plan()
             .grid;
     };
     const auto loose = graded("1e-2"), tight = graded("1e-3");
     CHECK(loose.steps.size() < tight.steps.size());
-    CHECK(tight.steps.size() < Scene(study_of(kFixedShaftStudy)).plan().grid.steps.size());
+    CHECK(tight.steps.size() <
+          Scene(test::study_of_text(kFixedShaftStudy)).plan().grid.steps.size());
     const auto again = graded("1e-3");
     REQUIRE(again.steps.size() == tight.steps.size());
     for (std::size_t i = 0; i < again.steps.size(); ++i) {
@@ -127,9 +113,9 @@ TEST_CASE("A pilot grades the steps of a study, the same at every start") {
 }
 
 TEST_CASE("Scenes of other numerics share what these leave alike, and march as if made anew") {
-    const Scene scene(study_of(kFixedShaftStudy, {"numerics.grid=graded"}));
+    const Scene scene(test::study_of_text(kFixedShaftStudy, {"numerics.grid=graded"}));
     const auto with = [&](const std::vector<std::string>& overrides) {
-        return study_of(kFixedShaftStudy, overrides).numerics;
+        return test::study_of_text(kFixedShaftStudy, overrides).numerics;
     };
     const Scene settled =
         scene.with(with({"numerics.grid=graded", "numerics.settle_tolerance=1e-4"}));
@@ -152,7 +138,7 @@ TEST_CASE("Scenes of other numerics share what these leave alike, and march as i
 }
 
 TEST_CASE("A scene that records less is the same otherwise") {
-    const Scene scene(study_of(kFixedShaftStudy));
+    const Scene scene(test::study_of_text(kFixedShaftStudy));
     const Scene less = scene.recording_at_most(3);
     CHECK(less.recorded_meshes() == 3);
     CHECK(less.signal_meshes() == scene.signal_meshes());
@@ -166,9 +152,9 @@ TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in 
     for (const char* key : {"sampling_Hz", "low_pass_Hz", "load_torque_N_m"}) {
         text = without(text, key);
     }
-    const mc::Study study =
-        study_of(text, {"gearbox.tooth_profile=constant", "gearbox.mesh_stiffness_N_m=7e8",
-                        "effects.motion=quasi-static", "fault.kind=none"});
+    const mc::Study study = test::study_of_text(
+        text, {"gearbox.tooth_profile=constant", "gearbox.mesh_stiffness_N_m=7e8",
+               "effects.motion=quasi-static", "fault.kind=none"});
     const auto tile = run_one(Scene(study));
     REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
     const double cosine = std::cos(M_PI / 9);
@@ -185,7 +171,7 @@ TEST_CASE("A fixed-shaft gearbox at rest deflects like its mesh and bearings in 
 
 TEST_CASE("A planetary train driven by its carrier yields at sun, ring and support in series") {
     // Equal levels: constant stiffness along the normal of helical teeth, Park (2016), Eq. A1.
-    const mc::Study study = study_of(
+    const mc::Study study = test::study_of_text(
         without(kQuasiStaticStudy, "operation.torque_N_m"),
         {"gearbox.sun_planet_low_stiffness_N_m=2e9", "gearbox.ring_planet_low_stiffness_N_m=2.4e9",
          "gearbox.support_stiffness_N_m=1e10", "fault.kind=none"});
@@ -200,7 +186,7 @@ TEST_CASE("A planetary train driven by its carrier yields at sun, ring and suppo
 }
 
 TEST_CASE("A planet tooth weakened on both sides meets sun and ring half a turn apart") {
-    const Scene scene(study_of(kQuasiStaticStudy));
+    const Scene scene(test::study_of_text(kQuasiStaticStudy));
     REQUIRE(scene.fault().curves() == 2);
     REQUIRE(scene.pattern().passages.size() == 2);
     CHECK(scene.pattern().length == 26);
@@ -223,21 +209,21 @@ TEST_CASE(
          "sensor.tones=[{frequency_Hz=360, amplitude_m_s2=2}, {frequency_Hz=20.5, "
          "amplitude_m_s2=0.3}]"}};
     for (const auto& change : changes) {
-        const auto eight = feature_bits(study_of(kFixedShaftStudy, change));
+        const auto eight = test::feature_bits(test::study_of_text(kFixedShaftStudy, change));
         for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
             auto narrow = change;
             narrow.push_back(lanes);
-            CHECK(feature_bits(study_of(kFixedShaftStudy, narrow)) == eight);
+            CHECK(test::feature_bits(test::study_of_text(kFixedShaftStudy, narrow)) == eight);
         }
     }
     const std::vector<std::string> pitch{"numerics.horizon=march", "gearbox.pitch_error_um=3"};
-    const auto perfect = feature_bits(study_of(kQuasiStaticStudy));
-    const auto eight = feature_bits(study_of(kQuasiStaticStudy, pitch));
+    const auto perfect = test::feature_bits(test::study_of_text(kQuasiStaticStudy));
+    const auto eight = test::feature_bits(test::study_of_text(kQuasiStaticStudy, pitch));
     for (const char* lanes : {"numerics.lanes=4", "numerics.lanes=1"}) {
         auto narrow = pitch;
         narrow.push_back(lanes);
-        CHECK(feature_bits(study_of(kQuasiStaticStudy, narrow)) == eight);
-        CHECK(feature_bits(study_of(kQuasiStaticStudy, {lanes})) == perfect);
+        CHECK(test::feature_bits(test::study_of_text(kQuasiStaticStudy, narrow)) == eight);
+        CHECK(test::feature_bits(test::study_of_text(kQuasiStaticStudy, {lanes})) == perfect);
     }
     CHECK(eight != perfect);
 }
@@ -247,7 +233,7 @@ TEST_CASE("The features of a fixed-shaft gearbox single out the broken tooth's t
                                         "kind = \"chip\"\nmember = \"pinion\"\nchip_mm = 8\n"
                                         "chip_height_mm = 2",
                                         "kind = \"broken\"\nmember = \"gear\"\nbroken = 1");
-    const Scene scene(study_of(broken));
+    const Scene scene(test::study_of_text(broken));
     CHECK(scene.span().planet_teeth == 48);
     CHECK(scene.span_meshes() == 48 * 19);
     CHECK(scene.pattern().length == 48);
@@ -259,7 +245,7 @@ TEST_CASE("The features of a fixed-shaft gearbox single out the broken tooth's t
 }
 
 TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from its study") {
-    const Scene scene(study_of(kSpatialCrackStudy));
+    const Scene scene(test::study_of_text(kSpatialCrackStudy));
     CHECK(scene.plan().mesh_law == dynamics::MeshLaw::pushing);
     CHECK(scene.plan().nodes.tooth_pairs == 2);
     CHECK(scene.fault().largest_size() == 5.0);

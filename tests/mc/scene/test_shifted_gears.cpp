@@ -16,23 +16,6 @@ using test::shipped_study;
 
 namespace {
 
-mc::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const auto reading = mc::read_study_text(text, "study.toml", overrides);
-    INFO(mc::format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
-}
-
-std::vector<std::uint64_t> feature_bits(const mc::Study& study) {
-    std::vector<std::uint64_t> all;
-    for (const auto& feature : test::run(study).features) {
-        for (const double value : feature.values) {
-            all.push_back(std::bit_cast<std::uint64_t>(value));
-        }
-    }
-    return all;
-}
-
 // Problems with a study that is Liang's gearbox but for these.
 mc::Problems problems_of(const std::vector<std::string>& overrides) {
     const auto reading = mc::read_study_text(tests::kExampleStudy, "study.toml", overrides);
@@ -60,7 +43,7 @@ std::vector<std::string> bell_with(const std::vector<std::string>& more) {
 
 TEST_CASE("Shifts of zero and the standard centre distance give the bits of giving none") {
     const std::vector<std::string> few{"ensemble.instances=6", "ensemble.threshold_instances=2"};
-    const auto reference = feature_bits(study_of(tests::kExampleStudy, few));
+    const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
     for (const std::vector<std::string>& given :
          {std::vector<std::string>{"gearbox.sun_shift=0", "gearbox.planet_shift=0",
                                    "gearbox.ring_shift=0"},
@@ -68,12 +51,12 @@ TEST_CASE("Shifts of zero and the standard centre distance give the bits of givi
           {"gearbox.centre_distance_mm=79.375"}}) {
         std::vector<std::string> all = few;
         all.insert(all.end(), given.begin(), given.end());
-        CHECK(feature_bits(study_of(tests::kExampleStudy, all)) == reference);
+        CHECK(test::feature_bits(test::study_of_text(tests::kExampleStudy, all)) == reference);
     }
 }
 
 TEST_CASE("A shifted gearbox works at its centre distance, its planets where they mesh") {
-    const mc::Study study = study_of(tests::kExampleStudy, kBell);
+    const mc::Study study = test::study_of_text(tests::kExampleStudy, kBell);
     const Scene scene(study);
     const auto places = gears::planet_places(mc::planetary_train(study));
     CHECK(places.place == std::vector<int>{0, 32, 63, 95});
@@ -111,9 +94,10 @@ TEST_CASE("A shifted gearbox works at its centre distance, its planets where the
 }
 
 TEST_CASE("Standard planets that cannot be spaced equally go to the nearest places, too") {
-    const auto three = mc::planetary_train(study_of(tests::kExampleStudy, {"gearbox.planets=3"}));
+    const auto three =
+        mc::planetary_train(test::study_of_text(tests::kExampleStudy, {"gearbox.planets=3"}));
     CHECK(gears::planet_places(three).place == std::vector<int>{0, 33, 67});
-    const auto four = mc::planetary_train(study_of(tests::kExampleStudy));
+    const auto four = mc::planetary_train(test::study_of_text(tests::kExampleStudy));
     CHECK(four.positions_rad.empty());
 }
 
@@ -133,7 +117,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
             }
             changes.emplace_back("random.fault.depth_mm.values=[0, 1, 2]");
             INFO(profile << " " << where);
-            const Scene scene(study_of(text, changes));
+            const Scene scene(test::study_of_text(text, changes));
             CHECK(scene.fault().largest_size() > 3e-3);
             const auto& healthy = *scene.meshes()[scene.faulty_pair() < 4 ? 0 : 1].stiffness;
             const auto cracked = scene.faulty_mesh(2e-3);
@@ -146,7 +130,7 @@ TEST_CASE("Faults of shifted teeth weaken them, up to a size that follows their 
     const auto largest = [](const std::vector<std::string>& shifts) {
         std::vector<std::string> all{"fault.side='sun'"};
         all.insert(all.end(), shifts.begin(), shifts.end());
-        return Scene(study_of(tests::kExampleStudy, all)).fault().largest_size();
+        return Scene(test::study_of_text(tests::kExampleStudy, all)).fault().largest_size();
     };
     CHECK(largest({"gearbox.planet_shift=0.2", "gearbox.sun_shift=-0.2"}) > 1.02 * largest({}));
 }
