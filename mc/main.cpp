@@ -83,9 +83,11 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
 
 void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
     auto* command = app.add_subcommand(
-        "features", "the features of measured signals (CSV, HDF5, MAT), one or many");
-    command->add_option("signal", features.signals,
-                        "signal files (.csv, .h5, .hdf5, .mat), or patterns of their names");
+        "features",
+        "the features of measured signals (CSV, HDF5, MAT, WAV, universal files), one or many");
+    command->add_option(
+        "signal", features.signals,
+        "signal files (.csv, .h5, .hdf5, .mat, .wav, .uff, .unv), or patterns of their names");
     add_study_keys(*command, features.study);
     command->add_option("--study", features.study.path, "study file (TOML)")->required();
     command->add_option("--manifest", features.manifest,

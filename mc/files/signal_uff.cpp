@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 
@@ -75,10 +76,9 @@ class Reading {
             }
         }
         const std::string& form = records[6];
-        const auto type = static_cast<int>(field(form, 0, 10));
-        const double count = field(form, 10, 10);
+        const double type = field(form, 0, 10), count = field(form, 10, 10);
         if (field(records[5], 0, 5) != 1.0 || field(form, 20, 10) != 1.0 ||
-            (type != 2 && type != 4)) {
+            (type != 2.0 && type != 4.0)) {
             refuse("is no evenly spaced real time history");
         }
         if (!(count >= 1.0 && count <= 1e9)) {
@@ -86,13 +86,16 @@ class Reading {
         }
         History history;
         history.step_s = field(form, 43, 13);
+        if (!(history.step_s > 0.0 && std::isfinite(1.0 / history.step_s))) {
+            refuse(fmt::format("a time step of {:g} s cannot be", history.step_s));
+        }
         if (records[8].size() > 46) {
             history.unit = std::string(trimmed_field(records[8].substr(46, 20)));
             history.unit = history.unit == "NONE" ? "" : history.unit;
         }
         const auto values = static_cast<std::size_t>(count);
-        binary.empty() ? read_text(values, type == 2 ? 13 : 20, history)
-                       : read_bytes(values, type == 2 ? 4 : 8, binary, history);
+        binary.empty() ? read_text(values, type == 2.0 ? 13 : 20, history)
+                       : read_bytes(values, type == 2.0 ? 4 : 8, binary, history);
         return history;
     }
 

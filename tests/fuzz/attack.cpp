@@ -1,7 +1,7 @@
 // Attacks the built program with mutated studies, damaged and resealed files, hostile signals and
 // files in two roles: no signal, no hang, no memory above 2 GB, no exit code but the contract's, no
 // number that is none among those of a success, no input written over.
-//   attack PROGRAM study|results|checkpoint|signal|roles SEED SECONDS [MOST]
+//   attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
 #include "attack.hpp"
 
 #include <fcntl.h>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,8 @@
 #include <map>
 #include <mutex>
 #include <thread>
+
+#include "tests/mc/recording_bytes.hpp"
 
 namespace {
 
@@ -117,11 +120,10 @@ std::string verdict(const Ending& ending, const Attack& attack) {
 
 using Maker = Attack (*)(const Arsenal&, const std::string&, std::uint64_t);
 
-const std::map<std::string, Maker> kKinds{{"study", attack_by_study},
-                                          {"results", attack_by_results},
-                                          {"checkpoint", attack_by_checkpoint},
-                                          {"signal", attack_by_signal},
-                                          {"roles", attack_by_roles}};
+const std::map<std::string, Maker> kKinds{
+    {"study", attack_by_study},           {"results", attack_by_results},
+    {"checkpoint", attack_by_checkpoint}, {"signal", attack_by_signal},
+    {"table", attack_by_table},           {"roles", attack_by_roles}};
 
 // Attacks first, first + 1, ... by several threads, until the time is over or all are tried.
 class Campaign {
@@ -225,6 +227,16 @@ bool arm(Arsenal& arsenal) {
     arsenal.csv = bytes_of(at + "/x.csv");
     arsenal.hdf5 = bytes_of(at + "/x.h5");
     arsenal.mat = genuine_mat(at + "/x.mat");
+    std::vector<double> sensor(4000);
+    for (std::size_t i = 0; i < sensor.size(); ++i) {
+        sensor[i] = 0.5 * std::sin(0.7 * static_cast<double>(i));
+    }
+    arsenal.wav = wav_bytes(sensor, 1, 280, WavForm::whole_16);
+    arsenal.uff = uff_bytes(sensor, 1.0 / 280, "g", UffForm::text_single);
+    for (const char* table : {"inspections_hits.csv", "inspections_responses.csv"}) {
+        arsenal.inspections.push_back(
+            bytes_of(std::string(GEARPOD_SOURCE_DIR "/tests/analysis/reference/") + table));
+    }
     for (const auto& entry : fs::directory_iterator(GEARPOD_SOURCE_DIR "/studies")) {
         if (entry.path().extension() == ".toml") {
             arsenal.studies.push_back(bytes_of(entry.path()));
@@ -252,7 +264,8 @@ int campaign(const Arsenal& arsenal, const std::string& kind, std::uint64_t seed
 
 int main(int argc, char** argv) {
     if (argc < 5 || !kKinds.contains(argv[2])) {
-        std::fprintf(stderr, "attack PROGRAM study|results|checkpoint|signal|roles SEED SECONDS\n");
+        std::fprintf(stderr,
+                     "attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS\n");
         return 2;
     }
     std::string folder = (fs::temp_directory_path() / "gearpod-attack-XXXXXX").string();

@@ -19,9 +19,10 @@ struct Attack {
 // are made from; made once by the program itself.
 struct Arsenal {
     std::string program, folder;
-    std::vector<std::string> studies;                 // texts
-    std::string small_study;                          // its path
-    std::string results, checkpoint, csv, hdf5, mat;  // bytes of genuine files
+    std::vector<std::string> studies;                           // texts
+    std::string small_study;                                    // its path
+    std::string results, checkpoint, csv, hdf5, mat, wav, uff;  // bytes of genuine files
+    std::vector<std::string> inspections;                       // tables of sizes and answers
 };
 
 // Writes a MAT file of a sensor's signal and a transmission error; its bytes.
@@ -33,6 +34,7 @@ Attack attack_by_results(const Arsenal& arsenal, const std::string& folder, std:
 Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
                             std::uint64_t number);
 Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
+Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 Attack attack_by_roles(const Arsenal& arsenal, const std::string& folder, std::uint64_t number);
 
 }  // namespace gearpod::test

@@ -229,12 +229,15 @@ Attack attack_by_checkpoint(const Arsenal& arsenal, const std::string& folder,
 
 Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
     Dice dice(number);
-    const std::size_t kind = dice.below(6);
-    const std::string path = folder + (kind == 0 ? "/x.h5" : kind == 1 ? "/x.mat" : "/x.csv");
-    write(path, kind == 0   ? damaged(arsenal.hdf5, dice)
-                : kind == 1 ? damaged(arsenal.mat, dice)
-                : kind == 2 ? damaged(arsenal.csv, dice)
-                            : hostile_csv(dice));
+    const std::array<std::pair<const char*, const std::string*>, 5> genuine{
+        {{"/x.h5", &arsenal.hdf5},
+         {"/x.mat", &arsenal.mat},
+         {"/x.wav", &arsenal.wav},
+         {"/x.uff", &arsenal.uff},
+         {"/x.csv", &arsenal.csv}}};
+    const std::size_t kind = dice.below(8);
+    const std::string path = folder + (kind < 5 ? genuine[kind].first : "/x.csv");
+    write(path, kind < 5 ? damaged(*genuine[kind].second, dice) : hostile_csv(dice));
     Attack attack{{"features", path, "--study", arsenal.small_study}};
     if (dice.below(2) == 0) {
         attack.arguments.insert(attack.arguments.end(), {"--json", "-"});
@@ -248,6 +251,32 @@ Attack attack_by_signal(const Arsenal& arsenal, const std::string& folder, std::
                                 {"--sampling-Hz", std::string(dice.one_of(kRates))});
     }
     return attack;
+}
+
+// Tables of inspections, and lists of recordings, some of which are there.
+Attack attack_by_table(const Arsenal& arsenal, const std::string& folder, std::uint64_t number) {
+    Dice dice(number);
+    const std::string path = folder + "/t.csv";
+    if (dice.below(3) != 0) {
+        constexpr std::array kOptions{"--link=logit",       "--link=probit", "--link=cloglog",
+                                      "--link=loglog",      "--bounds=wald", "--size-scale=log",
+                                      "--size-scale=linear"};
+        write(path, damaged(dice.one_of(arsenal.inspections), dice));
+        Attack attack{{"pod", path, "--json", "-"}, false};  // it quotes the table's names
+        for (std::size_t i = 0; i < dice.below(3); ++i) {
+            attack.arguments.emplace_back(dice.one_of(kOptions));
+        }
+        return attack;
+    }
+    write(folder + "/a.csv", arsenal.csv);
+    write(folder + "/b.csv", hostile_csv(dice));
+    write(path, damaged("file,gearbox,time,label,size [mm],load\n"
+                        "a.csv,one,1,healthy,0,100\nb.csv,one,2,faulty,1.5,110\n"
+                        "a.csv,two,3,healthy,0,90\nc.csv,two,4,,,95\n",
+                        dice));
+    return {{"features", "--manifest", path, "--study", arsenal.small_study, "--quiet", "--out",
+             folder + "/f.h5"},
+            false};
 }
 
 // The same file in two roles, by its name or by a link.

@@ -1,22 +1,38 @@
-// Readers under libFuzzer, one kind a program (GEARPOD_FUZZ_KIND: 0 study text, 1 CSV, 2 MAT,
-// 3 HDF5). What is read may be refused in the reader's own words and nothing else may happen.
+// Readers under libFuzzer, one a program (GEARPOD_FUZZ_READER). What is read may be refused in the
+// reader's own words and nothing else may happen.
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "mc/files/signal_file.hpp"
+#include "mc/recordings/manifest.hpp"
+#include "mc/results/results_file.hpp"
 #include "mc/study/study.hpp"
+#include "tests/mc/resealed.hpp"
 
 namespace {
 
+using namespace gearpod;
 using namespace gearpod::mc;
 
+// The path of a file in memory with these bytes.
+const std::string& file_of(const std::string& bytes) {
+    static const int fd = memfd_create("input", 0);
+    static const std::string path = "/proc/self/fd/" + std::to_string(fd);
+    if (ftruncate(fd, 0) != 0 ||
+        pwrite(fd, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+        std::abort();
+    }
+    return path;
+}
+
 // Its resolved text reads to the same study.
-void read_study(const std::string& text) {
+[[maybe_unused]] void study(const std::string& text) {
     const StudyReading reading = read_study_text(text, "fuzz.toml");
     if (!reading.study) {
         if (reading.problems.empty()) {
@@ -30,26 +46,68 @@ void read_study(const std::string& text) {
     }
 }
 
-void read_all(SignalFile& file) {
-    for (const std::string& name : file.names()) {
-        try {
-            static_cast<void>(file.read(name));
-        } catch (const SignalError&) {
-        }
+// The study in a small genuine results file (GEARPOD_RESULTS) exchanged, and the file sealed again.
+[[maybe_unused]] void embedded(const std::string& text) {
+    static const std::string genuine = [] {
+        const char* const path = std::getenv("GEARPOD_RESULTS");
+        std::ifstream stream(path == nullptr ? "" : path, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    }();
+    if (genuine.empty()) {
+        std::fputs("GEARPOD_RESULTS must name a results file\n", stderr);
+        std::exit(2);
     }
-    static_cast<void>(file.sampling_Hz());
+    const std::string& path = file_of(genuine);
+    try {
+        test::edit_results(path, [&](hid_t root) {
+            check(H5Adelete(root, "study"), "study");
+            write_text(root, ".", "study", text);
+        });
+    } catch (const Hdf5Error&) {
+        return;  // a text that HDF5 does not hold
+    }
+    try {
+        static_cast<void>(read_results(path));
+    } catch (const std::runtime_error&) {
+    }
 }
 
-[[maybe_unused]] void read_signal(const std::uint8_t* data, std::size_t size) {
-    static const int fd = memfd_create("signal", 0);
-    if (ftruncate(fd, 0) != 0 || pwrite(fd, data, size, 0) != static_cast<ssize_t>(size)) {
-        std::abort();
-    }
-    const std::string path = "/proc/self/fd/" + std::to_string(fd);
-    constexpr decltype(&open_signal_csv) kOpen[] = {open_signal_csv, open_signal_mat,
-                                                    open_signal_hdf5};
+template <class Open>
+[[maybe_unused]] void signal(const std::string& bytes, Open open) {
     try {
-        read_all(*kOpen[GEARPOD_FUZZ_KIND > 0 ? GEARPOD_FUZZ_KIND - 1 : 0](path));
+        const auto file = open(file_of(bytes));
+        for (const std::string& name : file->names()) {
+            try {
+                static_cast<void>(file->read(name));
+                static_cast<void>(file->unit(name));
+            } catch (const SignalError&) {
+            }
+        }
+        static_cast<void>(file->sampling_Hz());
+    } catch (const SignalError&) {
+    }
+}
+
+[[maybe_unused]] void csv(const std::string& bytes) {
+    signal(bytes, open_signal_csv);
+}
+[[maybe_unused]] void mat(const std::string& bytes) {
+    signal(bytes, open_signal_mat);
+}
+[[maybe_unused]] void wav(const std::string& bytes) {
+    signal(bytes, open_signal_wav);
+}
+[[maybe_unused]] void uff(const std::string& bytes) {
+    signal(bytes, open_signal_uff);
+}
+[[maybe_unused]] void hdf5(const std::string& bytes) {
+    signal(bytes, [](const std::string& path) { return open_signal_hdf5(path, std::nullopt); });
+}
+
+[[maybe_unused]] void manifest(const std::string& bytes) {
+    try {
+        Problems problems;
+        static_cast<void>(read_manifest(file_of(bytes), problems));
     } catch (const SignalError&) {
     }
 }
@@ -57,10 +115,6 @@ void read_all(SignalFile& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    if constexpr (GEARPOD_FUZZ_KIND == 0) {
-        read_study({reinterpret_cast<const char*>(data), size});
-    } else {
-        read_signal(data, size);
-    }
+    GEARPOD_FUZZ_READER({reinterpret_cast<const char*>(data), size});
     return 0;
 }
