@@ -21,7 +21,7 @@ const std::vector<Golden>& goldens() {
         {"liang-fig-3-16-features", "run studies/liang-fig-3-16.toml --quiet", Source::results, {"instances/fault_depth_m", "features/window_ratio", "features/sensor_rms", "features/te_rms", "features/te_kurtosis"}, 1, kMarched},
         {"liang-fig-4-6", "simulate studies/liang-fig-4-6.toml --instance 3 --meshes 19", Source::results, {"signals/mesh_phase", "signals/sun_x", "signals/sun_y"}, 20, kMarched},
         {"liang-sensor-4.28mm", "simulate studies/liang-fig-5-8.toml --instance 7 --meshes 62", Source::results, {"signals/mesh_phase", "signals/sensor"}, 25, kMarched},
-        {"planet-crack-te-turn", "simulate studies/planet-crack.toml --instance 2006", Source::results, {"signals/mesh_phase", "signals/te"}, 20, kMarched},
+        {"planet-crack-ideal-te-turn", "simulate studies/planet-crack-ideal.toml --instance 2006", Source::results, {"signals/mesh_phase", "signals/te"}, 20, kMarched},
         {"yang-fig-15", "stiffness studies/yang-fig-15.toml --csv - --points 100", Source::csv, {}, 1, kFitted},
         {"yang-healthy", "simulate studies/yang-fig-15.toml --instance 1 --meshes 1", Source::results, {"signals/mesh_phase", "signals/sun_u", "signals/planet4_u"}, 1, kMarched},
         {"yang-case-5", "simulate studies/yang-fig-15.toml --instance 6 --meshes 28", Source::results, {"signals/mesh_phase", "signals/sun_u", "signals/planet4_u"}, 8, kMarched},

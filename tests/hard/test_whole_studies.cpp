@@ -27,7 +27,7 @@ Overrides fast_train(const Overrides& more = {}) {
 }
 
 mc::Results results(const Overrides& overrides) {
-    return test::run(test::shipped_study("planet-crack.toml", overrides));
+    return test::run(test::shipped_study("planet-crack-ideal.toml", overrides));
 }
 
 std::string on_command_line(const Overrides& overrides) {
@@ -97,7 +97,7 @@ TEST_CASE("Tails of distributions: bearings a hundred times as stiff, no torque,
 TEST_CASE("Without any damping no gearbox settles, and none hangs or passes for one that did") {
     const Folder folder;
     const Outcome outcome = run_program(
-        test::study("planet-crack.toml"), folder,
+        test::study("planet-crack-ideal.toml"), folder,
         fast_train({"gearbox.mesh_damping_ratio=0", "gearbox.planet_bearing_damping_N_s_m=0",
                     "gearbox.sun_bearing_damping_N_s_m=0", "gearbox.ring_bearing_damping_N_s_m=0",
                     "gearbox.carrier_bearing_damping_N_s_m=0", "gearbox.support_damping_N_s_m=0",
@@ -155,12 +155,12 @@ TEST_CASE("A gearbox beyond a critical speed is called that") {
     }
     overrides.insert(overrides.end(),
                      {"sensor.sampling_Hz=100000", "sensor.encoder_sampling_Hz=100000"});
-    const Outcome outcome = run_program(test::study("planet-crack.toml"), folder, overrides);
+    const Outcome outcome = run_program(test::study("planet-crack-ideal.toml"), folder, overrides);
     INFO(outcome.output);
     CHECK(outcome.code == 3);
     CHECK(outcome.mentions("16 of 16 failed"));
     CHECK(outcome.mentions("16 of them: each is unstable: above a critical speed"));
-    const Outcome one = program("simulate " + test::study("planet-crack.toml") +
+    const Outcome one = program("simulate " + test::study("planet-crack-ideal.toml") +
                                 on_command_line(overrides) + " --instance 12");
     INFO(one.output);
     CHECK(one.code == 3);
@@ -173,7 +173,7 @@ TEST_CASE("A gearbox in parametric resonance is called that, and beside the reso
     for (const double speedup : {200.0, 220.0}) {
         const Folder folder;
         const Outcome outcome = run_program(
-            test::study("planet-crack.toml"), folder,
+            test::study("planet-crack-ideal.toml"), folder,
             fast_train({"operation.carrier_speed_rpm=" + std::to_string(speedup * 8.87),
                         "effects.motion=torsional", "numerics.steps_per_mesh=600",
                         "gearbox.mesh_damping_ratio=0.002", "gearbox.support_damping_N_s_m=5e3",
@@ -189,7 +189,7 @@ TEST_CASE("Gearboxes too light for the step fail, named so; the others keep thei
     // The pilot that chooses the steps sees the first 32 gearboxes: suns 1 to 5, never the sixth.
     const auto with_sixth = [](const std::string& kg) {
         const std::string text =
-            tests::replaced(test::bytes_of(test::study("planet-crack.toml")), "[random]\n",
+            tests::replaced(test::bytes_of(test::study("planet-crack-ideal.toml")), "[random]\n",
                             "[random]\ngearbox.sun_mass_kg = { distribution = \"levels\", values = "
                             "[0.6, 0.65, 0.7, "
                             "0.75, 0.8, " +

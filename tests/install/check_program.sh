@@ -13,7 +13,7 @@ check_program() {
     prefix=$1
     mkdir "$work/elsewhere"
     cd "$work/elsewhere" || fail "no folder"
-    "$prefix/bin/gearpod" run "$prefix/share/gearpod/studies/planet-crack.toml" --quiet \
+    "$prefix/bin/gearpod" run "$prefix/share/gearpod/studies/planet-crack-ideal.toml" --quiet \
         --instances 32 --set ensemble.threshold_instances=32 --out r.h5 || fail "run"
     "$prefix/bin/gearpod" report r.h5 | grep -q 'alarm if' || fail "report"
     [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"

@@ -29,7 +29,7 @@ for missing in (name for name in ("chromium", "chromedriver") if shutil.which(na
 PHONE, DESKTOP = (390, 844), (1280, 800)
 # In a browser of its own: a small study of every kind of gearbox.
 STUDIES = {
-    "planet": ["planet-crack.toml", "--instances", "350", "--set",
+    "planet": ["planet-crack-ideal.toml", "--instances", "350", "--set",
                "ensemble.threshold_instances=200"],
     "quasi_static": ["park-fig-13.toml"],
     "fixed_shaft": ["tian-fig-4-9.toml"]}

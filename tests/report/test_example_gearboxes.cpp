@@ -60,7 +60,7 @@ double line(const std::vector<double>& signal, double cycles) {
 }  // namespace
 
 TEST_CASE("The examples are the first healthy and the first worst gearbox, bit for bit") {
-    const Example example("planet-crack.toml",
+    const Example example("planet-crack-ideal.toml",
                           " --instances 14 --set ensemble.threshold_instances=20");
     REQUIRE(example.json["examples"]["refusal"].is_null());
     REQUIRE(example.json["examples"]["gearboxes"].size() == 2);

@@ -21,6 +21,6 @@ check() {
     h5diff "$work/one.h5" "$work/two.h5" /features
     rm "$work"/*.h5*
 }
-check planet-crack.toml --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000 \
+check planet-crack-ideal.toml --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000 \
     --set sensor.encoder_sampling_Hz=20000
 check gusts.toml

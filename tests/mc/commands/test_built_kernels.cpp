@@ -10,7 +10,7 @@ using test::study;
 TEST_CASE("Lanes that the program was not built with are bad input, named with those it has") {
     for (const int lanes : {1, 4}) {
         const std::string change = " --set numerics.lanes=" + std::to_string(lanes);
-        const Outcome here = test::program("describe " + study("planet-crack.toml") + change);
+        const Outcome here = test::program("describe " + study("planet-crack-ideal.toml") + change);
         INFO(here.output);
         if (GEARPOD_PORTABLE) {
             CHECK(here.code == 0);
@@ -26,7 +26,7 @@ TEST_CASE("Lanes that the program was not built with are bad input, named with t
 TEST_CASE("Results say which kernels the program was built with") {
     const test::Folder folder;
     const std::string out = folder.file("r.h5");
-    REQUIRE(test::program("run " + study("planet-crack.toml") +
+    REQUIRE(test::program("run " + study("planet-crack-ideal.toml") +
                           " --quiet --instances 8 --set ensemble.threshold_instances=8 --out " +
                           out)
                 .code == 0);

@@ -22,7 +22,7 @@ struct Workplace {
     std::string study = folder.file("s.toml"), results = folder.file("r.h5"),
                 signal = folder.file("x.csv");
     Workplace() {
-        fs::copy_file(test::study("planet-crack.toml"), study);
+        fs::copy_file(test::study("planet-crack-ideal.toml"), study);
         const Outcome run = program("run " + study + kSmall + " --quiet --out " + results);
         INFO(run.output);
         REQUIRE(run.code == 0);

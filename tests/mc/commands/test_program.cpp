@@ -23,7 +23,7 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const Outcome run =
-        program("run " + study("planet-crack.toml") +
+        program("run " + study("planet-crack-ideal.toml") +
                 " --instances 14 --set ensemble.threshold_instances=40 --out " + out);
     CHECK(run.code == 0);
     CHECK(mentions(run, "window_ratio"));
@@ -96,7 +96,7 @@ TEST_CASE("The keys of study files are described without a study") {
 TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    const std::string good = study("planet-crack.toml");
+    const std::string good = study("planet-crack-ideal.toml");
     const struct {
         std::string arguments, words;
     } cases[] = {
@@ -113,7 +113,7 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
         {"frobnicate", "frobnicate"},
         {"describ " + good, "describe"},
         {"report " + folder.file("missing.h5"), "missing.h5"},
-        {"report " + good, "planet-crack.toml"},
+        {"report " + good, "planet-crack-ideal.toml"},
         {"stiffness " + study("lin-parker-n4.toml"), "teeth"},
         {"simulate " + good + " --instance 99999999 --out " + folder.file("s.csv"), "--instance"},
         {"simulate " + good + " --instance 1 --out " + folder.file("s.xyz"), ".csv"},
@@ -128,7 +128,7 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
 }
 
 TEST_CASE("Problems of the study and of the output are told together") {
-    const Outcome outcome = program("run " + study("planet-crack.toml") +
+    const Outcome outcome = program("run " + study("planet-crack-ideal.toml") +
                                     " --set gearbox.sun_mass_kg=-1 --set gearbox.frob=1"
                                     " --out /nonexistent-folder/r.h5");
     CHECK(outcome.code == 2);
@@ -139,7 +139,7 @@ TEST_CASE("Problems of the study and of the output are told together") {
 
 TEST_CASE("Gearboxes that fail are counted, exit with 3 and leave a file") {
     const Folder folder;
-    const Outcome outcome = program("run " + study("planet-crack.toml") +
+    const Outcome outcome = program("run " + study("planet-crack-ideal.toml") +
                                     " --instances 7 --set ensemble.threshold_instances=20"
                                     " --set numerics.max_meshes=1 --out " +
                                     folder.file("r.h5"));
@@ -151,7 +151,7 @@ TEST_CASE("Gearboxes that fail are counted, exit with 3 and leave a file") {
 TEST_CASE("A simulated gearbox has the features that the ensemble found for its row") {
     const Folder folder;
     const std::string small = " --set ensemble.instances=14 --set ensemble.threshold_instances=5";
-    const std::string good = study("planet-crack.toml");
+    const std::string good = study("planet-crack-ideal.toml");
     CHECK(program("run " + good + small + " --out " + folder.file("r.h5")).code == 0);
     CHECK(
         program("simulate " + good + small + " --instance 18 --out " + folder.file("s.h5")).code ==
@@ -176,7 +176,7 @@ TEST_CASE("A simulated gearbox has the features that the ensemble found for its 
 TEST_CASE("The C library's choice of elementary functions leaves no trace in the results") {
     // As on a processor without fused multiply-adds, which the C library would serve otherwise.
     const Folder folder;
-    const std::string run = "run " + study("planet-crack.toml") +
+    const std::string run = "run " + study("planet-crack-ideal.toml") +
                             " --quiet --instances 10 --set ensemble.threshold_instances=6 --out ";
     CHECK(program(run + folder.file("a.h5")).code == 0);
     REQUIRE(setenv("GLIBC_TUNABLES",

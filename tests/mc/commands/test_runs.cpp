@@ -24,7 +24,7 @@ namespace {
 // Three batches of the threshold group and four graded ones, the last of each not full; results
 // written all the time.
 std::string run_of(const std::string& out, int instances = 50) {
-    return "run " + study("planet-crack.toml") + " --instances " + std::to_string(instances) +
+    return "run " + study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
            " --set ensemble.threshold_instances=35 --set ensemble.checkpoint_s=0 --out " + out;
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
 TEST_CASE("Ranks with another study, or without it, end the run with one line", "[mpi]") {
     const Folder folder;
     const std::string out = folder.file("r.h5"), other = folder.file("other.toml");
-    fs::copy_file(study("planet-crack.toml"), other);
+    fs::copy_file(study("planet-crack-ideal.toml"), other);
     const std::string binary = GEARPOD_PROGRAM;
     const auto with_second = [&](const std::string& arguments) {
         return test::shell(mpirun(1) + binary + " " + run_of(out) + " : --oversubscribe -n 1 " +

@@ -23,18 +23,18 @@ std::vector<std::string> with(std::vector<std::string> overrides, const std::str
 }  // namespace
 
 TEST_CASE("One lane, four or eight, one thread or two, any instruction set: the same bits") {
-    const auto reference = bits(test::run(shipped_study("planet-crack.toml", kSmall)));
+    const auto reference = bits(test::run(shipped_study("planet-crack-ideal.toml", kSmall)));
     for (const char* change :
          {"numerics.lanes=1", "numerics.lanes=4", "numerics.threads=1", "numerics.threads=2"}) {
         INFO(change);
-        CHECK(bits(test::run(shipped_study("planet-crack.toml", with(kSmall, change)))) ==
+        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", with(kSmall, change)))) ==
               reference);
     }
     using machine::InstructionSet;
     const InstructionSet best = machine::best_instruction_set();
     if (best > InstructionSet::x86_64_v3) {
         machine::use_instruction_set(InstructionSet::x86_64_v3);
-        CHECK(bits(test::run(shipped_study("planet-crack.toml", kSmall))) == reference);
+        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", kSmall))) == reference);
         machine::use_instruction_set(best);
     }
 }
@@ -44,14 +44,14 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
         GENERATE("numerics.integrator=rk4", "numerics.integrator=central-difference");
     const auto doubles = with(kSmall, integrator);
     const auto single = with(doubles, "numerics.precision=single");
-    const auto reference = test::run(shipped_study("planet-crack.toml", single));
-    CHECK(shipped_study("planet-crack.toml", single).numerics.lanes == 16);
+    const auto reference = test::run(shipped_study("planet-crack-ideal.toml", single));
+    CHECK(shipped_study("planet-crack-ideal.toml", single).numerics.lanes == 16);
     for (const char* change : {"numerics.lanes=8", "numerics.lanes=1", "numerics.threads=1"}) {
         INFO(change);
-        CHECK(bits(test::run(shipped_study("planet-crack.toml", with(single, change)))) ==
+        CHECK(bits(test::run(shipped_study("planet-crack-ideal.toml", with(single, change)))) ==
               bits(reference));
     }
-    const auto exact = test::run(shipped_study("planet-crack.toml", doubles));
+    const auto exact = test::run(shipped_study("planet-crack-ideal.toml", doubles));
     REQUIRE(exact.features.size() == reference.features.size());
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
@@ -69,9 +69,9 @@ TEST_CASE("Single precision: the same bits for any lanes and threads, features a
 }
 
 TEST_CASE("By central differences the features are Runge-Kutta's within their steps' error") {
-    const auto exact = test::run(shipped_study("planet-crack.toml", kSmall));
-    const auto central = test::run(
-        shipped_study("planet-crack.toml", with(kSmall, "numerics.integrator=central-difference")));
+    const auto exact = test::run(shipped_study("planet-crack-ideal.toml", kSmall));
+    const auto central = test::run(shipped_study(
+        "planet-crack-ideal.toml", with(kSmall, "numerics.integrator=central-difference")));
     const std::size_t levels = exact.noise_levels.size();
     for (std::size_t f = 0; f < exact.features.size(); ++f) {
         INFO(exact.features[f].name);
@@ -90,9 +90,9 @@ TEST_CASE("By central differences the features are Runge-Kutta's within their st
 }
 
 TEST_CASE("A larger ensemble begins with the gearboxes of the smaller one") {
-    const auto small = test::run(shipped_study("planet-crack.toml", kSmall));
+    const auto small = test::run(shipped_study("planet-crack-ideal.toml", kSmall));
     const auto large = test::run(shipped_study(
-        "planet-crack.toml", {"ensemble.instances=16", "ensemble.threshold_instances=6"}));
+        "planet-crack-ideal.toml", {"ensemble.instances=16", "ensemble.threshold_instances=6"}));
     const std::size_t levels = small.noise_levels.size();
     for (std::size_t f = 0; f < small.features.size(); ++f) {
         for (std::size_t i = 0; i < small.status.size() * levels; ++i) {
@@ -127,8 +127,8 @@ TEST_CASE("Reused mesh periods and the full march agree to 1e-6 in every noise-f
 
 TEST_CASE("Detection rates: false alarms at size 0, more with size, never more with noise") {
     const mc::Study study = shipped_study(
-        "planet-crack.toml", {"ensemble.instances=1050", "ensemble.threshold_instances=600",
-                              "sensor.noise_levels=[0.5, 1, 2, 5]"});
+        "planet-crack-ideal.toml", {"ensemble.instances=1050", "ensemble.threshold_instances=600",
+                                    "sensor.noise_levels=[0.5, 1, 2, 5]"});
     const mc::Results results = test::run(study);
     const auto detection = mc::detect_all(results);
     const double alpha = study.detection.false_alarm_rate;

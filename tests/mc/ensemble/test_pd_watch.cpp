@@ -33,7 +33,7 @@ BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& ba
 }  // namespace
 
 TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in any order") {
-    const Study study = test::shipped_study("planet-crack.toml", kUntil);
+    const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);
@@ -64,7 +64,7 @@ TEST_CASE("The run may stop at the gearbox that the Wilson interval asks for, in
 }
 
 TEST_CASE("What is left until the wanted interval is predicted from the rate so far") {
-    const Study study = test::shipped_study("planet-crack.toml", kUntil);
+    const Study study = test::shipped_study("planet-crack-ideal.toml", kUntil);
     const BatchPlan plan(48, 700);
     const Sampler sampler(study);
     const RowShape shape = row_shape(sampler, study);

@@ -12,7 +12,7 @@ namespace {
 
 // Five batches.
 std::string run_of(const Folder& folder) {
-    return "run " + test::study("planet-crack.toml") +
+    return "run " + test::study("planet-crack-ideal.toml") +
            " --instances 48 --set ensemble.threshold_instances=32"
            " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
            " --set sensor.encoder_sampling_Hz=20000 --out " +
@@ -80,7 +80,7 @@ TEST_CASE("A forecast is one of the run's threads") {
     for (const int threads : {1, 3}) {
         const auto forecast = test::shell(
             with("OMP_NUM_THREADS=" + std::to_string(threads)) + kProgram + "describe " +
-            test::study("planet-crack.toml") + " --set operation.carrier_speed_rpm=60" +
+            test::study("planet-crack-ideal.toml") + " --set operation.carrier_speed_rpm=60" +
             " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
         INFO(forecast.output);
         const std::string entry = "\n  threads ";

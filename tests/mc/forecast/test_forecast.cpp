@@ -102,7 +102,7 @@ TEST_CASE("Motions that are there already are not marched again") {
 }
 
 TEST_CASE("Marches are counted as the cache keeps them") {
-    Study study = test::shipped_study("planet-crack.toml", kFast);
+    Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     std::erase_if(study.random, [](const RandomInput& input) {
         return !input.key.starts_with("sensor.") && !input.key.starts_with("fault.");
     });
@@ -125,7 +125,7 @@ TEST_CASE("Marches are counted as the cache keeps them") {
     CHECK(half.marched[1] > counts.marched[1] + 5);
     CHECK(half.marched[1] < 23);
 
-    const Scene scattered(test::shipped_study("planet-crack.toml", kFast));
+    const Scene scattered(test::shipped_study("planet-crack-ideal.toml", kFast));
     CHECK(count_marches(scattered, plan, 1.0).marched == std::array<std::size_t, 2>{3, 23});
     CHECK(count_marches(scattered, plan, 1.0).kept == 0);
 }
@@ -178,7 +178,7 @@ TEST_CASE("Every shipped study is measured on no more than a tile a thread, if i
 TEST_CASE("A march that is cut short to be measured counts in full, and leaves no trace") {
     std::vector<std::string> overrides = kFast;
     overrides.push_back("numerics.horizon=march");
-    const Scene scene(test::shipped_study("planet-crack.toml", overrides));
+    const Scene scene(test::shipped_study("planet-crack-ideal.toml", overrides));
     const auto before = bits_of(first_tile(scene));
     const BatchPlan plan(16, 32);
     const RunCalibration cut = calibrate_run(scene, plan, 1, kNoBudget_s);
@@ -196,7 +196,7 @@ TEST_CASE("A march that is cut short to be measured counts in full, and leaves n
 }
 
 TEST_CASE("Made-up results have the run's gearboxes and values like those of computed ones") {
-    const Study study = test::shipped_study("planet-crack.toml", kFast);
+    const Study study = test::shipped_study("planet-crack-ideal.toml", kFast);
     const Scene scene(study);
     const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
     const RunCalibration calibration = calibrate_run(scene, plan, 2, 0.5);
@@ -251,7 +251,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
         }
     }
     CHECK(folder.empty());
-    const std::string sure = test::study("planet-crack.toml") +
+    const std::string sure = test::study("planet-crack-ideal.toml") +
                              " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
                              " --set sensor.encoder_sampling_Hz=20000"
                              " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";

@@ -15,7 +15,7 @@ namespace {
 Study study_with(std::vector<std::string> overrides) {
     overrides.insert(overrides.end(), {"random.fault.depth_mm={distribution=\"constant\",value=3}",
                                        "numerics.steps_per_mesh=9600"});
-    return test::shipped_study("planet-crack.toml", overrides);
+    return test::shipped_study("planet-crack-ideal.toml", overrides);
 }
 
 const std::string kCompared =
@@ -140,7 +140,7 @@ TEST_CASE("The torque of baseline records is scattered as asked for, on both sha
 }
 
 TEST_CASE("A torque for baselines that nothing compares with is refused") {
-    const auto reading = read_study(test::study_path("planet-crack.toml"),
+    const auto reading = read_study(test::study_path("planet-crack-ideal.toml"),
                                     {"features.baseline_torque_scatter=0.05"});
     REQUIRE_FALSE(reading.study);
     CHECK(format(reading.problems).find("features.baseline_torque_scatter") != std::string::npos);

@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 // Liang's train with teeth of their own.
 Study study_with(std::vector<std::string> overrides) {
     overrides.push_back("numerics.horizon=march");
-    return test::shipped_study("planet-crack.toml", overrides);
+    return test::shipped_study("planet-crack-ideal.toml", overrides);
 }
 
 lockstep::ToothErrors errors_of(const Scene& scene, std::uint64_t index) {

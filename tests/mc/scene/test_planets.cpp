@@ -75,7 +75,7 @@ TEST_CASE("Unlike planets repeat every mesh: reused records give what marching a
         overrides.insert(overrides.end(),
                          {"operation.carrier_speed_rpm=60", "sensor.sampling_Hz=20000",
                           "sensor.encoder_sampling_Hz=20000", "sensor.noise_levels=[0]"});
-        Study study = test::shipped_study("planet-crack.toml", overrides);
+        Study study = test::shipped_study("planet-crack-ideal.toml", overrides);
         study.ensemble.threshold_instances = 1;
         study.ensemble.instances = 7;
         const Results results = test::run(study);

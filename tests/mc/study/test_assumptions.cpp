@@ -8,18 +8,19 @@ using gearpod::mc::assumptions;
 using gearpod::test::shipped_study;
 
 TEST_CASE("An answer says which teeth and planets it is for") {
-    const std::string ideal = assumptions(shipped_study("planet-crack.toml"));
+    const std::string ideal = assumptions(shipped_study("planet-crack-ideal.toml"));
     CHECK_THAT(ideal, Catch::Contains("identical teeth, planets and pins alike, rigid gear bodies, "
                                       "steady torque and speed"));
     CHECK_THAT(ideal, Catch::Contains("Errors of real teeth hide faults"));
 
-    const std::string real = assumptions(shipped_study(
-        "planet-crack.toml", {"gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20"}));
+    const std::string real =
+        assumptions(shipped_study("planet-crack-ideal.toml",
+                                  {"gearbox.tooth_quality=6", "gearbox.pin_tangential_rms_um=20"}));
     CHECK_THAT(real, Catch::StartsWith("Holds for teeth of ISO 1328 grade 6, rigid gear bodies"));
     CHECK_THAT(real, !Catch::Contains("hide faults"));
     CHECK_THAT(real, !Catch::Contains("alike"));
 
-    CHECK_THAT(assumptions(shipped_study("planet-crack.toml", {"gearbox.pitch_error_um=2"})),
+    CHECK_THAT(assumptions(shipped_study("planet-crack-ideal.toml", {"gearbox.pitch_error_um=2"})),
                Catch::Contains("teeth that differ"));
     CHECK_THAT(
         assumptions(shipped_study("real-teeth.toml")),
