@@ -1,52 +1,12 @@
 #include "mc/files/signal_file.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace gearpod::mc {
 
 bool SignalFile::has(const std::string& name) const {
     const auto all = names();
     return std::find(all.begin(), all.end(), name) != all.end();
-}
-
-std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
-                                             std::optional<std::size_t> row) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw SignalError(path + ": no such file");
-    }
-    std::string kind = std::filesystem::path(path).extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    const bool hdf5 = kind == ".h5" || kind == ".hdf5";
-    if (row && !hdf5) {
-        throw SignalError(path + ": has no rows to choose one from; HDF5 files may");
-    }
-    if (kind == ".csv") {
-        return open_signal_csv(path);
-    }
-    if (hdf5) {
-        return open_signal_hdf5(path, row);
-    }
-    if (kind == ".mat") {
-        return open_signal_mat(path);
-    }
-    if (kind == ".wav") {
-        return open_signal_wav(path);
-    }
-    if (kind == ".uff" || kind == ".unv") {
-        return open_signal_uff(path);
-    }
-    if (kind == ".tdms") {
-        throw SignalError(path +
-                          ": TDMS files are not read; export it as HDF5 or CSV, in Python with "
-                          "nptdms: TdmsFile.read(FILE).as_hdf(OUT)");
-    }
-    throw SignalError(path +
-                      ": unknown kind of file; its name must end in .csv, .h5, .hdf5, .mat, .wav, "
-                      ".uff or .unv");
 }
 
 }  // namespace gearpod::mc

@@ -31,8 +31,10 @@ class SignalFile {
     bool has(const std::string& name) const;
 };
 
-// Opens a file by the end of its name. Throws SignalError.
-//   .csv         a header line of names with their units in brackets ("sensor [m/s^2]"), then a line
+// Opens a file by the end of its name; those that a library reads (HDF5, MAT) in a process of
+// their own (isolated_signal.hpp). Throws SignalError.
+//   .csv         a header line of names with their units in brackets ("sensor [m/s^2]"), then a
+//   line
 //                of numbers a sample; commas, semicolons or tabs between them, decimal commas where
 //                none stand between; lines that begin with # are comments
 //   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root, or a row of
@@ -41,14 +43,15 @@ class SignalFile {
 //                attribute scale of a dataset is a factor on its values, unit their unit
 //   .mat         variables that are real vectors (MATLAB 4 to 7.3); the rate may be a variable
 //                sampling_Hz
-//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the full
+//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the
+//   full
 //                scale
 //   .uff, .unv   dataset 58, real and even in time: the column sensor, or function1, function2, ...
 // `row`, from 0: the record of an HDF5 file whose datasets hold one in each row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row = std::nullopt);
 
-// One for each kind of file.
+// One for each kind of file, here.
 std::unique_ptr<SignalFile> open_signal_csv(const std::string& path);
 std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
                                              std::optional<std::size_t> row);

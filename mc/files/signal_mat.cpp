@@ -3,10 +3,8 @@
 #include <matio.h>
 
 #include <cstdint>
-#include <filesystem>
 
 #include "mc/files/hdf5_handle.hpp"
-#include "mc/files/memory_cap.hpp"
 #include "mc/files/signal_file.hpp"
 
 namespace gearpod::mc {
@@ -56,10 +54,7 @@ bool is_real_vector(const matvar_t& matrix) {
 class SignalMat : public SignalFile {
   public:
     explicit SignalMat(const std::string& path)
-        : path_(path),
-          most_(kSpareBytes + kMostCompressed * std::filesystem::file_size(path)),
-          file_(open_capped(path, most_), Mat_Close) {
-        const MemoryCap cap(most_);
+        : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
         if (!file_) {
             throw SignalError(path + ": is no MAT file, or damaged");
         }
@@ -78,7 +73,6 @@ class SignalMat : public SignalFile {
 
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
-        const MemoryCap cap(most_);
         Mat_Rewind(file_.get());
         const Matrix matrix(Mat_VarRead(file_.get(), name.c_str()), Mat_VarFree);
         std::vector<double> values;
@@ -103,16 +97,7 @@ class SignalMat : public SignalFile {
     }
 
   private:
-    // matio takes what lengths in the file ask for, gigabytes for a file of twenty bytes.
-    static mat_t* open_capped(const std::string& path, std::size_t most) {
-        const MemoryCap cap(most);
-        return Mat_Open(path.c_str(), MAT_ACC_RDONLY);
-    }
-    // Compressed values may be many times the file's bytes.
-    static constexpr std::size_t kSpareBytes = std::size_t{256} << 20, kMostCompressed = 1000;
-
     std::string path_;
-    std::size_t most_;
     std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
     std::vector<std::string> names_;
 };

@@ -1,0 +1,255 @@
+#include "mc/files/isolated_signal.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <span>
+#include <utility>
+
+#include "mc/files/file_descriptor.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr std::size_t kSpareBytes = std::size_t{256} << 20, kMostCompressed = 1000;
+constexpr int kPatience_ms = 20000;  // without a byte of an answer
+
+enum class Question : char { names, read, unit, sampling_Hz };
+enum class Answer : char { good, refused };
+
+bool send_all(int fd, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t sent = ::send(fd, at, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) {
+            continue;
+        }
+        if (sent <= 0) {
+            return false;
+        }
+        at += sent;
+        size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+// Waits no longer than that for each part; -1: for ever.
+bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
+    char* at = static_cast<char*>(data);
+    while (size > 0) {
+        pollfd ready{fd, POLLIN, 0};
+        const int found = ::poll(&ready, 1, patience_ms);
+        if (found < 0 && errno == EINTR) {
+            continue;
+        }
+        const ssize_t got = found > 0 ? ::recv(fd, at, size, 0) : -1;
+        if (got <= 0) {
+            return false;
+        }
+        at += got;
+        size -= static_cast<std::size_t>(got);
+    }
+    return true;
+}
+
+// A kind, a length, and as many bytes.
+bool send_message(int fd, char kind, std::span<const char> bytes) {
+    const std::uint64_t length = bytes.size();
+    return send_all(fd, &kind, 1) && send_all(fd, &length, sizeof length) &&
+           send_all(fd, bytes.data(), bytes.size());
+}
+bool receive_message(int fd, char& kind, std::string& bytes, int patience_ms) {
+    std::uint64_t length = 0;
+    if (!receive_all(fd, &kind, 1, patience_ms) ||
+        !receive_all(fd, &length, sizeof length, patience_ms)) {
+        return false;
+    }
+    bytes.resize(length);
+    return receive_all(fd, bytes.data(), length, patience_ms);
+}
+
+std::string bytes_of(std::span<const double> values) {
+    std::string bytes(values.size() * sizeof(double), '\0');
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+std::vector<double> values_of(const std::string& bytes) {
+    std::vector<double> values(bytes.size() / sizeof(double));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+    return values;
+}
+
+std::string answer_to(Question question, const std::string& name, SignalFile& file) {
+    switch (question) {
+        case Question::names: {
+            std::string all;
+            for (const std::string& one : file.names()) {
+                all += one + '\0';
+            }
+            return all;
+        }
+        case Question::read:
+            return bytes_of(file.read(name));
+        case Question::unit:
+            return file.unit(name);
+        case Question::sampling_Hz:
+            break;
+    }
+    const std::optional<double> rate = file.sampling_Hz();
+    return rate ? bytes_of(std::array{*rate}) : "";
+}
+
+// So many more bytes of memory than now, and no core file.
+void limit_memory(std::size_t more) {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t pages = 0;
+    rlimit limit{};
+    if (statm >> pages && ::getrlimit(RLIMIT_AS, &limit) == 0) {
+        const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + more;
+        limit.rlim_cur = std::min(limit.rlim_cur, most);
+        ::setrlimit(RLIMIT_AS, &limit);
+    }
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_CORE, &none);
+}
+
+// What the other process does until nobody asks any more.
+[[noreturn]] void serve(int fd, const std::string& path, std::size_t memory,
+                        const std::function<std::unique_ptr<SignalFile>()>& open) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM}) {
+        ::signal(signal, SIG_DFL);  // whoever watches over the other process
+    }
+    limit_memory(memory);
+    std::unique_ptr<SignalFile> file;
+    Question question = Question::names;  // the first answer says whether it opens
+    std::string name;
+    for (char kind = 0;; question = static_cast<Question>(kind)) {
+        Answer answer = Answer::good;
+        std::string text;
+        try {
+            file = file ? std::move(file) : open();
+            text = answer_to(question, name, *file);
+        } catch (const SignalError& error) {
+            answer = Answer::refused;
+            text = error.what();
+        } catch (const std::bad_alloc&) {
+            answer = Answer::refused;
+            text = path + ": asks for more memory than it can have, or is damaged";
+        }
+        if (!send_message(fd, static_cast<char>(answer), text) || !file ||
+            !receive_message(fd, kind, name, -1)) {
+            ::_exit(0);
+        }
+    }
+}
+
+class IsolatedSignal : public SignalFile {
+  public:
+    IsolatedSignal(const std::string& path,
+                   const std::function<std::unique_ptr<SignalFile>()>& open)
+        : path_(path) {
+        int ends[2] = {-1, -1};
+        if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+            throw SignalError(
+                fmt::format("{}: no socket to read it through ({})", path, std::strerror(errno)));
+        }
+        here_ = std::make_unique<Descriptor>(ends[0]);
+        Descriptor there(ends[1]);
+        std::error_code error;
+        const auto size = std::filesystem::file_size(path, error);
+        child_ = ::fork();
+        if (child_ < 0) {
+            throw SignalError(
+                fmt::format("{}: no process to read it ({})", path, std::strerror(errno)));
+        }
+        if (child_ == 0) {
+            ::close(ends[0]);
+            try {
+                serve(ends[1], path, kSpareBytes + (error ? 0 : kMostCompressed * size), open);
+            } catch (...) {
+                ::_exit(1);
+            }
+        }
+        there.close();
+        try {
+            const std::string all = answer();
+            for (std::size_t at = 0; at < all.size(); at = all.find('\0', at) + 1) {
+                names_.emplace_back(all.c_str() + at);
+            }
+        } catch (...) {
+            end();
+            throw;
+        }
+    }
+    IsolatedSignal(const IsolatedSignal&) = delete;
+    IsolatedSignal& operator=(const IsolatedSignal&) = delete;
+    ~IsolatedSignal() override { end(); }
+
+    std::vector<std::string> names() const override { return names_; }
+    std::vector<double> read(const std::string& name) override {
+        return values_of(ask(Question::read, name));
+    }
+    std::string unit(const std::string& name) override { return ask(Question::unit, name); }
+    std::optional<double> sampling_Hz() override {
+        const std::vector<double> rate = values_of(ask(Question::sampling_Hz, ""));
+        return rate.empty() ? std::nullopt : std::optional(rate.front());
+    }
+
+  private:
+    std::string ask(Question question, const std::string& name) {
+        send_message(here_->get(), static_cast<char>(question), name);
+        return answer();
+    }
+    std::string answer() {
+        char kind = 0;
+        std::string text;
+        if (!receive_message(here_->get(), kind, text, kPatience_ms)) {
+            throw SignalError(path_ +
+                              ": is damaged: the library that reads this kind of file fails on it");
+        }
+        if (static_cast<Answer>(kind) == Answer::refused) {
+            throw SignalError(text);
+        }
+        return text;
+    }
+    void end() {
+        here_->close();
+        if (child_ > 0) {
+            ::kill(child_, SIGKILL);
+            while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+            }
+            child_ = -1;
+        }
+    }
+
+    std::string path_;
+    std::unique_ptr<Descriptor> here_;
+    pid_t child_ = -1;
+    std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<SignalFile> isolated_signal(
+    const std::string& path, const std::function<std::unique_ptr<SignalFile>()>& open) {
+    return std::make_unique<IsolatedSignal>(path, open);
+}
+
+}  // namespace gearpod::mc
