@@ -110,6 +110,10 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
                      "recording of a healthy gearbox for na4, nb4 and nsds to compare with, as "
                      "often as there are (default: gearboxes simulated from the study)")
         ->allow_extra_args(false);
+    needs_name(command->add_option(
+        "--baseline", features.baseline,
+        "earlier recording of the same gearbox while it was healthy: own_... compare with it, "
+        "change_... look at what has changed since"));
     command->add_option("--noise-level", features.noise_level,
                         "noise level of those simulated gearboxes (default: 1)");
     needs_name(command->add_option("--json", features.json,

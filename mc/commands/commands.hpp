@@ -85,6 +85,7 @@ struct FeaturesOptions {
     std::string manifest;              // table of recordings instead
     SignalColumns columns;
     std::vector<std::string> healthy;  // recordings of healthy gearboxes
+    std::string baseline;              // earlier recording of the same gearbox, "": none
     double noise_level = 1.0;          // of the simulated ones, where there are no recordings
     std::string json;                  // "": none; "-": standard output
     std::string out, csv;              // of many: results file and table

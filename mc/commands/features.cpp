@@ -15,8 +15,8 @@
 namespace gearpod::mc {
 namespace {
 
-void print_text(const std::vector<MeasuredFeature>& all, const MeasuredSignal& signal,
-                const Scene& scene) {
+void print_text(const Measurement& measured, const MeasuredSignal& signal, const Scene& scene) {
+    const std::vector<MeasuredFeature>& all = measured.features;
     fmt::print("mesh phase: {}\n", signal.tracking);
     fmt::print("{} mesh periods of sensor signal, {} of transmission error; the span is {}\n",
                signal.sensor_meshes, signal.te_meshes, scene.span_meshes());
@@ -24,6 +24,12 @@ void print_text(const std::vector<MeasuredFeature>& all, const MeasuredSignal& s
         turns > 0 && turns < scene.span().ring_teeth) {
         fmt::print("the planets' teeth over {} of the span's {} planet turns\n", turns,
                    scene.span().ring_teeth);
+    }
+    if (measured.change) {
+        fmt::print(
+            "baseline: {} planet turns, turned on by {:.2f} mesh periods; correlation {:.3f}\n",
+            planet_turns(measured.change->signal, scene), measured.change->meshes,
+            measured.change->correlation);
     }
     for (const MeasuredFeature& one : all) {
         if (one.missing.empty()) {
@@ -155,8 +161,11 @@ int features_command(const FeaturesOptions& options) {
     for (const std::string& path : options.healthy) {
         read.push_back({"a recording of --healthy", path});
     }
-    if (!options.against.empty()) {
-        read.push_back({"the file of --against", options.against});
+    for (const FileRole& one : {FileRole{"the file of --against", options.against},
+                                FileRole{"the recording of --baseline", options.baseline}}) {
+        if (!one.path.empty()) {
+            read.push_back(one);
+        }
     }
     const bool writable = can_write({"--json", options.json}, read);
     const auto scene = load_scene(options.study).scene;
@@ -175,18 +184,26 @@ int features_command(const FeaturesOptions& options) {
         } else if (long_enough) {
             healthy = simulated_reference_at(options.noise_level, *scene);
         }
-        const Measurement measured = measure(*scene, signal, healthy);
+        const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
+        const Measurement measured =
+            measure(*scene, signal, healthy, baseline ? &*baseline : nullptr);
         const auto& all = measured.features;
         if (!any_feature(all, options.signals.front(), *scene, signal)) {
             return kBadInput;
         }
         nlohmann::ordered_json json = measured_json(all, signal, *scene);
+        if (measured.change) {
+            json["baseline"] = {{"file", options.baseline},
+                                {"turned_on_meshes", measured.change->meshes},
+                                {"correlation", measured.change->correlation},
+                                {"planet_turns", planet_turns(measured.change->signal, *scene)}};
+        }
         std::string verdict;
         if (!options.against.empty()) {
             verdict = compare(options, measured, signal, *scene, json);
         }
         if (options.json.empty()) {
-            print_text(all, signal, *scene);
+            print_text(measured, signal, *scene);
             fmt::print("{}", verdict);
             return kDone;
         }

@@ -42,8 +42,11 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
     if (!options.manifest.empty()) {
         read.push_back({"the manifest", options.manifest});
     }
-    if (!options.against.empty()) {
-        read.push_back({"the file of --against", options.against});
+    for (const FileRole& one : {FileRole{"the file of --against", options.against},
+                                FileRole{"the recording of --baseline", options.baseline}}) {
+        if (!one.path.empty()) {
+            read.push_back(one);
+        }
     }
     std::string last;
     for (const Recording& recording : list.recordings) {
@@ -127,16 +130,20 @@ int recordings_command(const FeaturesOptions& options) {
             options.healthy.empty()
                 ? HealthyReference()
                 : measured_reference(options.healthy, options.columns, *scene, 1);
+        const auto baseline = measured_baseline(options.baseline, options.columns, *scene);
+        const MeasuredBaseline* const earlier = baseline ? &*baseline : nullptr;
+        const auto features = measurable(earlier);
         const int threads = thread_count(scene->study());
         Progress progress(static_cast<long>(list.recordings.size()),
                           options.quiet || options.csv == "-");
-        const auto measured = measure_recordings(list, options.columns, *scene, healthy, threads,
-                                                 [&] { progress.advance(1); });
+        const auto measured = measure_recordings(list, options.columns, *scene, healthy, earlier,
+                                                 threads, [&] { progress.advance(1); });
         progress.finish();
-        const bool csv_good =
-            options.csv.empty() || write_text_to(options.csv, recordings_csv(list, measured));
+        const bool csv_good = options.csv.empty() ||
+                              write_text_to(options.csv, recordings_csv(list, measured, features));
         if (!options.out.empty()) {
-            write_results(options.out, recordings_results(list, measured, *scene, threads));
+            write_results(options.out,
+                          recordings_results(list, measured, features, *scene, threads));
         }
         if (population) {
             print_verdicts(options, *population, list, measured);

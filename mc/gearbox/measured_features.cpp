@@ -167,30 +167,74 @@ int meshes_of(const Feature& feature, const Scene& scene) {
                : scene.span().planet_teeth;
 }
 
-Measurement measure(const Scene& scene, const MeasuredSignal& signal,
-                    const HealthyReference& healthy) {
-    Measurement measurement;
-    std::vector<MeasuredFeature>& all = measurement.features;
-    unsigned needs = 0;
-    for (const Feature& feature : features::record_features()) {
-        all.push_back({&feature, 0.0, missing(feature, scene, signal, !healthy.amplitude.empty())});
-        needs |= all.back().missing.empty() ? feature.needs : 0U;
+std::optional<MeasuredBaseline> measured_baseline(const std::string& path,
+                                                  const SignalColumns& columns,
+                                                  const Scene& scene) {
+    if (path.empty()) {
+        return std::nullopt;
     }
-    MeasuredInput measured(scene, needs);
-    features::FeatureInput input = measured.of(signal);
-    if (!healthy.amplitude.empty()) {
-        input.healthy = healthy.at(0);
+    return MeasuredBaseline{path, read_measured_signal(path, columns, scene)};
+}
+
+std::span<const Feature> measurable(const MeasuredBaseline* baseline) {
+    return baseline != nullptr ? features::all_features() : features::record_features();
+}
+
+Measurement measure(const Scene& scene, const MeasuredSignal& signal,
+                    const HealthyReference& healthy, const MeasuredBaseline* baseline) {
+    Measurement measurement;
+    const bool has_reference = !healthy.amplitude.empty();
+    std::string no_change;
+    if (baseline != nullptr) {
+        try {
+            measurement.change = measured_change(scene, signal, baseline->signal, baseline->file);
+        } catch (const SignalError& error) {
+            no_change = error.what();
+        }
+    }
+    std::vector<MeasuredFeature>& all = measurement.features;
+    std::vector<const Feature*> there;
+    for (const Feature& feature : measurable(baseline)) {
+        const bool of_change = feature.compared == features::Compared::change;
+        std::string why = missing(feature, scene, signal, has_reference);
+        if (why.empty() && of_change) {
+            why = measurement.change ? missing(feature, scene, measurement.change->signal, true)
+                                     : no_change;
+        } else if (why.empty() && feature.compared == features::Compared::baseline) {
+            why = missing(feature, scene, baseline->signal, has_reference);
+            why = why.empty() ? why : baseline->file + ": " + why;
+        }
+        all.push_back({&feature, 0.0, why});
+        if (why.empty()) {
+            there.push_back(&feature);
+        }
+    }
+    const ComparedNeeds needs = compared_needs(there);
+    MeasuredInput own(scene, needs.record), earlier(scene, needs.baseline),
+        changed(scene, needs.change);
+    features::FeatureInput input = own.of(signal), before, change;
+    if (baseline != nullptr) {
+        before = earlier.of(baseline->signal);
+        input.baseline = &before;
+    }
+    if (measurement.change) {
+        change = changed.of(measurement.change->signal);
+        input.change = &change;
+    }
+    if (has_reference) {
+        input.healthy = before.healthy = healthy.at(0);
     }
     for (MeasuredFeature& one : all) {
         if (one.missing.empty()) {
-            one.value = one.feature->compute(input);
+            one.value = one.feature->value(input);
             if (!std::isfinite(one.value)) {
                 one.missing = why_no_value(*one.feature, input, scene);
             }
         }
     }
+    const features::FeatureInput& shown = measurement.change ? change : input;
     const std::pair<const char*, std::span<const double>> gears[] = {
-        {"planet", input.tooth_rms}, {"sun", input.sun.rms}, {"ring", input.ring.rms}};
+        {"planet", shown.tooth_rms}, {"sun", shown.sun.rms}, {"ring", shown.ring.rms}};
     for (const auto& [gear, rms] : gears) {
         if (!rms.empty()) {
             measurement.teeth.push_back(worst_tooth(gear, rms));

@@ -1,12 +1,14 @@
 // A study's features of measured signals: what each needs, and what it gives.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "features/feature.hpp"
 #include "mc/gearbox/healthy_reference.hpp"
-#include "mc/gearbox/measured_signal.hpp"
+#include "mc/gearbox/measured_change.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
@@ -32,14 +34,28 @@ int planet_turns(const MeasuredSignal& signal, const Scene& scene);
 // Mesh periods of its signal that a feature looks at, at least.
 int meshes_of(const features::Feature& feature, const Scene& scene);
 
-// All features, in their own order; of every gear that features look at, its loudest tooth.
-// `healthy` may be empty.
+// An earlier recording of the gearbox while it was healthy.
+struct MeasuredBaseline {
+    std::string file;
+    MeasuredSignal signal;
+};
+
+// None if `path` is "". Throws SignalError.
+std::optional<MeasuredBaseline> measured_baseline(const std::string& path,
+                                                  const SignalColumns& columns, const Scene& scene);
+
+// What is measured: all features with a baseline, those of one record without.
+std::span<const features::Feature> measurable(const MeasuredBaseline* baseline);
+
+// measurable() features, in their order; of every gear that features look at, its loudest tooth, of
+// what has changed if there is a baseline. `healthy` may be empty, `baseline` null.
 struct Measurement {
     std::vector<MeasuredFeature> features;
     std::vector<WorstTooth> teeth;
+    std::optional<MeasuredChange> change;
 };
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
-                    const HealthyReference& healthy);
+                    const HealthyReference& healthy, const MeasuredBaseline* baseline = nullptr);
 
 // Of recordings of healthy gearboxes, each as long as `turns` planet turns at least. Throws
 // SignalError.

@@ -20,7 +20,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 MeasuredRecording measure_one(const Recording& recording, SignalColumns columns, const Scene& scene,
-                              const HealthyReference& healthy) {
+                              const HealthyReference& healthy, const MeasuredBaseline* baseline) {
     MeasuredRecording measured;
     try {
         columns.row = recording.row;
@@ -29,7 +29,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
         measured.planet_turns = planet_turns(signal, scene);
         bool any = false;
         std::string why;
-        Measurement all = measure(scene, signal, healthy);
+        Measurement all = measure(scene, signal, healthy, baseline);
         measured.teeth = std::move(all.teeth);
         for (const MeasuredFeature& feature : all.features) {
             measured.values.push_back(feature.missing.empty() ? feature.value : kNone);
@@ -134,12 +134,13 @@ std::vector<analysis::SizeGroup> groups_of(const std::set<double>& sizes) {
 
 std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
                                                   const SignalColumns& columns, const Scene& scene,
-                                                  const HealthyReference& healthy, int threads,
+                                                  const HealthyReference& healthy,
+                                                  const MeasuredBaseline* baseline, int threads,
                                                   const std::function<void()>& done) {
     std::vector<MeasuredRecording> measured(list.recordings.size());
     std::mutex one_at_a_time;
     machine::for_each_index(measured.size(), threads, [&](std::size_t i) {
-        measured[i] = measure_one(list.recordings[i], columns, scene, healthy);
+        measured[i] = measure_one(list.recordings[i], columns, scene, healthy, baseline);
         const std::lock_guard lock(one_at_a_time);
         done();
     });
@@ -147,7 +148,8 @@ std::vector<MeasuredRecording> measure_recordings(const RecordingList& list,
 }
 
 std::string recordings_csv(const RecordingList& list,
-                           const std::vector<MeasuredRecording>& measured) {
+                           const std::vector<MeasuredRecording>& measured,
+                           std::span<const features::Feature> features) {
     std::string out = "file,row,gearbox,label";
     for (const auto& column : {list.time, list.size}) {
         out += column ? "," + quoted(header_of(*column)) : "";
@@ -155,7 +157,7 @@ std::string recordings_csv(const RecordingList& list,
     for (const TableColumn& column : list.inputs) {
         out += "," + quoted(header_of(column));
     }
-    for (const features::Feature& feature : features::record_features()) {
+    for (const features::Feature& feature : features) {
         out += feature.unit == "1" ? fmt::format(",{}", feature.name)
                                    : fmt::format(",{} [{}]", feature.name, feature.unit);
     }
@@ -172,7 +174,7 @@ std::string recordings_csv(const RecordingList& list,
         for (const double input : recording.inputs) {
             out += "," + number_text(input);
         }
-        for (std::size_t f = 0; f < features::record_features().size(); ++f) {
+        for (std::size_t f = 0; f < features.size(); ++f) {
             out += "," + (measured[i].values.empty() ? std::string()
                                                      : number_text(measured[i].values[f]));
         }
@@ -182,7 +184,8 @@ std::string recordings_csv(const RecordingList& list,
 }
 
 Results recordings_results(const RecordingList& list,
-                           const std::vector<MeasuredRecording>& measured, const Scene& scene,
+                           const std::vector<MeasuredRecording>& measured,
+                           std::span<const features::Feature> features, const Scene& scene,
                            int threads) {
     const Grading grading = grading_of(list);
     Results results;
@@ -195,8 +198,8 @@ Results recordings_results(const RecordingList& list,
     }
     results.parameters.push_back({grading.name, grading.unit, {}});
     std::vector<std::size_t> used;
-    for (std::size_t f = 0; f < features::record_features().size(); ++f) {
-        const features::Feature& feature = features::record_features()[f];
+    for (std::size_t f = 0; f < features.size(); ++f) {
+        const features::Feature& feature = features[f];
         if (any_value(measured, f)) {
             used.push_back(f);
             results.features.push_back({std::string(feature.name),

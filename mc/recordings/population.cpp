@@ -116,11 +116,9 @@ std::vector<Verdict> judge(const Population& population, const std::vector<doubl
     std::vector<Verdict> verdicts;
     for (const PopulationFeature& known : population.features) {
         const features::Feature* named = features::find_feature(known.name);
-        if (named == nullptr || named->compared != features::Compared::nothing) {
-            continue;  // one recording has no baseline
-        }
-        const double value =
-            measured[static_cast<std::size_t>(named - features::all_features().data())];
+        const auto at = static_cast<std::size_t>(
+            named == nullptr ? measured.size() : named - features::all_features().data());
+        const double value = at < measured.size() ? measured[at] : kNoValue;
         if (!std::isfinite(value)) {
             continue;
         }

@@ -39,7 +39,7 @@ struct Verdict {
     long less_extreme = 0;  // healthy ones
 };
 
-// `measured`: by features::all_features(); NaN: none. Of the features that recording and population
+// `measured`: by measurable(), NaN: none. Of the features that recording and population
 // have, in the population's order; `feature`, if named, is the first. Throws std::runtime_error if
 // there is none, or not that one.
 std::vector<Verdict> judge(const Population& population, const std::vector<double>& measured,

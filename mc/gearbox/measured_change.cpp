@@ -1,0 +1,59 @@
+#include "mc/gearbox/measured_change.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "mc/files/signal_file.hpp"
+#include "signals/spectra/alignment.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kLeastCorrelation = 0.2;
+
+}  // namespace
+
+MeasuredChange measured_change(const Scene& scene, const MeasuredSignal& record,
+                               const MeasuredSignal& baseline, const std::string& baseline_file) {
+    const int teeth = scene.span().planet_teeth, of_span = scene.span().ring_teeth;
+    const int turns =
+        std::min({record.sensor_meshes / teeth, baseline.sensor_meshes / teeth, of_span});
+    if (!record.has_sensor || !baseline.has_sensor || turns < 1) {
+        throw SignalError(
+            fmt::format("{}: a baseline and its recording must both have {} mesh "
+                        "periods of sensor signal",
+                        baseline_file, teeth));
+    }
+    const auto per_mesh = static_cast<std::size_t>(scene.samples_per_mesh());
+    const auto meshes = static_cast<std::size_t>(turns) * static_cast<std::size_t>(teeth);
+    const auto now = std::span(record.sensor).first(meshes * per_mesh);
+    std::vector<double> before(baseline.sensor.begin(),
+                               baseline.sensor.begin() + static_cast<std::ptrdiff_t>(now.size()));
+    MeasuredChange change;
+    if (turns == of_span || turns == 1) {
+        const double shift = signals::align(now, before).shift;
+        before = signals::shifted(before, shift);
+        change.meshes = shift / static_cast<double>(per_mesh);
+    }
+    change.correlation = signals::correlation(now, before);
+    if (!(change.correlation >= kLeastCorrelation)) {
+        throw SignalError(
+            fmt::format("{}: the recording is not like this baseline (correlation {:.2f}): another "
+                        "gearbox or speed{}",
+                        baseline_file, change.correlation,
+                        turns == of_span || turns == 1
+                            ? ""
+                            : fmt::format(", or another place to begin, which only recordings of "
+                                          "{} mesh periods or of one averaged planet turn may have",
+                                          scene.span_meshes())));
+    }
+    std::transform(now.begin(), now.end(), before.begin(), before.begin(), std::minus<>());
+    change.signal.sensor = std::move(before);
+    change.signal.has_sensor = true;
+    change.signal.sensor_meshes = static_cast<int>(meshes);
+    return change;
+}
+
+}  // namespace gearpod::mc

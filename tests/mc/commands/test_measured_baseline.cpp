@@ -1,0 +1,133 @@
+// features --baseline: what a recording is against an earlier one of the same gearbox.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "mc/files/hdf5_data.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+// Planets and ring with tooth errors: all repeats after 385 mesh periods of eight samples.
+const std::string kStudy =
+    std::string(GEARPOD_SOURCE_DIR) +
+    "/tests/features/reference/small.toml --set gearbox.planet_quality=7 --set "
+    "gearbox.ring_quality=7 --set sensor.noise_levels=[0] --set features.baseline_torque_scatter=0 "
+    "--set 'features.use=[\"window_ratio\",\"window_z\",\"own_window_ratio\",\"own_sensor_rms\","
+    "\"change_window_ratio\",\"change_window_z\",\"change_sensor_rms\"]' ";
+constexpr std::size_t kSpan = 385 * 8;
+const std::string kFaulty = "--set fault.reduction=0.3 ";
+
+// Without noise, one span.
+std::vector<double> recorded(const Folder& folder, const std::string& options) {
+    const std::string path = folder.file("s.h5");
+    REQUIRE(
+        program("simulate " + kStudy + options + "--instance 2 --meshes 385 --out " + path).code ==
+        0);
+    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+    const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
+    auto values = mc::read_numbers(group.get(), "sensor", 1000000).values;
+    values.resize(kSpan);
+    return values;
+}
+
+std::string written(const Folder& folder, const std::string& name,
+                    const std::vector<double>& sensor) {
+    std::ofstream stream(folder.file(name));
+    stream.precision(17);
+    stream << "sensor\n";
+    for (const double value : sensor) {
+        stream << value << "\n";
+    }
+    return folder.file(name);
+}
+
+Outcome features(const std::string& path, const std::string& options) {
+    return program("features " + path + " --samples-per-mesh 8 --study " + kStudy + options);
+}
+
+nlohmann::json json_of(const std::string& path, const std::string& options) {
+    const Outcome outcome = features(path, options + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    return nlohmann::json::parse(outcome.output);
+}
+
+TEST_CASE("A measured baseline gives what the simulated one gives, wherever it begins") {
+    const Folder folder;
+    const std::string healthy = written(folder, "healthy.csv", recorded(folder, ""));
+    const std::string faulty = written(folder, "faulty.csv", recorded(folder, kFaulty));
+    REQUIRE(program("run " + kStudy + kFaulty + "--quiet --out " + folder.file("r.h5")).code == 0);
+    const mc::Results run = mc::read_results(folder.file("r.h5"));
+    const auto of_run = [&](const std::string& name) {
+        const auto found = std::find_if(run.features.begin(), run.features.end(),
+                                        [&](const auto& one) { return one.name == name; });
+        return found->values[2];
+    };
+    const auto json = json_of(faulty, "--baseline " + healthy);
+    CHECK(json["baseline"]["correlation"].get<double>() > 0.5);
+    for (const char* name : {"window_ratio", "own_window_ratio", "own_sensor_rms"}) {
+        INFO(name);
+        CHECK(json["features"][name].get<double>() == Approx(of_run(name)).epsilon(1e-6));
+    }
+    // The fault itself moves the best shift by some thousandths of a sample.
+    CHECK(json["features"]["change_sensor_rms"].get<double>() ==
+          Approx(of_run("change_sensor_rms")).epsilon(1e-3));
+    CHECK(json["features"]["change_window_ratio"].get<double>() > 50.0);
+
+    auto turned = recorded(folder, "");
+    std::rotate(turned.begin(), turned.begin() + 123, turned.end());
+    const auto again = json_of(faulty, "--baseline " + written(folder, "turned.csv", turned));
+    CHECK(again["baseline"]["turned_on_meshes"].get<double>() ==
+          Approx((static_cast<double>(kSpan) - 123.0) / 8).margin(1e-3));
+    for (const char* name : {"change_window_ratio", "change_sensor_rms", "own_window_ratio"}) {
+        CHECK(again["features"][name].get<double>() ==
+              Approx(json["features"][name].get<double>()).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("What is no baseline of a recording is said") {
+    const Folder folder;
+    const auto healthy = recorded(folder, "");
+    const std::string path = written(folder, "healthy.csv", healthy);
+    auto other = healthy;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        other[i] = 1e-3 * std::sin(1.3 * static_cast<double>(i) * static_cast<double>(i));
+    }
+    const auto json = json_of(path, "--baseline " + written(folder, "other.csv", other));
+    CHECK_FALSE(json["features"].contains("change_window_ratio"));
+    CHECK_THAT(json["unavailable"]["change_window_ratio"].get<std::string>(),
+               Catch::Contains("other.csv") && Catch::Contains("not like this baseline"));
+    CHECK(json["features"].contains("window_ratio"));
+
+    const Outcome none = features(path, "--baseline " + folder.file("none.csv"));
+    CHECK(none.code == 2);
+    CHECK(none.mentions("none.csv"));
+    CHECK(features(path, "--baseline " + path + " --json " + path).code == 2);
+
+    // A part of the span cannot be turned: it must begin where the baseline does.
+    const std::vector<double> part(healthy.begin() + 88, healthy.begin() + 88 + 33 * 8);
+    const auto elsewhere = json_of(written(folder, "part.csv", part), "--baseline " + path);
+    CHECK(elsewhere["unavailable"]["change_sensor_rms"].get<std::string>().find("begin") !=
+          std::string::npos);
+}
+
+TEST_CASE("Many recordings are compared with one baseline") {
+    const Folder folder;
+    const std::string healthy = written(folder, "a.csv", recorded(folder, ""));
+    const std::string faulty = written(folder, "b.csv", recorded(folder, kFaulty));
+    const Outcome outcome =
+        features(healthy + " " + faulty, "--quiet --csv - --baseline " + healthy);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.mentions("own_window_ratio"));
+    CHECK(outcome.mentions("change_window_z"));
+    CHECK(features(healthy + " " + faulty, "--quiet --csv -").mentions("window_ratio"));
+    CHECK_FALSE(features(healthy + " " + faulty, "--quiet --csv -").mentions("change_"));
+}
+
+}  // namespace
+}  // namespace gearpod::test
