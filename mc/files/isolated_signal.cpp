@@ -27,7 +27,8 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::size_t kSpareBytes = std::size_t{256} << 20, kMostCompressed = 1000;
-constexpr int kPatience_ms = 20000;  // without a byte of an answer
+// Without a byte of an answer: so long, and a second for every ten megabytes of the file.
+constexpr std::uintmax_t kPatience_ms = 8000, kBytes_ms = 10000, kMostPatience_ms = 3600000;
 
 enum class Question : char { names, read, unit, sampling_Hz };
 enum class Answer : char { good, refused };
@@ -173,7 +174,10 @@ class IsolatedSignal : public SignalFile {
         here_ = std::make_unique<Descriptor>(ends[0]);
         Descriptor there(ends[1]);
         std::error_code error;
-        const auto size = std::filesystem::file_size(path, error);
+        const auto found = std::filesystem::file_size(path, error);
+        const std::uintmax_t size = error ? 0 : found;
+        patience_ms_ =
+            static_cast<int>(std::min(kPatience_ms + size / kBytes_ms, kMostPatience_ms));
         child_ = ::fork();
         if (child_ < 0) {
             throw SignalError(
@@ -182,7 +186,7 @@ class IsolatedSignal : public SignalFile {
         if (child_ == 0) {
             ::close(ends[0]);
             try {
-                serve(ends[1], path, kSpareBytes + (error ? 0 : kMostCompressed * size), open);
+                serve(ends[1], path, kSpareBytes + kMostCompressed * size, open);
             } catch (...) {
                 ::_exit(1);
             }
@@ -220,9 +224,10 @@ class IsolatedSignal : public SignalFile {
     std::string answer() {
         char kind = 0;
         std::string text;
-        if (!receive_message(here_->get(), kind, text, kPatience_ms)) {
+        if (!receive_message(here_->get(), kind, text, patience_ms_)) {
             throw SignalError(path_ +
-                              ": is damaged: the library that reads this kind of file fails on it");
+                              ": is damaged: the library that reads this kind of file fails on it, "
+                              "or does not end");
         }
         if (static_cast<Answer>(kind) == Answer::refused) {
             throw SignalError(text);
@@ -242,6 +247,7 @@ class IsolatedSignal : public SignalFile {
     std::string path_;
     std::unique_ptr<Descriptor> here_;
     pid_t child_ = -1;
+    int patience_ms_ = 0;
     std::vector<std::string> names_;
 };
 
