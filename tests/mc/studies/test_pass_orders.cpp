@@ -1,0 +1,71 @@
+// Where a healthy spectrum fills when teeth differ: a recording of identical teeth repeats with the
+// carrier; teeth of the planets add lines at the orders of their turns, those of the sun at its.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+
+#include "mc/files/hdf5_data.hpp"
+#include "signals/spectra/fourier_transform.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+// 13/11/35 teeth, 8 samples a mesh period.
+const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
+
+// Amplitudes of the noise-free sensor signal over so many mesh periods, [cycles of them].
+std::vector<double> amplitudes(int meshes, const std::string& errors) {
+    const Folder folder;
+    const std::string path = folder.file("s.h5");
+    REQUIRE(program("simulate " + kSmall + errors + " --instance 2 --meshes " +
+                    std::to_string(meshes) + " --out " + path)
+                .code == 0);
+    const mc::Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+    const mc::Hdf5Handle group = mc::open_group(file.get(), "signals");
+    const auto samples = mc::read_numbers(group.get(), "sensor", 1000000).values;
+    const std::vector<std::complex<double>> in(samples.begin(), samples.begin() + 8 * meshes);
+    std::vector<std::complex<double>> out(in.size());
+    signals::FourierTransform(8 * meshes).transform(in, out);
+    std::vector<double> all;
+    for (std::size_t k = 0; 2 * k < out.size(); ++k) {
+        all.push_back(2.0 * std::abs(out[k]) / static_cast<double>(out.size()));
+    }
+    return all;
+}
+
+double rms(const std::vector<double>& lines, int multiple, bool at_multiples) {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+        if ((k % static_cast<std::size_t>(multiple) == 0) == at_multiples) {
+            sum += 0.5 * lines[k] * lines[k];
+        }
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace
+
+TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth with errors do") {
+    struct Gear {
+        const char* what;
+        int meshes, carrier_turns;
+    };
+    // Carrier's turns of 35 mesh periods until the gear's teeth meet the ring's again.
+    for (const Gear& gear : {Gear{"planet", 11 * 35, 11}, Gear{"sun", 13 * 35, 13}}) {
+        INFO(gear.what);
+        const auto ideal = amplitudes(gear.meshes, "");
+        CHECK(rms(ideal, gear.carrier_turns, false) < 1e-6 * rms(ideal, gear.carrier_turns, true));
+        const std::string grade = std::string(" --set gearbox.") + gear.what + "_quality=";
+        const double finer = rms(amplitudes(gear.meshes, grade + "4"), gear.carrier_turns, false);
+        const double coarser = rms(amplitudes(gear.meshes, grade + "6"), gear.carrier_turns, false);
+        CHECK(coarser > 0.02 * rms(ideal, gear.carrier_turns, true));
+        // A grade is a factor of sqrt(2) of all deviations; no tooth pair loses contact here.
+        CHECK(coarser / finer == Approx(2.0).epsilon(0.2));
+    }
+    // The ring turns with the carrier's orders: its errors are where the ideal lines are.
+    const auto ring = amplitudes(11 * 35, " --set gearbox.ring_quality=6");
+    CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
+}
+
+}  // namespace gearpod::test
