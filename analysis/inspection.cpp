@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "analysis/detection/reliable_size.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
 #include "analysis/statistics/interval.hpp"
 
@@ -175,8 +176,7 @@ InspectionResult inspect(const Inspections& data, const InspectionRequest& reque
         result.without_flaw += size == 0.0;
     }
     count_specimens(data, result);
-    result.all_found =
-        static_cast<long>(std::ceil(std::log1p(-request.confidence) / std::log(kPod) - 1e-9));
+    result.all_found = hits_in_a_row(kPod, request.confidence);
     if (request.responses) {
         add_responses(data, request, result);
     } else {

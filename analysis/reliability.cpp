@@ -69,7 +69,12 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     }
     level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
                                  transition_sizes(detection.cells), confidence);
-    level.tested_size = reliable_size(detection, 0.9);
+    for (const DetectionCell& cell : detection.cells) {
+        if (cell.size.high > 0.0) {
+            level.pd.push_back(cell.pd);
+        }
+    }
+    level.tested_size = tested_size(detection, data.graded_size, hit, kReliablePd, confidence);
     return level;
 }
 
@@ -110,41 +115,6 @@ LevelSensitivity sensitivity_at(const ReliabilityData& data,
 }
 
 }  // namespace
-
-std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level) {
-    using Where = SizeEstimate::Where;
-    const LevelReliability& at = feature.levels[level];
-    const HitMissPod& pod = at.hit_miss;
-    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
-        const bool inside = pod.a90.upper.where == Where::reached;
-        return SmallestFault{feature.feature, inside ? pod.a90.upper.size : pod.smallest, true};
-    }
-    if (at.tested_size) {
-        return SmallestFault{feature.feature, at.tested_size->high, false};
-    }
-    return std::nullopt;
-}
-
-std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
-    std::optional<SmallestFault> least;
-    const auto consider = [&](const FeatureReliability& feature) {
-        const auto found = smallest_fault(feature, level);
-        if (found && (!least || found->size < least->size)) {
-            least = found;
-        }
-    };
-    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
-        for (const FeatureReliability& feature : reliability.features) {
-            if (feature.feature == rank.name) {
-                consider(feature);
-            }
-        }
-    }
-    for (const FeatureReliability& feature : reliability.features) {
-        consider(feature);
-    }
-    return least;
-}
 
 Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,

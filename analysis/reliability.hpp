@@ -16,6 +16,7 @@
 #include "analysis/ranking/combined_detector.hpp"
 #include "analysis/ranking/feature_ranking.hpp"
 #include "analysis/ranking/roc.hpp"
+#include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 
@@ -29,7 +30,9 @@ struct LevelReliability {
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
-    std::optional<SizeGroup> tested_size;  // reliable_size() of the detection rates at Pd 0.9
+    std::vector<double> pd;  // of the size groups above 0, ascending; NaN where none was tested
+    // The size that the rates alone vouch for, without a curve; NaN: none.
+    double tested_size = kNan;
 };
 
 struct FeatureReliability {
@@ -62,19 +65,6 @@ struct ReliabilityData {
     std::vector<InputColumn> inputs;         // of the graded gearboxes
     std::vector<ConditionColumn> condition;  // at most one
 };
-
-// The smallest fault that a feature finds with a probability of 90 % at the confidence asked for:
-// a90's upper bound where the curve fits, else the smallest tested size that the rates alone
-// vouch for, from which on their lower bounds stay at 0.9 or more.
-struct SmallestFault {
-    std::string feature;
-    double size = 0.0;
-    bool from_curve = false;
-};
-std::optional<SmallestFault> smallest_fault(const FeatureReliability& feature, std::size_t level);
-
-// Of all features, the least; of equal ones the better ranked.
-std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the
 // threshold sample and the graded ones of size 0. The same numbers whatever the

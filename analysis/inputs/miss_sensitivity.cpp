@@ -1,5 +1,7 @@
 #include "analysis/inputs/miss_sensitivity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,7 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr std::size_t kNeighbours = 100;
+constexpr long kFewestOutcomes = 10;  // misses, and hits, for the law of large samples to hold
 
 struct Stratum {
     std::vector<std::size_t> hits, misses;  // gearboxes
@@ -114,6 +117,11 @@ MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const 
                 result.largest = std::max(result.largest, sizes[row]);
             }
         }
+    }
+    if (std::min(result.misses, result.hits) < kFewestOutcomes) {
+        result.refusal = fmt::format("{} misses and {} hits, {} of each are needed", result.misses,
+                                     result.hits, kFewestOutcomes);
+        return result;
     }
     std::vector<double> p_values;
     for (const InputColumn& input : inputs) {

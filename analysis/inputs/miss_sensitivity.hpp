@@ -39,7 +39,8 @@ struct MissSensitivity {
 
 // `sizes` and `hit` per gearbox (1 detected, 0 missed, -1 no value). Counts fault sizes at which
 // half or more of the gearboxes, but not all, are detected, where the misses are of interest; sizes
-// that do not repeat are put into strata of 100 neighbours. Strata need two of each.
+// that do not repeat are put into strata of 100 neighbours. Strata need two of each, all together
+// ten.
 MissSensitivity miss_sensitivity(std::span<const double> sizes, std::span<const int> hit,
                                  const std::vector<InputColumn>& inputs, double confidence);
 

@@ -6,6 +6,7 @@ import numerical_figures
 from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
+CARRIED = '<abbr title="the bound of a feature or noise level that finds no more">†</abbr>'
 TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
 ARCSECONDS = 180 * 3600 / math.pi  # in a radian
 
@@ -105,12 +106,21 @@ def _input_limit(report, found):
             f"missed gearbox tends to have the {joined(texts)}.")
 
 
+def _source(found):
+    return f"{found['source']['feature']} at {noise(found['source']['noise_level'])}"
+
+
 def _sample_limit(report, found):
     if not report.reliability:
         return ("Sizes: the study is too large for detection curves, so this is one of the sizes "
                 "tested, not a size between them.")
     f = report.feature_number(found["feature"])
     pod = report.reliable(f, report.reference)["hit_miss"]
+    if found["source"]:
+        return (f"Sizes: this is the bound of {_source(found)}, which finds no more of any tested "
+                f"size, so that it holds for {found['feature']} here as well"
+                + ("." if found["from_curve"] else "; one of the sizes tested, not a size between "
+                   "them."))
     if not found["from_curve"]:
         why = pod["refusal"] or ("its goodness of fit is rejected" if pod["doubtful"]
                                  else "its curve does not reach that far")
@@ -146,6 +156,17 @@ def _threshold(report, name, n):
     return text, rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])
 
 
+def _footnotes(faults):
+    notes = []
+    if not all(found["from_curve"] for found in faults):
+        notes.append("* a tested size; no detection curve vouches for one between.")
+    carried = list(dict.fromkeys(_source(found) for found in faults if found["source"]))
+    if carried:
+        notes.append(f"† the bound of {escape(joined(carried))}, which finds no more of any tested "
+                     "size.")
+    return "".join(f'<p class="small">{text}</p>' for text in notes)
+
+
 def table(report):
     """Smallest fault by noise level, as HTML."""
     rows = []
@@ -156,7 +177,8 @@ def table(report):
             cells = '<td>none</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
             alarm, false = _threshold(report, found["feature"], n)
-            basis = "" if found["from_curve"] else TESTED_SIZE
+            basis = ("" if found["from_curve"] else TESTED_SIZE) + (
+                CARRIED if found["source"] else "")
             cells = (f"<td><strong>{escape(report.sizes.text(found['size']))}</strong>{basis}</td>"
                      f"<td>{escape(found['feature'])}</td><td>{escape(alarm)}</td>"
                      f'<td class="wide">{false}</td>')
@@ -170,9 +192,8 @@ def table(report):
             '<th scope="col">by</th><th scope="col">alarm if</th>'
             f'<th scope="col" class="wide">false alarms [{confidence} %]</th></tr></thead>'
             f"<tbody>{''.join(rows)}</tbody></table></div>"
-            + ('<p class="small">* a tested size; no detection curve vouches for one between.</p>'
-               if any((f := report.smallest_fault(n)) and not f["from_curve"]
-                      for n in range(len(report.levels))) else ""))
+            + _footnotes([found for n in range(len(report.levels))
+                          if (found := report.smallest_fault(n))]))
 
 
 def noise_unit(report):

@@ -6,6 +6,7 @@
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/pod_json.hpp"
 #include "analysis/report/robustness_json.hpp"
+#include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -56,9 +57,15 @@ Json to_json(const std::optional<SmallestFault>& smallest) {
     if (!smallest) {
         return nullptr;
     }
-    return {{"feature", smallest->feature},
-            {"size", smallest->size},
-            {"from_curve", smallest->from_curve}};
+    Json json{{"feature", smallest->feature},
+              {"size", smallest->size},
+              {"from_curve", smallest->from_curve},
+              {"source", nullptr}};
+    if (!smallest->own) {
+        json["source"] = {{"feature", smallest->source.feature},
+                          {"noise_level", smallest->source.noise_level}};
+    }
+    return json;
 }
 
 Json to_json(const FeatureRanking& ranking) {
@@ -124,11 +131,12 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
                           {"combined", combined_json(reliability.combined[n])},
                           {"sensitivity", sensitivity_json(reliability.sensitivities[n])}});
     }
-    for (const FeatureReliability& feature : reliability.features) {
+    for (std::size_t f = 0; f < reliability.features.size(); ++f) {
+        const FeatureReliability& feature = reliability.features[f];
         Json at = Json::array();
         for (std::size_t n = 0; n < feature.levels.size(); ++n) {
             at.push_back(to_json(feature.levels[n]));
-            at.back()["smallest_fault"] = to_json(smallest_fault(feature, n));
+            at.back()["smallest_fault"] = to_json(smallest_fault(reliability, n, f));
         }
         features.push_back({{"name", feature.feature},
                             {"alarm", feature.alarm == Alarm::high ? "high" : "low"},

@@ -9,7 +9,9 @@
 namespace gearpod::analysis {
 
 // {"size": {"name", "unit"}, "confidence",
-//  "levels": [{"noise_level", "smallest_fault": {"feature", "size", "from_curve"} or null,
+//  "levels": [{"noise_level",
+//    "smallest_fault": {"feature", "size", "from_curve",
+//      "source": {"feature", "noise_level"} whose bound it is, or null: its own} or null,
 //    "ranking": {"healthy", "faulty", "refusal", "left_out",
 //      "ranks": [{"name", "auc", "lower", "upper", "p_values"}]}, "combined", "sensitivity"}],
 //  "features": [{"name", "alarm", "levels": [{"noise_level",

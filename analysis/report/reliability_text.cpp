@@ -7,6 +7,7 @@
 
 #include "analysis/report/robustness_text.hpp"
 #include "analysis/report/text_lines.hpp"
+#include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -144,6 +145,16 @@ void add_misses(std::string& out, const FeatureReliability& feature, std::size_t
                 4);
 }
 
+std::string basis_text(const SmallestFault& least) {
+    const std::string tested = least.from_curve ? "" : "a tested size, no curve fits";
+    if (least.own) {
+        return tested.empty() ? "" : " (" + tested + ")";
+    }
+    return fmt::format(" (by the bound of {} at noise x {:g}, which finds no more of any size{})",
+                       least.source.feature, least.source.noise_level,
+                       tested.empty() ? "" : "; " + tested);
+}
+
 void add_level(std::string& out, const Reliability& reliability, std::size_t n,
                const DetectionRequest& request) {
     const SizeUnit& unit = request.size;
@@ -154,8 +165,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
             out,
             fmt::format("smallest fault found with 90 % probability at {:g} % confidence: {} "
                         "by {}{}",
-                        percent, with_unit(least->size, unit), least->feature,
-                        least->from_curve ? "" : " (a tested size, no curve fits)"),
+                        percent, with_unit(least->size, unit), least->feature, basis_text(*least)),
             4);
     } else {
         out += fmt::format("no tested fault is found with 90 % probability at {:g} % confidence\n",

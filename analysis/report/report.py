@@ -33,12 +33,14 @@ class Report:
         if self.reliability:
             return self.reliability["levels"][level]["smallest_fault"]
         # Without curves: from which tested size on the rates alone vouch for a feature.
-        tested = [(feature["levels"][level]["reliable_size"][1], feature["name"])
-                  for feature in self.detection if feature["levels"][level]["reliable_size"]]
+        # Of equal ones the feature that finds most.
+        tested = [(at["reliable_size"][1], -sum(cell["pd"] or 0 for cell in at["sizes"]), name)
+                  for name, at in ((f["name"], f["levels"][level]) for f in self.detection)
+                  if at["reliable_size"]]
         if not tested:
             return None
-        size, name = min(tested)
-        return {"feature": name, "size": size, "from_curve": False}
+        size, _, name = min(tested)
+        return {"feature": name, "size": size, "from_curve": False, "source": None}
 
     def unit(self, name):
         return self.data["features"][self.feature_number(name)]["unit"]

@@ -35,6 +35,10 @@ def rate(value):
     """A probability with two decimals, more next to 0 and 1."""
     if value is None or not math.isfinite(value):
         return "–"
+    if 0 < value < 5e-5:
+        return "< 0.0001"
+    if 0.99995 < value < 1:
+        return "> 0.9999"
     if 0 < value < 0.005 or 0.995 < value < 1:
         return f"{value:.4f}".rstrip("0")
     text = f"{value:.2f}"

@@ -8,6 +8,7 @@
 
 #include "analysis/report/reliability_json.hpp"
 #include "analysis/report/reliability_text.hpp"
+#include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -105,8 +106,9 @@ TEST_CASE("A good feature gets a curve, the others the reason why they have none
     CHECK(result.rankings[0].ranks[0].name == "all");
     CHECK(result.rankings[0].left_out.size() == 1);
     CHECK(smallest_fault(result, 0)->feature == "all");
+    CHECK(smallest_fault(result, 0)->size == 0.5e-3);
     CHECK(!smallest_fault(result, 0)->from_curve);
-    CHECK(!smallest_fault(result.features[4], 0));
+    CHECK(!smallest_fault(result, 0, 4));
 }
 
 TEST_CASE("The text says everything within 120 columns and never an invented number") {

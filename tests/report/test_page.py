@@ -107,6 +107,16 @@ class Answers(unittest.TestCase):
         self.assertIn("no detection curve vouches for it (te_fm0: every faulty gearbox was",
                       said("all_detected"))
 
+    def test_a_bound_of_others_names_them(self):
+        data = case("usual")
+        n = data["noise"]["reference"]
+        found = data["reliability"]["levels"][n]["smallest_fault"]
+        self.assertIsNone(found["source"])
+        found["source"] = {"feature": "te_fc", "noise_level": 5.0}
+        text = page(data).text()
+        self.assertIn("this is the bound of te_fc at noise × 5, which finds no more", text)
+        self.assertIn("† the bound of te_fc at noise × 5", text)
+
     def test_without_curves_the_rates_answer(self):
         self.assertIn("mm is found with 90 % probability", answer("too_large"))
         self.assertIn("this study has too many", said("too_large"))
@@ -117,6 +127,16 @@ class Answers(unittest.TestCase):
     def test_an_interrupted_run_says_so(self):
         self.assertIn("Not the whole study: 1000 of 2000 gearboxes (interrupted by SIGTERM)",
                       said("interrupted"))
+
+
+class Numbers(unittest.TestCase):
+    def test_rates_next_to_nothing_and_to_all_keep_their_digits(self):
+        for value, text in ((0.0, "0.00"), (1e-17, "< 0.0001"), (0.00004, "< 0.0001"),
+                            (0.00006, "0.0001"), (0.0029, "0.0029"), (0.25, "0.25"),
+                            (0.996, "0.996"), (0.99994, "0.9999"), (0.99996, "> 0.9999"),
+                            (1.0, "1.00")):
+            self.assertEqual(words.rate(value), text)
+        self.assertEqual(words.rate_with_bounds(0.0, 1e-17, 0.0029), "0.00 [< 0.0001, 0.0029]")
 
 
 class Statements(unittest.TestCase):

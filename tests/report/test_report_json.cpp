@@ -148,8 +148,10 @@ TEST_CASE("A feature that finds all or nothing, or is constant, has the area it 
     CHECK(area(case_json("none_detected")) == 0.0);
     CHECK(area(case_json("constant_feature")) == 0.5);
     const Json all = case_json("all_detected");
-    CHECK(all["reliability"]["levels"][1]["smallest_fault"] ==
-          Json({{"feature", "te_fm0"}, {"size", 0.5e-3}, {"from_curve", false}}));
+    CHECK(
+        all["reliability"]["levels"][1]["smallest_fault"] ==
+        Json(
+            {{"feature", "te_fm0"}, {"size", 0.5e-3}, {"from_curve", false}, {"source", nullptr}}));
 }
 
 TEST_CASE("The level that is shown first is 1, else the least noise, else the first") {

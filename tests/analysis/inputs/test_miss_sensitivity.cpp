@@ -69,15 +69,21 @@ TEST_CASE("With one size the influence is the area between two shifted normal la
 }
 
 TEST_CASE("Intervals of an idle input cover 1/2 over 1,000 studies") {
-    int covered = 0;
+    int covered = 0, judged = 0;
     for (unsigned seed = 0; seed < 1000; ++seed) {
         const Study drawn = study(true, 100 + seed, 0.0);
         const auto inputs = drawn.inputs();
         const MissSensitivity result = miss_sensitivity(drawn.size, drawn.hit, {inputs[1]}, 0.95);
+        if (result.misses < 10) {
+            CHECK_THAT(result.refusal, Catch::Contains("10 of each are needed"));
+            continue;
+        }
         REQUIRE(result.inputs.size() == 1);
+        ++judged;
         covered += result.inputs[0].bounds.lower <= 0.5 && result.inputs[0].bounds.upper >= 0.5;
     }
-    CHECK(covered / 1000.0 == Approx(0.95).margin(0.021));  // three standard deviations
+    CHECK(judged > 700);
+    CHECK(covered / static_cast<double>(judged) == Approx(0.95).margin(0.025));  // three deviations
 }
 
 TEST_CASE("Without misses or hits there is nothing to decide") {

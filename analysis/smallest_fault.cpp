@@ -1,0 +1,99 @@
+#include "analysis/smallest_fault.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace gearpod::analysis {
+namespace {
+
+std::optional<SmallestFault> own_fault(const std::string& feature, const LevelReliability& at) {
+    using Where = SizeEstimate::Where;
+    const HitMissPod& pod = at.hit_miss;
+    const SmallestFault::Source source{feature, at.noise_level};
+    if (pod.refusal.empty() && !pod.doubtful && pod.a90.upper.where != Where::not_reached) {
+        const bool inside = pod.a90.upper.where == Where::reached;
+        return SmallestFault{feature, inside ? pod.a90.upper.size : pod.smallest, true, source};
+    }
+    if (std::isnan(at.tested_size)) {
+        return std::nullopt;
+    }
+    return SmallestFault{feature, at.tested_size, false, source};
+}
+
+// In every group of sizes at least as many found, of groups that both tested or none did.
+bool finds_no_less(const LevelReliability& a, const LevelReliability& b) {
+    bool any = false;
+    for (std::size_t i = 0; i < a.pd.size(); ++i) {
+        if (std::isnan(a.pd[i]) != std::isnan(b.pd[i]) || a.pd[i] < b.pd[i]) {
+            return false;
+        }
+        any |= !std::isnan(a.pd[i]);
+    }
+    return any;
+}
+
+double found(const LevelReliability& at) {
+    return std::accumulate(at.pd.begin(), at.pd.end(), 0.0,
+                           [](double sum, double pd) { return sum + (std::isnan(pd) ? 0.0 : pd); });
+}
+
+// Places of the features, the best ranked first, those without a rank last.
+std::vector<std::size_t> ranked(const Reliability& reliability, std::size_t level) {
+    std::vector<std::size_t> order;
+    std::vector<char> taken(reliability.features.size(), 0);
+    const auto take = [&](std::size_t f) {
+        if (taken[f] == 0) {
+            taken[f] = 1;
+            order.push_back(f);
+        }
+    };
+    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
+        for (std::size_t f = 0; f < reliability.features.size(); ++f) {
+            if (reliability.features[f].feature == rank.name) {
+                take(f);
+            }
+        }
+    }
+    for (std::size_t f = 0; f < reliability.features.size(); ++f) {
+        take(f);
+    }
+    return order;
+}
+
+}  // namespace
+
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
+                                            std::size_t feature) {
+    const FeatureReliability& asked = reliability.features[feature];
+    const LevelReliability& at = asked.levels[level];
+    auto least = own_fault(asked.feature, at);
+    for (const FeatureReliability& other : reliability.features) {
+        for (const LevelReliability& there : other.levels) {
+            const auto bound = own_fault(other.feature, there);
+            if (bound && (!least || bound->size < least->size) && finds_no_less(at, there)) {
+                least = bound;
+                least->feature = asked.feature;
+                least->own = false;
+            }
+        }
+    }
+    return least;
+}
+
+std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
+    std::optional<SmallestFault> least;
+    double most = 0.0;
+    for (const std::size_t f : ranked(reliability, level)) {
+        const auto fault = smallest_fault(reliability, level, f);
+        const double finds = found(reliability.features[f].levels[level]);
+        if (fault &&
+            (!least || fault->size < least->size || (fault->size == least->size && finds > most))) {
+            least = fault;
+            most = finds;
+        }
+    }
+    return least;
+}
+
+}  // namespace gearpod::analysis
