@@ -189,6 +189,16 @@ void add_pod(CLI::App& app, PodOptions& pod, int& code) {
     command->callback([&] { code = pod_command(pod); });
 }
 
+void add_compare(CLI::App& app, CompareOptions& compare, int& code) {
+    auto* command = app.add_subcommand(
+        "compare", "what a change of sensor, feature, noise or design does to detection");
+    command->add_option("results", compare.results, "results files (HDF5); held against the first")
+        ->required();
+    needs_name(command->add_option("--json", compare.json, "write JSON to a file, or to -"));
+    needs_name(command->add_option("--html", compare.html, "write a page with figures to a file"));
+    command->callback([&] { code = compare_command(compare); });
+}
+
 int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
@@ -236,6 +246,9 @@ int run_program(int argc, char** argv) {
         "--by", report.condition,
         "random input, e.g. torque_N_m, whose values get thresholds of their own");
     report_app->callback([&] { code = report_command(report); });
+
+    CompareOptions compare;
+    add_compare(app, compare, code);
 
     DescribeOptions describe;
     auto* describe_app = app.add_subcommand(

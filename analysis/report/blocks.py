@@ -7,8 +7,8 @@ from words import escape
 class Page:
     """Numbers figures and charts in order, and knows the sections for the table of contents."""
 
-    def __init__(self):
-        self.names = SvgNames()
+    def __init__(self, figures=None):
+        self.names = SvgNames(figures)
         self.figures = 0
         self.sections = []
 

@@ -1,7 +1,9 @@
 """Writes the page of a report to standard output.
 
-    gearpod report F.h5 --json F.json         (or gearpod pod TABLE.csv --json F.json)
+    gearpod report F.h5 --json F.json         (or of gearpod pod, gearpod compare)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
+
+With --figures FOLDER behind it the figures go there too, each as SVG and PNG.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -43,15 +45,18 @@ def study_parts(data, page):
             state_banner(report) + headline.html_of(report), body)
 
 
-def page_html(data):
+def page_html(data, figures=None):
     import charts
+    import comparison_page
     import inspection_page
     from blocks import Page
     from words import escape
 
-    page = Page()
-    inspection = data.get("kind") == "inspection"
-    title, sentence, answer, body = (inspection_page.parts if inspection else study_parts)(data, page)
+    page = Page(figures)
+    command, make = {"inspection": ("pod", inspection_page.parts),
+                     "comparison": ("compare", comparison_page.parts)}.get(
+                         data.get("kind"), ("report", study_parts))
+    title, sentence, answer, body = make(data, page)
     contents = "".join(f'<li><a href="#{name}">{escape(title_)}</a></li>'
                        for name, title_ in page.sections)
     style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
@@ -77,14 +82,17 @@ def page_html(data):
 <nav aria-label="Contents"><h2>Contents</h2><ul>{contents}</ul></nav>
 {body}
 </main>
-<footer><p>Every number of this page is in <code>gearpod {"pod" if inspection else "report"} --json</code>.</p></footer>
+<footer><p>Every number of this page is in <code>gearpod {command} --json</code>.</p></footer>
 </body>
 </html>
 """
 
 
 def main(arguments):
-    if len(arguments) != 1:
+    figures = None
+    if len(arguments) == 3 and arguments[1] == "--figures":
+        figures = pathlib.Path(arguments[2])
+    elif len(arguments) != 1:
         print(__doc__, file=sys.stderr)
         return 2
     missing = missing_packages()
@@ -96,8 +104,15 @@ def main(arguments):
         data = json.load(sys.stdin)
     else:
         data = json.loads(pathlib.Path(arguments[0]).read_text(encoding="utf-8"))
+    try:
+        if figures is not None:
+            figures.mkdir(parents=True, exist_ok=True)
+        html = page_html(data, figures)
+    except OSError as error:
+        print(error, file=sys.stderr)
+        return 2
     sys.stdout.reconfigure(encoding="utf-8")
-    sys.stdout.write(page_html(data))
+    sys.stdout.write(html)
     return 0
 
 

@@ -108,18 +108,31 @@ def cell(axes, column, row, fill, text):
 
 
 class SvgNames:
-    """Gives every chart of a page ids of its own, in order."""
+    """Gives every chart of a page ids of its own, in order; with a folder, charts go there too."""
 
-    def __init__(self):
+    def __init__(self, folder=None):
         self.count = 0
+        self.folder = folder
 
     def next(self):
         self.count += 1
         return f"chart{self.count}"
 
+    def keep(self, figure, title):
+        """As files of their own, on paper: 03-area-under-the-roc.svg and .png."""
+        if self.folder is None:
+            return
+        words = re.sub(r"[^a-z0-9]+", "-", title.lower().replace("×", "x")).strip("-")[:60]
+        for kind in ("svg", "png"):
+            figure.savefig(self.folder / f"{self.count:02d}-{words}.{kind}", format=kind, dpi=200,
+                           facecolor=PAPER, metadata={"Date": None} if kind == "svg" else
+                           {"Software": None})
+
 
 def to_svg(figure, title, description, names):
     """Inline SVG of a matplotlib figure, which is closed."""
+    name = names.next()
+    names.keep(figure, title)
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -132,7 +145,6 @@ def to_svg(figure, title, description, names):
     body = re.sub(r'<style type="text/css">.*?</style>', "", body, flags=re.S)
     body = re.sub(r' id="(?:figure|axes|patch|text|line2d|matplotlib|xtick|ytick|legend|Quad|Path|Poly'
                   r'|Line|Fill)[^"]*"', "", body)
-    name = names.next()
     body = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', body)
     body = re.sub(r'xlink:href="#([^"]+)"', rf'href="#{name}-\1"', body)
     body = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", body)

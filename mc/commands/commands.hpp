@@ -41,6 +41,12 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+struct CompareOptions {
+    std::vector<std::string> results;  // the first is what the others are held against
+    std::string json, html;            // "": none; JSON "-": standard output
+};
+int compare_command(const CompareOptions& options);
+
 struct DescribeOptions {
     StudyOptions study;
     bool keys = false;  // print all keys of study files instead

@@ -56,6 +56,13 @@ class InBrowser(unittest.TestCase):
             make_page([PROGRAM, "run", SOURCES / "studies" / study[0], *study[1:], "--quiet",
                        "--out", results])
             make_page([PROGRAM, "report", results, "--html", cls.pages[name]])
+        planet = os.path.join(cls.folder.name, "planet.h5")
+        cls.pages["comparison"] = os.path.join(cls.folder.name, "comparison.html")
+        make_page([PROGRAM, "run", SOURCES / "studies" / STUDIES["planet"][0],
+                   *STUDIES["planet"][1:], "--quiet", "--set", "sensor.noise_m_s2=2", "--out",
+                   planet + ".louder.h5"])
+        make_page([PROGRAM, "compare", planet, planet + ".louder.h5", "--html",
+                   cls.pages["comparison"]])
         for name in SHOWN:
             cls.pages[name] = os.path.join(cls.folder.name, name + ".html")
             text = make_page(["/usr/bin/python3", "-Bs",

@@ -300,6 +300,31 @@ class Program(unittest.TestCase):
             self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
             os.remove(self.html())
 
+    def test_comparisons_have_a_page(self):
+        def run(name, *options):
+            results = os.path.join(self.folder.name, name)
+            self.gearpod("run", SOURCES / "studies" / "planet-crack.toml", "--quiet", "--out",
+                         results, "--instances", "350", "--set",
+                         "ensemble.threshold_instances=200", *options)
+            return results
+
+        a = run("a.h5")
+        files = a, run("b.h5", "--set", "sensor.noise_m_s2=3"), run("c.h5", "--seed", "8")
+        both = self.gearpod("compare", *files, "--html", self.html(), "--json", "-")
+        self.assertEqual(both.returncode, 0, both.stderr)
+        html = pathlib.Path(self.html()).read_text()
+        self.assertEqual(html, build_page.page_html(json.loads(both.stdout)))
+        said_ = PageHtml(html).text()
+        for words_ in ("B against A", "On 350 graded gearboxes that are the same in both",
+                       "Different gearboxes (seed 2 and 8)", "Difference of a90 at noise",
+                       "less A"):
+            self.assertIn(words_, said_)
+        self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
+        os.remove(self.html())
+        shown = self.gearpod("compare", a, a).stdout
+        self.assertIn("the same in every gearbox: te_rms", shown)
+        self.assertLessEqual(max(map(len, shown.splitlines())), 120)
+
     def test_a_page_that_cannot_be_written_is_said_first(self):
         failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")
         self.assertEqual(failed.returncode, 2)

@@ -1,0 +1,253 @@
+#include "analysis/comparison/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/comparison/resampling.hpp"
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/threshold.hpp"
+#include "analysis/pod/outcomes.hpp"
+#include "analysis/statistics/auc.hpp"
+#include "analysis/statistics/link.hpp"
+#include "analysis/statistics/wilson.hpp"
+#include "machine/team.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+// Detection of one sample as the report has it.
+struct Detected {
+    LevelDetection level;
+    std::vector<int> hit;
+    HitMissPod pod;
+};
+
+Detected detected(const ComparedSample& sample, const ComparisonRequest& request) {
+    const std::vector<double> no_fault(sample.healthy.size(), 0.0);
+    DetectionRequest asked;
+    asked.false_alarm_rate = request.false_alarm_rate;
+    asked.confidence = request.confidence;
+    asked.noise_levels = {1.0};
+    asked.groups = request.groups;
+    Detected result;
+    result.level = detect("", sample.alarm, {no_fault, sample.healthy},
+                          {sample.graded_size, sample.graded}, asked)
+                       .levels.front();
+    result.hit = outcomes(sample.graded, result.level.threshold, sample.alarm);
+    constexpr int kNoBand = 2;
+    result.pod =
+        pod_of_outcomes(sample.graded_size, result.hit, result.level, request.confidence, kNoBand);
+    return result;
+}
+
+// Values that resamples give both samples, differences among them.
+struct Resampled {
+    std::vector<std::vector<double>> rates;  // by group
+    std::vector<double> a90;
+};
+
+Resampled resample(const ComparedSample& a, const ComparedSample& b, const Detected& of_a,
+                   const Detected& of_b, const ComparisonRequest& request, int threads) {
+    const Resampling first(a.alarm, a.healthy, a.graded_size, a.graded, request.groups,
+                           request.false_alarm_rate);
+    const Resampling second(b.alarm, b.healthy, b.graded_size, b.graded, request.groups,
+                            request.false_alarm_rate);
+    const bool curves = of_a.pod.refusal.empty() && of_b.pod.refusal.empty();
+    const auto count = static_cast<std::size_t>(request.resamples);
+    Resampled result;
+    result.rates.assign(request.groups.size(), std::vector<double>(count));
+    result.a90.resize(count);
+    machine::for_each_index(count, threads, [&](std::size_t r) {
+        std::mt19937_64 engine(r);
+        const auto healthy = drawn_again(a.healthy.size(), engine);
+        const auto graded = drawn_again(a.graded.size(), engine);
+        const auto one =
+            first.detect(healthy, graded, curves ? &of_a.pod.chosen.curve.form : nullptr);
+        const auto two =
+            second.detect(request.paired ? healthy : drawn_again(b.healthy.size(), engine),
+                          request.paired ? graded : drawn_again(b.graded.size(), engine),
+                          curves ? &of_b.pod.chosen.curve.form : nullptr);
+        for (std::size_t g = 0; g < request.groups.size(); ++g) {
+            result.rates[g][r] = two.pd[g] - one.pd[g];
+        }
+        result.a90[r] = two.a90 - one.a90;
+    });
+    return result;
+}
+
+// Of the values that are numbers; infinite ones count.
+Interval percentiles(std::vector<double> values, double confidence) {
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    if (values.empty()) {
+        return {kNan, kNan};
+    }
+    std::sort(values.begin(), values.end());
+    const double tail = 0.5 * (1.0 - confidence) * static_cast<double>(values.size() + 1);
+    const auto least = static_cast<std::size_t>(std::max(1.0, std::floor(tail))) - 1;
+    return {values[least], values[values.size() - 1 - least]};
+}
+
+PairedCounts paired_counts(const Detected& a, const Detected& b,
+                           const std::vector<std::size_t>& group, std::size_t g) {
+    PairedCounts counts;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        if (group[i] == g && a.hit[i] >= 0 && b.hit[i] >= 0) {
+            long PairedCounts::*const which[] = {&PairedCounts::neither, &PairedCounts::only_b,
+                                                 &PairedCounts::only_a, &PairedCounts::both};
+            ++(counts.*which[2 * a.hit[i] + b.hit[i]]);
+        }
+    }
+    return counts;
+}
+
+// Of a count of pairs, the rates that belong to it.
+void add_rates(RateDifference& rate, const DetectionCell& a, const DetectionCell& b,
+               const ComparisonRequest& request, const Interval& resampled) {
+    long found_a = a.detected, found_b = b.detected;
+    rate.tested_a = a.tested;
+    rate.tested_b = b.tested;
+    if (request.paired) {
+        rate.tested_a = rate.tested_b = rate.pairs.pairs();
+        found_a = rate.pairs.both + rate.pairs.only_a;
+        found_b = rate.pairs.both + rate.pairs.only_b;
+    }
+    if (rate.tested_a == 0 || rate.tested_b == 0 || std::isnan(a.pd) || std::isnan(b.pd)) {
+        rate.a = rate.b = rate.p_value = kNan;
+        rate.bounds = {kNan, kNan};
+        return;
+    }
+    rate.a = static_cast<double>(found_a) / static_cast<double>(rate.tested_a);
+    rate.b = static_cast<double>(found_b) / static_cast<double>(rate.tested_b);
+    rate.bounds =
+        difference_interval(rate.a, wilson_interval(found_a, rate.tested_a, request.confidence),
+                            rate.b, wilson_interval(found_b, rate.tested_b, request.confidence),
+                            request.paired ? outcome_correlation(rate.pairs) : 0.0);
+    rate.bounds.lower = std::fmin(rate.bounds.lower, resampled.lower);
+    rate.bounds.upper = std::fmax(rate.bounds.upper, resampled.upper);
+    rate.p_value = request.paired ? mcnemar_p_value(rate.pairs)
+                                  : pooled_p_value(found_a, rate.tested_a, found_b, rate.tested_b);
+}
+
+std::string a90_refusal(const HitMissPod& pod, const char* which) {
+    const std::string name = which;
+    if (!pod.refusal.empty()) {
+        return name + ": " + pod.refusal;
+    }
+    switch (pod.a90.estimate.where) {
+        case SizeEstimate::Where::reached:
+            return "";
+        case SizeEstimate::Where::below_tested:
+            return name + ": a90 lies below the sizes tested";
+        case SizeEstimate::Where::not_reached:
+            break;
+    }
+    return name + ": a90 is not reached";
+}
+
+NumberDifference a90_difference(const Detected& a, const Detected& b,
+                                const std::vector<double>& resampled, double confidence) {
+    NumberDifference result{kNan, kNan, {kNan, kNan}, kNan, a90_refusal(a.pod, "A")};
+    if (result.refusal.empty()) {
+        result.a = a.pod.a90.estimate.size;
+    }
+    const std::string second = a90_refusal(b.pod, "B");
+    if (second.empty()) {
+        result.b = b.pod.a90.estimate.size;
+    } else if (result.refusal.empty()) {
+        result.refusal = second;
+    }
+    if (result.refusal.empty()) {
+        result.bounds = percentiles(resampled, confidence);
+    }
+    return result;
+}
+
+struct Areas {
+    std::vector<double> healthy, faulty;  // larger on the alarm side
+};
+
+Areas areas_of(const ComparedSample& own, const ComparedSample& other, bool paired) {
+    const double sign = own.alarm == Alarm::high ? 1.0 : -1.0;
+    Areas areas;
+    const auto usable = [&](std::span<const double> mine, std::span<const double> others,
+                            std::size_t i) {
+        return std::isfinite(mine[i]) && (!paired || std::isfinite(others[i]));
+    };
+    for (std::size_t i = 0; i < own.healthy.size(); ++i) {
+        if (usable(own.healthy, other.healthy, i)) {
+            areas.healthy.push_back(sign * own.healthy[i]);
+        }
+    }
+    for (std::size_t i = 0; i < own.graded.size(); ++i) {
+        if (usable(own.graded, other.graded, i)) {
+            (own.graded_size[i] > 0.0 ? areas.faulty : areas.healthy)
+                .push_back(sign * own.graded[i]);
+        }
+    }
+    return areas;
+}
+
+NumberDifference auc_difference(const ComparedSample& a, const ComparedSample& b,
+                                const ComparisonRequest& request) {
+    const Areas of_a = areas_of(a, b, request.paired), of_b = areas_of(b, a, request.paired);
+    NumberDifference result{kNan, kNan, {kNan, kNan}, kNan, ""};
+    for (const Areas* areas : {&of_a, &of_b}) {
+        if (areas->healthy.size() < 2 || areas->faulty.size() < 2) {
+            result.refusal = "two healthy and two faulty gearboxes with values are needed";
+            return result;
+        }
+    }
+    const AucShares one = auc_shares(of_a.healthy, of_a.faulty);
+    const AucShares two = auc_shares(of_b.healthy, of_b.faulty);
+    const double var_a = auc_covariance(one, one), var_b = auc_covariance(two, two);
+    const double both = request.paired ? auc_covariance(one, two) : 0.0;
+    const auto interval = [&](const Areas& areas, double area, double variance) {
+        const auto pairs = static_cast<long>(std::min(areas.healthy.size(), areas.faulty.size()));
+        return auc_interval(area, variance, pairs, request.confidence);
+    };
+    result.a = one.auc;
+    result.b = two.auc;
+    const double scatter = std::sqrt(var_a * var_b);
+    result.bounds =
+        difference_interval(one.auc, interval(of_a, one.auc, var_a), two.auc,
+                            interval(of_b, two.auc, var_b), scatter > 0.0 ? both / scatter : 0.0);
+    const double variance = var_a + var_b - 2.0 * both, distance = std::abs(two.auc - one.auc);
+    result.p_value = distance == 0.0 ? 1.0
+                     : variance > 0.0
+                         ? 2.0 * link_probability(Link::probit, -distance / std::sqrt(variance))
+                         : kNan;
+    return result;
+}
+
+}  // namespace
+
+Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
+                             const ComparisonRequest& request, int threads) {
+    if (request.paired && (a.healthy.size() != b.healthy.size() ||
+                           !std::equal(a.graded_size.begin(), a.graded_size.end(),
+                                       b.graded_size.begin(), b.graded_size.end()))) {
+        throw std::invalid_argument("comparison: paired samples are not the same gearboxes");
+    }
+    const Detected of_a = detected(a, request), of_b = detected(b, request);
+    const Resampled resampled = resample(a, b, of_a, of_b, request, threads);
+    const std::vector<std::size_t> group = groups_of(a.graded_size, request.groups);
+    Comparison result;
+    for (std::size_t g = 0; g < request.groups.size(); ++g) {
+        RateDifference rate;
+        rate.size = request.groups[g];
+        if (request.paired) {
+            rate.pairs = paired_counts(of_a, of_b, group, g);
+        }
+        add_rates(rate, of_a.level.cells[g], of_b.level.cells[g], request,
+                  percentiles(resampled.rates[g], request.confidence));
+        result.rates.push_back(rate);
+    }
+    result.a90 = a90_difference(of_a, of_b, resampled.a90, request.confidence);
+    result.auc = auc_difference(a, b, request);
+    return result;
+}
+
+}  // namespace gearpod::analysis

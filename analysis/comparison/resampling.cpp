@@ -1,0 +1,112 @@
+#include "analysis/comparison/resampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/size_groups.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kPod = 0.9;
+
+// Of a table whose curve cannot be fitted: all found means below the smallest size, else nothing is
+// known.
+double a90_of(const HitMissTable& table, const PodForm& form) {
+    const double hits = total_hits(table), tests = total_tests(table);
+    if (table.empty() || hits == 0.0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    if (hits == tests) {
+        return table.front().size;
+    }
+    const HitMissFit fit = fit_hit_miss(table, form);
+    if (!fit.refusal.empty()) {
+        return kNan;
+    }
+    const auto size = fit.curve.size_at(kPod);
+    return size && *size <= table.back().size ? std::max(*size, table.front().size)
+                                              : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine) {
+    std::vector<int> times(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        // The product's upper half: even to count / 2^32, and the same with every library.
+        ++times[static_cast<std::size_t>((engine() >> 32) * count >> 32)];
+    }
+    return times;
+}
+
+Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
+                       std::span<const double> graded_size, std::span<const double> graded,
+                       const std::vector<SizeGroup>& groups, double false_alarm_rate)
+    : sign_(alarm == Alarm::high ? 1.0 : -1.0),
+      false_alarm_rate_(false_alarm_rate),
+      groups_(groups.size()) {
+    for (std::size_t i = 0; i < healthy.size(); ++i) {
+        if (std::isfinite(healthy[i])) {
+            healthy_.emplace_back(sign_ * healthy[i], i);
+        }
+    }
+    std::sort(healthy_.begin(), healthy_.end());
+    const std::vector<std::size_t> group = groups_of(graded_size, groups);
+    for (std::size_t i = 0; i < graded.size(); ++i) {
+        if (std::isfinite(graded[i])) {
+            graded_.push_back({graded_size[i], sign_ * graded[i], i, group[i]});
+        }
+    }
+    std::sort(graded_.begin(), graded_.end(), [](const Graded& a, const Graded& b) {
+        return a.size != b.size ? a.size < b.size : a.gearbox < b.gearbox;
+    });
+}
+
+double Resampling::threshold(const std::vector<int>& times) const {
+    long sample = 0, passed = 0;
+    for (const auto& [value, gearbox] : healthy_) {
+        sample += times[gearbox];
+    }
+    const long rank = threshold_rank(sample, false_alarm_rate_);
+    for (const auto& [value, gearbox] : healthy_) {
+        passed += times[gearbox];
+        if (passed >= rank) {
+            return value;
+        }
+    }
+    return kNan;
+}
+
+ResampledDetection Resampling::detect(const std::vector<int>& healthy,
+                                      const std::vector<int>& graded, const PodForm* form) const {
+    const double limit = threshold(healthy);
+    std::vector<double> tested(groups_, 0.0), found(groups_, 0.0);
+    HitMissTable table;
+    for (const Graded& box : graded_) {
+        const double weight = graded[box.gearbox];
+        const double hits = box.value > limit ? weight : 0.0;
+        if (box.group != kNoGroup) {
+            tested[box.group] += weight;
+            found[box.group] += hits;
+        }
+        if (box.size > 0.0 && weight > 0.0) {
+            if (table.empty() || table.back().size != box.size) {
+                table.push_back({box.size, 0.0, 0.0});
+            }
+            table.back().hits += hits;
+            table.back().tests += weight;
+        }
+    }
+    ResampledDetection result;
+    for (std::size_t g = 0; g < groups_; ++g) {
+        result.pd.push_back(tested[g] > 0.0 && !std::isnan(limit) ? found[g] / tested[g] : kNan);
+    }
+    result.a90 = form == nullptr || std::isnan(limit) ? kNan : a90_of(table, *form);
+    return result;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,49 @@
+// How detection would scatter over other samples of gearboxes: thresholds, rates and a90 of
+// gearboxes drawn again with replacement, each gearbox with all that belongs to it (the cluster
+// bootstrap: B. Efron, R. J. Tibshirani, An Introduction to the Bootstrap (1993), section 8.5).
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "analysis/detection/detection_table.hpp"
+#include "analysis/pod/pod_curve.hpp"
+
+namespace gearpod::analysis {
+
+// How often every gearbox of a sample is drawn. The same for the same seed and count, everywhere.
+std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine);
+
+struct ResampledDetection {
+    std::vector<double> pd;  // by size group; NaN where none was drawn
+    double a90 = 0.0;        // infinite: not reached; NaN: no curve
+};
+
+// One feature at one noise level, sorted once for many samples.
+class Resampling {
+  public:
+    Resampling(Alarm alarm, std::span<const double> healthy, std::span<const double> graded_size,
+               std::span<const double> graded, const std::vector<SizeGroup>& groups,
+               double false_alarm_rate);
+
+    // By the gearboxes' numbers; the curve of `form`, none without.
+    ResampledDetection detect(const std::vector<int>& healthy, const std::vector<int>& graded,
+                              const PodForm* form) const;
+
+  private:
+    struct Graded {
+        double size, value;
+        std::size_t gearbox, group;
+    };
+    double threshold(const std::vector<int>& times) const;
+
+    double sign_;  // values times it alarm where they are large
+    double false_alarm_rate_;
+    std::size_t groups_;
+    std::vector<std::pair<double, std::size_t>> healthy_;  // value and gearbox, ascending
+    std::vector<Graded> graded_;                           // ascending size
+};
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,90 @@
+// compare: what is paired, what is refused, and that nothing differs from itself.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bytes_of;
+using test::Folder;
+using test::Outcome;
+using test::program;
+using Json = nlohmann::json;
+
+namespace {
+
+// Quasi-static, with the sensor out of it: a second or so.
+std::string run(const Folder& folder, const std::string& name, const std::string& options) {
+    const std::string file = folder.file(name);
+    const Outcome run = program("run " + test::study("planet-crack.toml") +
+                                " --quiet --set ensemble.threshold_instances=100 "
+                                "--set ensemble.instances=140 --set numerics.threads=2 --out " +
+                                file + " " + options);
+    INFO(run.output);
+    REQUIRE(run.code == 0);
+    return file;
+}
+
+Json compared(const std::string& files, const std::string& json) {
+    const Outcome compare = program("compare " + files + " --json " + json);
+    INFO(compare.output);
+    REQUIRE(compare.code == 0);
+    return Json::parse(bytes_of(json));
+}
+
+}  // namespace
+
+TEST_CASE("Comparisons pair the same gearboxes, and only these") {
+    const Folder folder;
+    const std::string a = run(folder, "a.h5", ""), more = run(folder, "more.h5", "--set ensemble.instances=210"),
+                      noisy = run(folder, "noisy.h5", "--set sensor.noise_m_s2=3"),
+                      other = run(folder, "other.h5", "--seed 5");
+    const std::string out = folder.file("c.json");
+
+    const Json itself = compared(a + " " + a, out)["files"][1];
+    CHECK(itself["pairs"] == 140);
+    for (const Json& feature : itself["features"]) {
+        CHECK(feature["same"] == true);
+        CHECK(feature["auc"]["difference"] == 0.0);
+        for (const Json& size : feature["sizes"]) {
+            CHECK(size["difference"] == 0.0);
+            CHECK(size["only"] == Json({0, 0}));
+        }
+    }
+    // Sensor noise leaves the transmission error as it is, in the same gearboxes.
+    const Json all = compared(a + " " + noisy + " " + more + " " + other, out);
+    const Json& sensor = all["files"][1];
+    CHECK(sensor["pairs"] == 140);
+    int same = 0, changed = 0;
+    for (const Json& feature : sensor["features"]) {
+        const bool of_te = feature["name"].get<std::string>().starts_with("te_");
+        const bool noisy_level = feature["noise_level"] != 0.0;
+        CHECK(feature["same"] == (of_te || !noisy_level));
+        same += feature["same"] == true;
+        changed += feature["same"] == false;
+    }
+    CHECK(same > 0);
+    CHECK(changed > 0);
+    CHECK(all["files"][2]["pairs"] == 140);
+    CHECK(all["files"][2]["unpaired"].is_null());
+    CHECK(all["files"][3]["pairs"] == 0);
+    CHECK(all["files"][3]["unpaired"] == "seed 2 and 5");
+}
+
+TEST_CASE("Comparisons say what cannot be compared, all of it") {
+    const Folder folder;
+    const std::string a = run(folder, "a.h5", "--set sensor.noise_levels=[1]"),
+                      b = run(folder, "b.h5", "--set detection.false_alarm_rate=0.1 "
+                                              "--set sensor.noise_levels=[2]");
+    const Outcome one = program("compare " + a);
+    CHECK(one.code == 2);
+    CHECK_THAT(one.output, Catch::Contains("give two or more"));
+    const Outcome refused = program("compare " + a + " " + b);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.output, Catch::Contains("its false-alarm rate is 0.1"));
+    CHECK_THAT(refused.output, Catch::Contains("no noise level in common"));
+    const Outcome over = program("compare " + a + " " + b + " --json " + a);
+    CHECK(over.code == 2);
+    CHECK_THAT(program("compare " + a + " " + folder.file("none.h5")).output,
+               Catch::Contains("none.h5"));
+}
