@@ -242,6 +242,9 @@ int run_program(int argc, char** argv) {
                                       "write JSON to a file, or to - for the terminal"));
     needs_name(
         report_app->add_option("--html", report.html, "write a page with figures to a file"));
+    needs_name(report_app->add_option("--csv", report.csv, "write every table into a folder"));
+    needs_name(report_app->add_option("--figures", report.figures,
+                                      "write the page's figures into a folder, as SVG and PNG"));
     report_app->add_option(
         "--by", report.condition,
         "random input, e.g. torque_N_m, whose values get thresholds of their own");

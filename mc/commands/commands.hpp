@@ -37,6 +37,8 @@ struct ReportOptions {
     std::string results;
     std::string json;       // "": none; "-": standard output
     std::string html;       // "": none
+    std::string csv;        // folder for every table; "": none
+    std::string figures;    // folder for the page's figures as SVG and PNG; "": none
     std::string condition;  // random input whose values get thresholds of their own; "": none
 };
 int report_command(const ReportOptions& options);

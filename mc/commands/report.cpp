@@ -15,13 +15,14 @@
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
 #include "mc/report/run_report.hpp"
+#include "mc/report/tables.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// JSON and page, as far as they are asked for; false after a message.
+// JSON, tables, page and figures, as far as they are asked for; false after a message.
 bool write_files(const ReportOptions& options, const Results& results, const RowSource& rows,
                  const std::optional<analysis::Reliability>& reliability) {
     nlohmann::json json = report_json(results, rows, reliability);
@@ -29,9 +30,14 @@ bool write_files(const ReportOptions& options, const Results& results, const Row
     if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
         return false;
     }
-    if (!options.html.empty()) {
-        const std::string page = report_page(json_text(json));
-        write_file(options.html, std::as_bytes(std::span(page)));
+    if (!options.csv.empty()) {
+        write_tables(options.csv, report_tables(json));
+    }
+    if (!options.html.empty() || !options.figures.empty()) {
+        const std::string page = report_page(json_text(json), options.figures);
+        if (!options.html.empty()) {
+            write_file(options.html, std::as_bytes(std::span(page)));
+        }
     }
     return true;
 }
@@ -50,7 +56,8 @@ int report_command(const ReportOptions& options) {
         check_results(options.results, results, rows);
         results.detection = detect_all(results, rows);
         const auto reliability = reliability_of(results, rows, options.condition, thread_count());
-        if (!options.json.empty() || !options.html.empty()) {
+        if (!options.json.empty() || !options.html.empty() || !options.csv.empty() ||
+            !options.figures.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;
             }
@@ -66,8 +73,12 @@ int report_command(const ReportOptions& options) {
                        printable(state));
         }
         fmt::print("{}", results_text(results, rows, reliability));
-        if (!options.html.empty()) {
-            fmt::print("\npage: {}\n", options.html);
+        const std::pair<const char*, const std::string&> written[] = {
+            {"page", options.html}, {"tables", options.csv}, {"figures", options.figures}};
+        for (const auto& [what, where] : written) {
+            if (!where.empty()) {
+                fmt::print("\n{}: {}\n", what, where);
+            }
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));

@@ -89,7 +89,7 @@ int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
 
 }  // namespace
 
-std::string report_page(const std::string& json) {
+std::string report_page(const std::string& json, const std::string& figures) {
     const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
     const std::filesystem::path folder =
         from_environment("GEARPOD_REPORT_DIR", report_folder().string());
@@ -101,7 +101,11 @@ std::string report_page(const std::string& json) {
     }
     const TemporaryFile input = temporary_file(json), output = temporary_file("");
     // -B: no compiled files beside the sources; -s: no packages of the user's own.
-    const int code = run({python, "-Bs", program, "-"}, input.get(), output.get());
+    std::vector<std::string> words{python, "-Bs", program, "-"};
+    if (!figures.empty()) {
+        words.insert(words.end(), {"--figures", figures});
+    }
+    const int code = run(words, input.get(), output.get());
     std::string page = content(output.get());
     if (code != 0 || page.empty()) {
         fail(python + " " + program + " ended with " + std::to_string(code));

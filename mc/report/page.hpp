@@ -9,6 +9,8 @@ namespace gearpod::mc {
 // program's folder is GEARPOD_REPORT_DIR, by default the one that this program was built from.
 // Throws std::runtime_error with what is missing; what the Python program itself finds wrong it
 // says on standard error.
-std::string report_page(const std::string& json);
+//
+// Into the folder `figures`, unless it is "", go its figures too, each as SVG and PNG.
+std::string report_page(const std::string& json, const std::string& figures = "");
 
 }  // namespace gearpod::mc

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
 sys.path.insert(0, str(SOURCES / "analysis" / "report"))
@@ -283,6 +284,20 @@ class Program(unittest.TestCase):
                 self.assertEqual(failed.returncode, 2)
                 self.assertIn(named, failed.stderr)
                 self.assertFalse(os.path.exists(self.html()))
+
+    def test_tables_and_figures_go_into_folders(self):
+        tables, figures = (pathlib.Path(self.folder.name, name) for name in ("tables", "figures"))
+        made = self.gearpod("report", self.results, "--csv", tables, "--figures", figures)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertGreater(len(list(tables.glob("*.csv"))), 2)
+        drawings = sorted(figures.glob("*.svg"))
+        self.assertGreater(len(drawings), 1)
+        for drawing in drawings:
+            xml.etree.ElementTree.parse(drawing)
+            self.assertEqual(drawing.with_suffix(".png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        failed = self.gearpod("report", self.results, "--figures", self.results)
+        self.assertEqual(failed.returncode, 2)
+        self.assertIn(self.results, failed.stderr)
 
     def test_inspections_have_a_page(self):
         tables = SOURCES / "tests" / "analysis" / "reference"
