@@ -6,6 +6,9 @@ install(DIRECTORY studies/ DESTINATION ${share}/studies
 install(PROGRAMS studies/slurm.sh DESTINATION ${share}/studies)
 install(DIRECTORY analysis/report/ DESTINATION ${share}/report
   FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "__pycache__" EXCLUDE)
+# Debian's Python looks there below /usr; elsewhere PYTHONPATH names it.
+install(DIRECTORY analysis/python/gearpod DESTINATION lib/python3/dist-packages
+  FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # cpack -G DEB. A package for any x86-64 processor comes from the preset `portable`; another one's
@@ -20,7 +23,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-matplotlib, python3-h5py")
 if(GEARPOD_WITH_MPI)
   string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", openmpi-bin")
 endif()

@@ -18,6 +18,13 @@ check_program() {
     "$prefix/bin/gearpod" report r.h5 | grep -q 'alarm if' || fail "report"
     [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"
 
+    if /usr/bin/python3 -c "import h5py" 2>/dev/null; then
+        PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -Bc \
+            'import gearpod, sys; assert len(gearpod.open("r.h5")) == 64
+assert gearpod.find_program() == sys.argv[1], gearpod.find_program()' \
+            "$prefix/bin/gearpod" || fail "the Python package"
+    fi
+
     page=$prefix/share/gearpod/report
     /usr/bin/python3 -c "import matplotlib" 2>/dev/null || return 0
     sed -i 's/<html/<html data-installed="here"/' "$page"/*.py

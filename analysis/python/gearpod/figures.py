@@ -1,0 +1,119 @@
+"""Figures of results, each on matplotlib axes that the caller may give and gets back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Optional
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from .results import Results
+
+
+def _axes(axes: Optional[Any]) -> Any:
+    if axes is not None:
+        return axes
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("figures need matplotlib (Debian: python3-matplotlib)") from error
+    return plt.subplots(layout="constrained")[1]
+
+
+def _size_scale(results: "Results") -> "tuple[float, str]":
+    metres = results.units.get(results.size_name) == "m"
+    name = results.size_name.removesuffix("_m").replace("_", " ")
+    return (1e3, f"{name}, mm") if metres else (1.0, name)
+
+
+def detection(results: "Results", feature: str, noise: Optional[float] = None,
+              axes: Optional[Any] = None) -> Any:
+    """Detection rates with Wilson intervals over fault size; all noise levels, or one."""
+    axes = _axes(axes)
+    scale, label = _size_scale(results)
+    table = results.detection_columns()
+    for level in results.noise_levels if noise is None else [results.noise_levels[results.level(noise)]]:
+        at = ((table["feature"] == feature) & (table["noise_level"] == level)
+              & (table["size_high"] > 0) & (table["tested"] > 0))
+        x = scale * 0.5 * (table["size_low"][at] + table["size_high"][at])
+        rate = table["pd"][at]
+        axes.errorbar(x, rate, yerr=[rate - table["lower"][at], table["upper"][at] - rate],
+                      marker="o", capsize=2, label=f"noise x {level:g}")
+    axes.axhline(0.9, color="0.5", linewidth=0.8, linestyle="--")
+    axes.set(xlabel=label, ylabel="detection rate", ylim=(-0.02, 1.03), title=feature)
+    axes.legend()
+    return axes
+
+
+def _level(results: "Results", feature: str, noise: Optional[float]) -> Dict[str, Any]:
+    reliability = results.report()["reliability"]
+    if reliability is None:
+        raise ValueError(f"{results.path}: too many gearboxes for curves")
+    for entry in reliability["features"]:
+        if entry["name"] == feature:
+            return entry["levels"][results.level(results.reference if noise is None else noise)]
+    raise KeyError(f"no {feature}; there are {', '.join(results.features)}")
+
+
+def pod(results: "Results", feature: str, noise: Optional[float] = None,
+        axes: Optional[Any] = None) -> Any:
+    """The fitted probability of detection with its bounds; ValueError says why there is none."""
+    curve = _level(results, feature, noise)["hit_miss"]
+    if curve["refusal"]:
+        raise ValueError(f"{feature}: {curve['refusal']}")
+    axes = _axes(axes)
+    scale, label = _size_scale(results)
+    band = {name: np.array([np.nan if v is None else v for v in values], float)
+            for name, values in curve["band"].items()}
+    line, = axes.plot(scale * band["size"], band["pod"], label=feature)
+    axes.fill_between(scale * band["size"], band["lower"], band["upper"], alpha=0.2, linewidth=0,
+                      color=line.get_color())
+    axes.axhline(0.9, color="0.5", linewidth=0.8, linestyle="--")
+    axes.set(xlabel=label, ylabel="probability of detection", ylim=(-0.02, 1.03))
+    axes.legend()
+    return axes
+
+
+def roc(results: "Results", feature: str, noise: Optional[float] = None,
+        axes: Optional[Any] = None) -> Any:
+    """Share of faulty gearboxes found against share of healthy ones called faulty."""
+    at = _level(results, feature, noise)
+    axes = _axes(axes)
+    area = at["auc"]["auc"]
+    axes.plot(at["roc"]["false_alarm_rate"], at["roc"]["detection_rate"],
+              label=feature if area is None else f"{feature}, area {area:.3f}")
+    axes.set(xlabel="false-alarm rate", ylabel="detection rate", xlim=(0, 1), ylim=(0, 1.01))
+    axes.legend(loc="lower right")
+    return axes
+
+
+def scatter(results: "Results", feature: str, noise: Optional[float] = None,
+            axes: Optional[Any] = None) -> Any:
+    """A feature over fault size, a point a gearbox, with the alarm threshold."""
+    axes = _axes(axes)
+    noise = results.reference if noise is None else noise
+    scale, label = _size_scale(results)
+    rows = results.rows("graded")
+    axes.plot(scale * results.size[rows], results.feature(feature, noise)[rows], ".", alpha=0.4)
+    table = results.detection_columns()
+    at = (table["feature"] == feature) & np.isclose(table["noise_level"], noise)
+    threshold = table["threshold"][at]
+    if threshold.size and np.isfinite(threshold[0]):
+        axes.axhline(threshold[0], color="0.3", linewidth=0.9, linestyle="--", label="threshold")
+        axes.legend()
+    unit = results.units[feature]
+    axes.set(xlabel=label, ylabel=feature if unit in ("", "1") else f"{feature}, {unit}")
+    return axes
+
+
+def signal(results: "Results", row: int, name: str = "sensor", axes: Optional[Any] = None) -> Any:
+    """One signal of one gearbox over its samples' time, or over the samples."""
+    signals = results.signals(row)
+    if name not in signals:
+        raise KeyError(f"no {name}; there are {', '.join(signals)}")
+    axes = _axes(axes)
+    time = next((n for n in ("time_s", "time") if n in signals), None)
+    x = signals[time] if time else np.arange(len(signals[name]))
+    axes.plot(x, signals[name], linewidth=0.7)
+    axes.set(xlabel="time, s" if time else "sample", ylabel=name, title=f"row {row}")
+    return axes

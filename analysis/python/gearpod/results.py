@@ -1,0 +1,188 @@
+"""A results file: gearboxes with their inputs and features, detection rates, signals."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import tempfile
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+try:
+    import h5py
+except ImportError as error:
+    raise ImportError("gearpod reads its results with h5py (Debian: python3-h5py)") from error
+
+from .program import PathLike, call
+
+Array = np.ndarray
+FORMAT, NEWEST = "gearpod results", 2
+GROUPS = {"threshold": 0, "graded": 1, "neither": 2}
+
+
+def open(path: PathLike) -> "Results":
+    """Opens a results file. OSError if there is none, ValueError if it is not one of gearpod's."""
+    return Results(path)
+
+
+class Results:
+    """What `gearpod run` has written, read as it is asked for. Rows are gearboxes, first those that
+    set the thresholds, then the graded ones."""
+
+    def __init__(self, path: PathLike) -> None:
+        self.path = pathlib.Path(path)
+        with h5py.File(self.path, "r") as file:
+            self.attributes: Dict[str, str] = {
+                name: _text(value) for name, value in file.attrs.items()}
+            if self.attributes.get("format") != FORMAT:
+                raise ValueError(f"{self.path}: not a results file of gearpod")
+            if int(self.attributes["format_version"]) > NEWEST:
+                raise ValueError(f"{self.path}: written by a newer gearpod")
+            self.noise_levels: Array = file["noise_levels"][()]
+            self.group: Array = file["instances/group"][()]
+            self.status: Array = file["status"][()]
+            self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
+            self.features: List[str] = list(file["features"])
+            self.units: Dict[str, str] = {
+                name: _text(file[folder][name].attrs["unit"])
+                for folder, names in (("instances", self.inputs), ("features", self.features))
+                for name in names}
+            # Which side of the threshold is an alarm: "high" or "low".
+            self.alarms: Dict[str, str] = {
+                name: _text(file["features"][name].attrs["alarm"]) for name in self.features}
+            self.size_name: str = _text(file["detection"].attrs["size_name"])
+
+    def __repr__(self) -> str:
+        return (f"<gearpod results {self.path}: {len(self)} gearboxes, {len(self.inputs)} inputs, "
+                f"{len(self.features)} features at {len(self.noise_levels)} noise levels>")
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    @property
+    def study(self) -> str:
+        """The resolved study (TOML)."""
+        return self.attributes["study"]
+
+    def input(self, name: str) -> Array:
+        """One value a gearbox."""
+        return self._read("instances", name, self.inputs)
+
+    @property
+    def size(self) -> Array:
+        """Fault size of every gearbox; zeros if the study draws none."""
+        return self.input(self.size_name) if self.size_name in self.inputs else np.zeros(len(self))
+
+    def feature(self, name: str, noise: Optional[float] = None) -> Array:
+        """Gearboxes x noise levels, or at one noise level one value a gearbox; NaN: none."""
+        values = self._read("features", name, self.features)
+        return values if noise is None else values[:, self.level(noise)]
+
+    def level(self, noise: float) -> int:
+        """The place of a noise level. KeyError names those that there are."""
+        at = np.flatnonzero(np.isclose(self.noise_levels, noise))
+        if at.size == 0:
+            raise KeyError(f"no noise level {noise:g}; there are "
+                           + ", ".join(f"{level:g}" for level in self.noise_levels))
+        return int(at[0])
+
+    @property
+    def reference(self) -> float:
+        """The noise level that reports show first: 1, else the least above 0, else the first."""
+        levels = self.noise_levels
+        above = levels[levels > 0]
+        return 1.0 if 1.0 in levels else float(above[0] if above.size else levels[0])
+
+    def rows(self, group: str = "graded") -> Array:
+        """Numbers of the rows of a group: threshold, graded or neither."""
+        return np.flatnonzero(self.group == GROUPS[group])
+
+    def columns(self, noise: Optional[float] = None) -> Dict[str, Array]:
+        """Group, status, inputs and features by name, one value a gearbox."""
+        noise = self.reference if noise is None else noise
+        return {"group": self.group, "status": self.status,
+                **{name: self.input(name) for name in self.inputs},
+                **{name: self.feature(name, noise) for name in self.features}}
+
+    def frame(self, noise: Optional[float] = None) -> Any:
+        """The same as a pandas DataFrame, indexed by row; needs pandas."""
+        pandas = _pandas()
+        frame = pandas.DataFrame(self.columns(noise))
+        frame.index.name = "row"
+        return frame
+
+    def detection_columns(self) -> Dict[str, Array]:
+        """Detection rates, an entry a feature, noise level and size."""
+        columns: Dict[str, List[Any]] = {}
+        with h5py.File(self.path, "r") as file:
+            for feature in self.features:
+                part = file["detection"][feature]
+                low, high = part["size_low"][()], part["size_high"][()]
+                for n, noise in enumerate(part["noise_level"][()]):
+                    for s in range(len(low)):
+                        row = {"feature": feature, "noise_level": noise, "size_low": low[s],
+                               "size_high": high[s], "threshold": part["threshold"][n],
+                               **{name: part[name][n, s] for name in
+                                  ("tested", "detected", "failed", "pd", "lower", "upper")}}
+                        for name, value in row.items():
+                            columns.setdefault(name, []).append(value)
+        return {name: np.array(values) for name, values in columns.items()}
+
+    def detection(self) -> Any:
+        """The same as a pandas DataFrame; needs pandas."""
+        return _pandas().DataFrame(self.detection_columns())
+
+    def signals(self, row: int) -> Dict[str, Array]:
+        """Signals of the gearbox in a row, by name: those in the file (`run --signals`), else
+        computed again by the program, which must be there."""
+        if not 0 <= row < len(self):
+            raise IndexError(f"row {row} of {len(self)}")
+        with h5py.File(self.path, "r") as file:
+            stored = file.get(f"signals/{row}")
+            if stored is not None:
+                return {name: stored[name][()] for name in stored}
+        with tempfile.TemporaryDirectory() as folder:
+            study, out = os.path.join(folder, "study.toml"), os.path.join(folder, "signals.h5")
+            pathlib.Path(study).write_text(self.study, encoding="utf-8")
+            call(["simulate", study, "--instance", str(row), "--out", out])
+            with h5py.File(out, "r") as file:
+                return {name: item[()] for name, item in file["signals"].items()}
+
+    def report(self) -> Dict[str, Any]:
+        """All that the report says (`gearpod report --json`): curves, ranking, misses; needs the
+        program. Kept after the first call."""
+        if not hasattr(self, "_report"):
+            done = call(["report", str(self.path), "--json", "-"])
+            self._report: Dict[str, Any] = json.loads(done.stdout)
+        return self._report
+
+    def smallest_fault(self, noise: Optional[float] = None) -> Optional[Tuple[float, str]]:
+        """Size and feature of the smallest fault found with 90 % probability, None if there is
+        none; needs the program."""
+        reliability = self.report()["reliability"]
+        if reliability is None:
+            return None
+        at = self.level(self.reference if noise is None else noise)
+        found = reliability["levels"][at]["smallest_fault"]
+        return None if found is None else (found["size"], found["feature"])
+
+    def _read(self, folder: str, name: str, names: List[str]) -> Array:
+        if name not in names:
+            raise KeyError(f"no {name}; there are {', '.join(names)}")
+        with h5py.File(self.path, "r") as file:
+            return file[folder][name][()]
+
+
+def _text(value: Union[bytes, str, Any]) -> str:
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError as error:
+        raise ImportError("frames need pandas (Debian: python3-pandas); columns() and "
+                          "detection_columns() give numpy arrays") from error
+    return pandas
