@@ -9,7 +9,10 @@ install(DIRECTORY analysis/report/ DESTINATION ${share}/report
 # Debian's Python looks there below /usr; elsewhere PYTHONPATH names it.
 install(DIRECTORY analysis/python/gearpod DESTINATION lib/python3/dist-packages
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
-install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${CMAKE_BINARY_DIR}/gearpod.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${CMAKE_BINARY_DIR}/gearpod.bash RENAME gearpod
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # cpack -G DEB. A package for any x86-64 processor comes from the preset `portable`; another one's
 # name says that it is not.

@@ -7,6 +7,7 @@
 
 #include "lockstep/kernels/built_kernels.hpp"
 #include "mc/commands/commands.hpp"
+#include "mc/help/manual.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/results/provenance.hpp"
@@ -199,11 +200,26 @@ void add_compare(CLI::App& app, CompareOptions& compare, int& code) {
     command->callback([&] { code = compare_command(compare); });
 }
 
+// The command line as a man page and as completion: what installs them calls the program for it.
+void add_descriptions(CLI::App& app) {
+    const auto print = [](const std::string& text) {
+        fmt::print("{}", text);
+        throw CLI::Success();
+    };
+    app.add_flag_callback(
+        "--man", [&app, print] { print(man_page(app, version_text())); },
+        "print the man page (gearpod --man | man -l -)");
+    app.add_flag_callback(
+        "--completion", [&app, print] { print(bash_completion(app)); },
+        "print bash's completion (source <(gearpod --completion))");
+}
+
 int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
         "found, and how surely?"};
-    app.set_version_flag("--version", version_text());
+    app.set_version_flag("--version", build_text(), "version, and what the program was built with");
+    add_descriptions(app);
     app.require_subcommand(1);
     int code = kDone;
 
@@ -259,7 +275,7 @@ int run_program(int argc, char** argv) {
         "what a study would simulate, and what a run would take: computes some gearboxes "
         "for a few seconds, writes nothing");
     add_study(*describe_app, describe.study)->required(false);
-    describe_app->add_flag("--keys", describe.keys, "all keys of study files, without a study");
+    describe_app->add_flag("--keys", describe.keys, "all keys of study files, or those with a word: describe --keys sensor");
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
             throw CLI::RequiredError("study");

@@ -1,5 +1,6 @@
 #include "mc/results/provenance.hpp"
 
+#include <H5public.h>
 #include <fmt/chrono.h>
 #include <unistd.h>
 
@@ -20,6 +21,12 @@ std::string version_text(const std::string& code_version, const std::string& git
     const bool modified = git_hash.ends_with("-modified");
     return fmt::format("gearpod {} (git {:.12}{})", code_version, git_hash,
                        modified ? ", modified" : "");
+}
+
+std::string build_text() {
+    return fmt::format("{}\ncompiler: gcc {}\nkernels: {}\nHDF5: {}.{}.{}\n", version_text(),
+                       __VERSION__, lockstep::built_kernels(), H5_VERS_MAJOR, H5_VERS_MINOR,
+                       H5_VERS_RELEASE);
 }
 
 std::string host_name() {

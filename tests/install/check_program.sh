@@ -16,6 +16,9 @@ check_program() {
     "$prefix/bin/gearpod" run "$prefix/share/gearpod/studies/planet-crack-ideal.toml" --quiet \
         --instances 32 --set ensemble.threshold_instances=32 --out r.h5 || fail "run"
     "$prefix/bin/gearpod" report r.h5 | grep -q 'alarm if' || fail "report"
+    grep -q '^.SS gearpod compare' "$prefix/share/man/man1/gearpod.1" || fail "no man page"
+    bash -n "$prefix/share/bash-completion/completions/gearpod" || fail "no completion"
+    [ -f "$prefix/share/doc/gearpod/CITATION.cff" ] || fail "no CITATION.cff"
     [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"
 
     if /usr/bin/python3 -c "import h5py" 2>/dev/null; then

@@ -36,7 +36,8 @@ Json compared(const std::string& files, const std::string& json) {
 
 TEST_CASE("Comparisons pair the same gearboxes, and only these") {
     const Folder folder;
-    const std::string a = run(folder, "a.h5", ""), more = run(folder, "more.h5", "--set ensemble.instances=210"),
+    const std::string a = run(folder, "a.h5", ""),
+                      more = run(folder, "more.h5", "--set ensemble.instances=210"),
                       noisy = run(folder, "noisy.h5", "--set sensor.noise_m_s2=3"),
                       other = run(folder, "other.h5", "--seed 5");
     const std::string out = folder.file("c.json");
@@ -74,8 +75,9 @@ TEST_CASE("Comparisons pair the same gearboxes, and only these") {
 TEST_CASE("Comparisons say what cannot be compared, all of it") {
     const Folder folder;
     const std::string a = run(folder, "a.h5", "--set sensor.noise_levels=[1]"),
-                      b = run(folder, "b.h5", "--set detection.false_alarm_rate=0.1 "
-                                              "--set sensor.noise_levels=[2]");
+                      b = run(folder, "b.h5",
+                              "--set detection.false_alarm_rate=0.1 "
+                              "--set sensor.noise_levels=[2]");
     const Outcome one = program("compare " + a);
     CHECK(one.code == 2);
     CHECK_THAT(one.output, Catch::Contains("give two or more"));

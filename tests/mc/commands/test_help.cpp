@@ -1,0 +1,80 @@
+// The man page and the completion say what --help says, of every command.
+#include <sstream>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bytes_of;
+using test::Folder;
+using test::program;
+using test::write_bytes;
+
+namespace {
+
+// Options of a command by its own help: "  --json TEXT ..." begins with two spaces.
+std::vector<std::string> options(const std::string& command) {
+    std::istringstream help(program(command + " --help").output);
+    std::vector<std::string> names;
+    for (std::string line; std::getline(help, line);) {
+        const std::size_t at = line.find("--");
+        if (line.starts_with("  ") && at != std::string::npos && at < 6) {
+            names.push_back(line.substr(at, line.find_first_of(" ,", at) - at));
+        }
+    }
+    return names;
+}
+
+std::string replaced(std::string text) {
+    for (std::size_t at = 0; (at = text.find("\\-", at)) != std::string::npos;) {
+        text.replace(at, 2, "-");
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("The man page and the completion hold every option of every command") {
+    const auto man = program("--man"), completion = program("--completion");
+    REQUIRE(man.code == 0);
+    REQUIRE(completion.code == 0);
+    const std::string page = replaced(man.output);
+    for (const char* command : {"run", "report", "compare", "describe", "stiffness", "modes",
+                                "accuracy", "simulate", "features", "pod"}) {
+        INFO(command);
+        const auto names = options(command);
+        CHECK(names.size() >= 2);
+        const std::size_t begin = page.find(std::string(".SS gearpod ") + command + "\n");
+        REQUIRE(begin != std::string::npos);
+        const std::string section = page.substr(begin, page.find("\n.SS", begin + 1) - begin);
+        const std::size_t line = completion.output.find(std::string("        ") + command + ") ");
+        REQUIRE(line != std::string::npos);
+        const std::string words =
+            completion.output.substr(line, completion.output.find('\n', line) - line);
+        for (const std::string& name : names) {
+            INFO(name);
+            CHECK(section.find(name) != std::string::npos);
+            CHECK(words.find(name) != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("bash completes commands, options and the values of options") {
+    const Folder folder;
+    const std::string script = folder.file("ask.sh");
+    write_bytes(script, program("--completion").output + R"(
+ask() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _gearpod; echo "${COMPREPLY[@]}"; }
+ask gearpod com
+ask gearpod compare --h
+ask gearpod pod t.csv --alarm h
+)");
+    const auto said = test::shell("bash " + script);
+    CHECK(said.output == "compare\n--help --html\nhigh\n");
+}
+
+TEST_CASE("The version says from what and with what the program was built") {
+    const auto said = program("--version");
+    CHECK(said.code == 0);
+    for (const char* word : {"gearpod ", "git ", "compiler: ", "kernels: ", "HDF5: "}) {
+        CHECK_THAT(said.output, Catch::Contains(word));
+    }
+}
