@@ -17,6 +17,7 @@
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_draws.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -238,14 +239,27 @@ void print_left_out(const char* what) {
     fmt::print("\nleft out, because {} s are over: {}\n", Deadline::kSeconds, what);
 }
 
+// All keys, or those that a word is found in.
+int print_keys(const std::string& word) {
+    const std::string keys = schema_help(word);
+    if (keys.empty()) {
+        fmt::print(stderr,
+                   "--keys {}: in no section, name or explanation; give a word like sensor or "
+                   "stiffness, or a section: {}\n",
+                   printable(word), fmt::join(section_names(), ", "));
+        return kBadInput;
+    }
+    fmt::print("{}", keys);
+    return kDone;
+}
+
 }  // namespace
 
 int describe_command(const DescribeOptions& options) {
     // Processor time so far: loading the program.
     const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     if (options.keys) {
-        fmt::print("{}", schema_help());
-        return kDone;
+        return print_keys(options.study.path);
     }
     const auto study = load_study(options.study);
     if (!study) {

@@ -20,6 +20,7 @@
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
@@ -72,6 +73,10 @@ bool check_output(const RunOptions& options) {
     const std::vector<FileRole> study{{"the study", options.study.path}};
     const std::string out = results_path(options);
     if (!can_write({"--out", out}, study)) {
+        return false;
+    }
+    if (const std::string kind = why_no_results_name(out); !kind.empty()) {
+        fmt::print(stderr, "--out {}: {}\n", printable(out), kind);
         return false;
     }
     std::string why = why_not_pending(out);

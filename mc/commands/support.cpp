@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <exception>
+#include <filesystem>
 #include <span>
+#include <utility>
 
 #include "mc/files/atomic_file.hpp"
 
@@ -64,6 +66,31 @@ bool write_text_to(const std::string& path, const std::string& text) {
         return false;
     }
     return true;
+}
+
+std::string why_no_results_name(const std::string& path) {
+    constexpr std::pair<const char*, const char*> kKinds[] = {{".csv", "report {} --csv DIR"},
+                                                              {".tsv", "report {} --csv DIR"},
+                                                              {".txt", "report {}"},
+                                                              {".json", "report {} --json F.json"},
+                                                              {".html", "report {} --html F.html"},
+                                                              {".htm", "report {} --html F.html"},
+                                                              {".png", "report {} --figures DIR"},
+                                                              {".svg", "report {} --figures DIR"},
+                                                              {".pdf", "report {} --html F.html"},
+                                                              {".xlsx", "report {} --csv DIR"},
+                                                              {".mat", ""},
+                                                              {".toml", ""}};
+    const std::filesystem::path name(path);
+    for (const auto& [kind, command] : kKinds) {
+        if (name.extension() == kind) {
+            const std::string right = std::filesystem::path(name).replace_extension(".h5").string();
+            const std::string then = fmt::format(fmt::runtime(command), right);
+            return fmt::format("the results are HDF5; name {}{}", right,
+                               then.empty() ? "" : ", then gearpod " + then);
+        }
+    }
+    return "";
 }
 
 }  // namespace gearpod::mc

@@ -31,6 +31,10 @@ struct FileRole {
 // whatever name, that the command has another use for. "-" and "" are no files.
 bool can_write(const FileRole& output, const std::vector<FileRole>& others);
 
+// Why results, which are HDF5, should not have that name: it is another kind of file's. With the
+// right name, and what makes that other kind. "" if nothing is wrong.
+std::string why_no_results_name(const std::string& path);
+
 // Writes to a file, or to standard output for "-". False after a message if the file fails.
 bool write_text_to(const std::string& path, const std::string& text);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "mc/study/schema/table.hpp"
 
@@ -68,20 +69,49 @@ struct KindText {
     }
 };
 
+// Words of the text, indented, in lines of 80 columns.
+std::string wrapped(const std::string& text, std::size_t indent) {
+    constexpr std::size_t kWidth = 80;
+    std::string out, line;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        if (!line.empty() && indent + line.size() + 1 + end - at > kWidth) {
+            out += std::string(indent, ' ') + line + '\n';
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + text.substr(at, end - at);
+        at = end + 1;
+    }
+    return out + std::string(indent, ' ') + line + '\n';
+}
+
+bool contains(std::string_view text, std::string_view word) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) ==
+               std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
 }  // namespace
 
-std::string schema_help() {
+std::string schema_help(std::string_view word) {
     std::string text;
     std::string_view section;
     for (const Key& key : schema()) {
+        if (!contains(key.section, word) && !contains(key.name, word) && !contains(key.doc, word)) {
+            continue;
+        }
         if (key.section != section) {
             section = key.section;
             text += fmt::format("[{}]\n", section);
         }
         const std::string range = key.range.text();
-        text += fmt::format("  {:<34} {}{}{}; {}\n", key.name, std::visit(KindText{}, key.access),
-                            range.empty() ? "" : " " + range,
-                            key.may_be_random() ? ", may be random" : "", key.doc);
+        text += fmt::format("  {}\n", key.name) +
+                wrapped(fmt::format("{}{}{}; {}", std::visit(KindText{}, key.access),
+                                    range.empty() ? "" : " " + range,
+                                    key.may_be_random() ? ", may be random" : "", key.doc),
+                        6);
     }
     return text;
 }

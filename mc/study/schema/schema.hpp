@@ -23,7 +23,8 @@ const Key* find_key(std::string_view section, std::string_view name);
 // The text of a choice, as a study file would say it.
 std::string_view choice_text(const Study& study, std::string_view section, std::string_view name);
 
-// A reference of all keys with unit, range, default and meaning, for help.
-std::string schema_help();
+// A reference of the keys with unit, range, default and meaning, for help, 80 columns wide: those
+// with `word` in section, name or meaning, whatever its case. "" if there is none.
+std::string schema_help(std::string_view word = "");
 
 }  // namespace gearpod::mc

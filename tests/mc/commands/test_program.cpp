@@ -91,6 +91,27 @@ TEST_CASE("The keys of study files are described without a study") {
     CHECK(keys.code == 0);
     CHECK(mentions(keys, "growth_depth_mm"));
     CHECK(program("describe").code == 2);
+    const Outcome some = program("describe --keys growth_depth");
+    CHECK(some.code == 0);
+    CHECK(mentions(some, "growth_depth_mm"));
+    CHECK(!mentions(some, "noise_levels"));
+    const Outcome none = program("describe --keys nonsense");
+    CHECK(none.code == 2);
+    CHECK(mentions(none, "--keys nonsense: in no section, name or explanation"));
+}
+
+TEST_CASE("Results under the name of another kind of file are refused with what would be right") {
+    const Folder folder;
+    for (const auto& [name, right] :
+         {std::pair{"x.csv", "x.h5 --csv DIR"}, std::pair{"x.json", "x.h5 --json F.json"},
+          std::pair{"x.toml", "name"}}) {
+        const Outcome refused =
+            program("run " + study("planet-crack.toml") + " --out " + folder.file(name));
+        CHECK(refused.code == 2);
+        CHECK(mentions(refused, "the results are HDF5"));
+        CHECK(mentions(refused, right));
+    }
+    CHECK(folder.empty());
 }
 
 TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 
 #include "mc/input/spelling.hpp"
 #include "mc/study/faults/all_faults.hpp"
@@ -335,8 +336,17 @@ TEST_CASE("Edit distances are those of the literature") {
 TEST_CASE("The help lists every key of the schema with its section") {
     const std::string help = schema_help();
     for (const Key& key : schema()) {
-        CHECK(help.find("  " + std::string(key.name) + " ") != std::string::npos);
+        CHECK(help.find("\n  " + std::string(key.name) + "\n") != std::string::npos);
         CHECK(help.find("[" + std::string(key.section) + "]") != std::string::npos);
         CHECK((key.unit.suffix.empty() || key.name.ends_with("_" + std::string(key.unit.suffix))));
     }
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);) {
+        CHECK(line.size() <= 80);
+    }
+    const std::string sensor = schema_help("SENSOR");
+    CHECK_THAT(sensor, Catch::StartsWith("[") && Catch::Contains("\n  noise_levels\n"));
+    CHECK(sensor.find("\n  planet_teeth\n") == std::string::npos);
+    CHECK(sensor.size() < help.size() / 3);
+    CHECK(schema_help("no such word") == "");
 }
