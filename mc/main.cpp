@@ -1,10 +1,13 @@
 #include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 
+#include "analysis/report/text_lines.hpp"
 #include "lockstep/kernels/built_kernels.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/help/manual.hpp"
@@ -214,6 +217,14 @@ void add_descriptions(CLI::App& app) {
         "print bash's completion (source <(gearpod --completion))");
 }
 
+// Reports as wide as the terminal that shows them.
+void fit_terminal() {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        gearpod::analysis::set_text_width(std::min<std::size_t>(size.ws_col, 160));
+    }
+}
+
 int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
@@ -275,7 +286,8 @@ int run_program(int argc, char** argv) {
         "what a study would simulate, and what a run would take: computes some gearboxes "
         "for a few seconds, writes nothing");
     add_study(*describe_app, describe.study)->required(false);
-    describe_app->add_flag("--keys", describe.keys, "all keys of study files, or those with a word: describe --keys sensor");
+    describe_app->add_flag("--keys", describe.keys,
+                           "all keys of study files, or those with a word: describe --keys sensor");
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
             throw CLI::RequiredError("study");
@@ -352,6 +364,7 @@ int main(int argc, char** argv) {
     try {
         // A program that was built for another processor would end in an illegal instruction.
         gearpod::lockstep::choose_instruction_set({});
+        fit_terminal();
         const int code = run_program(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
             fmt::print(stderr, "gearpod: standard output cannot be written\n");

@@ -129,7 +129,7 @@ void add_warnings(std::string& out, Features features) {
 template <typename Block>
 void in_blocks(std::string& out, Features features, Block block) {
     const std::size_t fit =
-        std::max<std::size_t>(1, (kTextWidth - kLabelWidth) / column_width(features));
+        std::max<std::size_t>(1, (text_width() - kLabelWidth) / column_width(features));
     for (std::size_t first = 0; first < features.size(); first += fit) {
         out += '\n';
         block(features.subspan(first, std::min(fit, features.size() - first)));

@@ -80,18 +80,24 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
                     feature.feature, range_text({effects.smallest, effects.largest}, unit),
                     shown.empty() ? "" : " in " + shown),
         4);
-    out += fmt::format("{:<{}}{:>9}{:>9}{:>19}{:>19}{:>8}{:>8}{:>8}{:>8}\n", "input", width, "from",
-                       "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p");
+    // Names on lines of their own where they and the numbers are too wide for one.
+    constexpr std::size_t kNumbers = 80;
+    const bool apart = width + kNumbers > text_width();
+    const auto row = [&](const std::string& name, const auto&... numbers) {
+        out += apart ? name + "\n" : fmt::format("{:<{}}", name, width);
+        out += fmt::format("{:>8}{:>8}{:>18}{:>18}{:>7}{:>7}{:>7}{:>7}\n", numbers...);
+    };
+    row("input", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p");
     const HitMissPod& pod = level.hit_miss;
     const auto a90 = [&](const SizeBounds& bounds) {
         return size_estimate_text(bounds.estimate, pod.smallest, pod.largest, unit);
     };
     for (const InputEffect* effect : mattering) {
-        out += fmt::format(
-            "{:<{}}{:>9.3g}{:>9.3g}{:>19}{:>19}{:>8}{:>8}{:>8}{:>8.1g}\n", effect->name, width,
-            effect->bins.front().middle, effect->bins.back().middle, bin_text(effect->bins.front()),
-            bin_text(effect->bins.back()), a90(effect->a90.front()),
-            a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()), effect->p_value);
+        const auto value = [](double number) { return fmt::format("{:.3g}", number); };
+        row(effect->name, value(effect->bins.front().middle), value(effect->bins.back().middle),
+            bin_text(effect->bins.front()), bin_text(effect->bins.back()), a90(effect->a90.front()),
+            a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()),
+            fmt::format("{:.1g}", effect->p_value));
     }
 }
 

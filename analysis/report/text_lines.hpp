@@ -8,7 +8,10 @@
 
 namespace gearpod::analysis {
 
-inline constexpr std::size_t kTextWidth = 120;
+// Columns that the reports may take: 120, or what was set (of a terminal), 80 at least. Set before
+// anything is written, by the one thread that there is then.
+std::size_t text_width();
+void set_text_width(std::size_t columns);
 // Of the tests named in the text.
 inline constexpr double kTestLevel = 0.05;
 

@@ -210,20 +210,21 @@ std::string numerical_text(const Results& frame, const std::vector<NumericalShar
     const auto out = std::back_inserter(text);
     fmt::format_to(
         out,
-        "Numerical against statistical error: {} gearboxes by {}\nand by {}. Pd, a90: what "
-        "the numerical error could turn, beside what the\nnumber of gearboxes leaves "
-        "open (half interval; a90 to its upper bound)\n",
+        "Numerical against statistical error: {} gearboxes by {}\nand by {}. rms: of the "
+        "error; spread: of healthy gearboxes. Pd, a90: what the\nnumerical error could turn, "
+        "beside what the number of gearboxes leaves open\n(half interval; a90 to its upper "
+        "bound)\n",
         error.gearboxes, error.rung, error.finer);
     const double per_unit = frame.request.size.per_unit();
     const auto number = [](double value) {
         return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
     };
     for (const double noise : frame.noise_levels) {
-        fmt::format_to(out, "noise x {:<8g} {:>10} {:>14} {:>18} {:>18}  {}\n", noise, "rms error",
-                       "healthy spread", "Pd", "a90", "larger");
+        fmt::format_to(out, "noise x {:<7g}{:>9}{:>9}{:>17}{:>17}  {}\n", noise, "rms", "spread",
+                       "Pd", "a90", "larger");
         for (const NumericalShare& s : shares) {
             if (s.noise_level == noise) {
-                fmt::format_to(out, "{:<16} {:>10.2g} {:>14} {:>18} {:>18}  {}\n", s.feature, s.rms,
+                fmt::format_to(out, "{:<15}{:>9.2g}{:>9}{:>17}{:>17}  {}\n", s.feature, s.rms,
                                number(s.spread), number(s.pd) + " / " + number(s.pd_half_width),
                                number(s.a90 / per_unit) + " / " + number(s.a90_interval / per_unit),
                                s.numerical_dominates ? "numerical" : "statistical");

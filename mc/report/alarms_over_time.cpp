@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/detection/threshold.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "features/median.hpp"
 
 namespace gearpod::mc {
@@ -122,12 +123,12 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
 
 std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
                         const std::optional<analysis::Reliability>& reliability) {
-    constexpr std::size_t kShown = 5;
+    constexpr std::size_t kLabel = 26, kEach = 18;  // columns
     if (groups.empty() || frame.features.empty()) {
         return "";
     }
     auto order = ranked(frame, reliability);
-    order.resize(std::min(order.size(), kShown));
+    order.resize(std::min(order.size(), (analysis::text_width() - kLabel) / kEach));
     const std::size_t time = *time_column(frame);
     const std::string unit = frame.parameters[time].unit;
     std::string out =

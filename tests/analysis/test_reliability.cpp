@@ -6,8 +6,10 @@
 #include <random>
 #include <sstream>
 
+#include "analysis/report/detection_text.hpp"
 #include "analysis/report/reliability_json.hpp"
 #include "analysis/report/reliability_text.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "analysis/smallest_fault.hpp"
 
 namespace gearpod::analysis {
@@ -111,15 +113,21 @@ TEST_CASE("A good feature gets a curve, the others the reason why they have none
     CHECK(!smallest_fault(result, 0, 4));
 }
 
-TEST_CASE("The text says everything within 120 columns and never an invented number") {
+TEST_CASE("The text says everything within its columns and never an invented number") {
     Study study;
     study.request.size = {"fault_broken", "1"};
-    const std::string text = reliability_text(study.assess(true), study.request);
-    INFO(text);
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        CHECK(line.size() <= 120);
+    std::string text;
+    for (const std::size_t columns : {80, 100, 120}) {
+        set_text_width(columns);
+        text = detection_text(study.detections(), study.request) +
+               reliability_text(study.assess(true), study.request);
+        INFO(text);
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            CHECK(line.size() <= columns);
+        }
     }
+    CHECK(text_width() == 120);
     CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf"));
     CHECK_THAT(text, Catch::Contains("no curve: no threshold"));
     CHECK_THAT(text, Catch::Contains("smallest fault found with 90 % probability"));
