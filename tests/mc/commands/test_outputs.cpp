@@ -110,7 +110,7 @@ TEST_CASE("Results of another study, and what is none, are overwritten with --fo
     }
     CHECK(program(run + " --seed 99 --force").code == 0);
     CHECK(mc::read_frame(place.results).provenance_value("seed") == "99");
-    const std::string notes = place.folder.file("notes.txt");
+    const std::string notes = place.folder.file("notes.dat");
     write_bytes(notes, "years of work\n");
     const std::string over = "run " + place.study + kSmall + " --quiet --out " + notes;
     CHECK(program(over).code == 2);
