@@ -156,7 +156,9 @@ def _threshold(report, name, n):
     return text, rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])
 
 
-def _footnotes(faults):
+def footnotes(report):
+    """What the marks in the table mean, below what limits the answer."""
+    faults = [found for n in range(len(report.levels)) if (found := report.smallest_fault(n))]
     notes = []
     if not all(found["from_curve"] for found in faults):
         notes.append("* a tested size; no detection curve vouches for one between.")
@@ -191,9 +193,7 @@ def table(report):
             f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'
             '<th scope="col">by</th><th scope="col">alarm if</th>'
             f'<th scope="col" class="wide">false alarms [{confidence} %]</th></tr></thead>'
-            f"<tbody>{''.join(rows)}</tbody></table></div>"
-            + _footnotes([found for n in range(len(report.levels))
-                          if (found := report.smallest_fault(n))]))
+            f"<tbody>{''.join(rows)}</tbody></table></div>")
 
 
 def noise_unit(report):
@@ -237,5 +237,7 @@ def html_of(report):
     if texts:
         parts.append('<h2 id="limits">What limits it</h2><ul class="limits">'
                      + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>")
+    if report.silence() is None:
+        parts.append(footnotes(report))
     parts.append(f'<p class="facts">{facts(report)}</p>')
     return "\n".join(parts)
