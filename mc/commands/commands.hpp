@@ -105,6 +105,20 @@ struct FeaturesOptions {
 int features_command(const FeaturesOptions& options);
 int recordings_command(const FeaturesOptions& options);
 
+struct CalibrateOptions {
+    StudyOptions study;
+    std::vector<std::string> healthy;  // files, or patterns of their names
+    std::string manifest;              // table of recordings instead
+    std::string features;              // table of their features instead
+    SignalColumns columns;
+    std::vector<std::string> priors;   // KEY=LOW:HIGH[:log]; none: the usual ones
+    std::vector<std::string> feature;  // those that are compared; none: all
+    long draws = 200;                  // marched, in each round
+    std::string out, json;
+    bool quiet = false;
+};
+int calibrate_command(const CalibrateOptions& options);
+
 struct PodOptions {
     std::string table;
     std::string size;                 // columns; "": by their usual names

@@ -246,6 +246,10 @@ void print_sensor(const Study& study) {
         print_entry("sensor", fmt::format("on the {}'s bearing, along the line of action",
                                           member_name(study.sensor.position)));
     }
+    if (study.sensor.gain != 1.0 || random(study, "sensor.gain")) {
+        print_entry("sensor gain",
+                    fmt::format("{:g} times the gearbox's vibration", study.sensor.gain));
+    }
     print_entry("sensor low-pass",
                 fmt::format("{:g} Hz, 4th-order Butterworth", study.sensor.low_pass_Hz));
     if (!study.sensor.tones.empty()) {

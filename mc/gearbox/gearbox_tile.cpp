@@ -1,5 +1,7 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
+#include <algorithm>
+
 #include "lockstep/kernels/built_kernels.hpp"
 #include "lockstep/steps/instability.hpp"
 #include "lockstep/tile/quasi_static.hpp"
@@ -128,6 +130,19 @@ GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids,
     return tile;
 }
 
+// The sensor's gain, into what was recorded of each lane's motion.
+void amplify(std::span<const InstanceInputs> inputs, lockstep::TileResult& march) {
+    if (std::ranges::all_of(inputs, [](const InstanceInputs& one) { return one.gain == 1.0; })) {
+        return;
+    }
+    const std::size_t lanes = inputs.size();
+    for (lockstep::MeshRecord& record : march.records) {
+        for (std::size_t i = 0; i < record.acceleration.size(); ++i) {
+            record.acceleration[i] *= inputs[i % lanes].gain;
+        }
+    }
+}
+
 // What the sensors see of a tile that has been marched.
 void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
                  GearboxTile& tile) {
@@ -135,6 +150,7 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
         tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
     auto start = WallClock::now();
+    amplify(tile.inputs, tile.march);
     tile.views = {static_cast<int>(tile.inputs.size()),
                   dynamics::sources(scene.plan().layout),
                   scene.samples_per_mesh(),
@@ -159,11 +175,9 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
     tile.signals_s = lap(start);
 }
 
-GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                        std::span<const GearboxId> ids, int fewest, bool with_motion,
-                        const MarchCache* marches) {
-    const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
-    GearboxTile tile = sampled_tile(sampler, ids, lanes);
+void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 bool with_motion, const MarchCache* marches, GearboxTile& tile) {
+    const int lanes = static_cast<int>(tile.inputs.size());
     const MarchCache* const kept = with_motion ? nullptr : marches;
     auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
@@ -176,6 +190,14 @@ GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signal
         }
     }
     add_signals(scene, path, ids, tile);
+}
+
+GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
+                        std::span<const GearboxId> ids, int fewest, bool with_motion,
+                        const MarchCache* marches) {
+    GearboxTile tile =
+        sampled_tile(sampler, ids, lockstep::lanes_for(scene.plan().precision, fewest));
+    run_sampled(scene, path, ids, with_motion, marches, tile);
     return tile;
 }
 
@@ -232,6 +254,18 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
         run_baselines(scene, sampler, path, {ids.begin(), ids.end()}, fewest, marches);
     GearboxTile tile = run_records(scene, sampler, path, ids, fewest, with_motion, marches);
     add_baselines(std::move(earlier), tile);
+    return tile;
+}
+
+GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
+                      std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
+                      int fewest) {
+    GearboxTile tile;
+    tile.inputs = std::move(inputs);
+    tile.inputs.resize(
+        static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest)),
+        tile.inputs.back());
+    run_sampled(scene, path, ids, false, nullptr, tile);
     return tile;
 }
 

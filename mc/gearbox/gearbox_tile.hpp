@@ -53,7 +53,13 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           std::span<const GearboxId> ids, int fewest, bool with_motion = false,
                           const MarchCache* marches = nullptr);
 
-// The same from a march made elsewhere, of as many lanes as it has a status.
+// The judged records of gearboxes with these inputs, whatever the study's distributions say,
+// without baselines.
+GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
+                      std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
+                      int fewest);
+
+// As run_gearboxes from a march made elsewhere, of as many lanes as it has a status.
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult march);
 

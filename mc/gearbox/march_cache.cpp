@@ -20,7 +20,7 @@ static_assert(std::is_trivially_copyable_v<InstanceInputs> &&
 std::string key_of(std::span<const InstanceInputs> lanes) {
     std::string key;
     for (InstanceInputs inputs : lanes) {
-        inputs.path_exponent = inputs.noise_m_s2 = inputs.encoder_noise_rad = 0.0;
+        inputs.path_exponent = inputs.gain = inputs.noise_m_s2 = inputs.encoder_noise_rad = 0.0;
         key.append(reinterpret_cast<const char*>(&inputs), sizeof inputs);
     }
     return key;

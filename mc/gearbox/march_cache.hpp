@@ -1,5 +1,6 @@
-// Dynamics that a study needs more than once. Path exponent and noise have no part in the march: a
-// study whose other inputs take few values marches the same eight gearboxes again and again.
+// Dynamics that a study needs more than once. Path exponent, gain and noise have no part in the
+// march: a study whose other inputs take few values marches the same eight gearboxes again and
+// again.
 #pragma once
 
 #include <array>

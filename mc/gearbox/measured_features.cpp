@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "features/worst_tooth.hpp"
@@ -241,6 +242,24 @@ Measurement measure(const Scene& scene, const MeasuredSignal& signal,
         }
     }
     return measurement;
+}
+
+std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
+                                    std::span<const Feature* const> wanted) {
+    unsigned needs = 0;
+    std::vector<char> there;
+    for (const Feature* feature : wanted) {
+        there.push_back(missing(*feature, scene, signal, false).empty() ? 1 : 0);
+        needs |= there.back() != 0 ? feature->needs : 0U;
+    }
+    MeasuredInput measured(scene, needs);
+    const features::FeatureInput input = measured.of(signal);
+    std::vector<double> values;
+    for (std::size_t f = 0; f < wanted.size(); ++f) {
+        values.push_back(there[f] != 0 ? wanted[f]->compute(input)
+                                       : std::numeric_limits<double>::quiet_NaN());
+    }
+    return values;
 }
 
 HealthyReference measured_reference(const std::vector<std::string>& paths,

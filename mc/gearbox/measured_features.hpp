@@ -57,6 +57,11 @@ struct Measurement {
 Measurement measure(const Scene& scene, const MeasuredSignal& signal,
                     const HealthyReference& healthy, const MeasuredBaseline* baseline = nullptr);
 
+// Of some features alone that need no healthy gearboxes, in their order; NaN for what the signal
+// does not give.
+std::vector<double> measured_values(const Scene& scene, const MeasuredSignal& signal,
+                                    std::span<const features::Feature* const> wanted);
+
 // Of recordings of healthy gearboxes, each as long as `turns` planet turns at least. Throws
 // SignalError.
 HealthyReference measured_reference(const std::vector<std::string>& paths,

@@ -16,9 +16,12 @@ bool is_fault_size(const RandomInput& input) {
     return input.key.starts_with("fault.");
 }
 
+const Key& key_of(const std::string& path) {
+    const std::size_t dot = path.find('.');
+    return *find_key(path.substr(0, dot), path.substr(dot + 1));
+}
 const Key& key_of(const RandomInput& input) {
-    const std::size_t dot = input.key.find('.');
-    return *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+    return key_of(input.key);
 }
 
 // J / r^2 from whichever of J / r^2, J and the mass of a solid disc is given. For a disc on the
@@ -160,6 +163,7 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.fluctuations = fluctuations(study.fluctuations);
     // No path weighs the sensor of a fixed-shaft gearbox.
     inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
+    inputs.gain = study.sensor.gain;
     inputs.noise_m_s2 = study.sensor.noise_m_s2;
     inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
     inputs.fault_size = fault_size(study);
@@ -194,7 +198,18 @@ Study Sampler::draw(Group group, std::uint64_t index) const {
 }
 
 InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
-    const Study drawn = draw(group, index);
+    return resolve(draw(group, index), group, index);
+}
+
+InstanceInputs Sampler::sample(const GearboxId& id, std::span<const GivenInput> given) const {
+    Study drawn = draw(id.group, id.index);
+    for (const GivenInput& one : given) {
+        std::get<NumberAccess>(key_of(one.key).access).set(drawn, one.value);
+    }
+    return resolve(drawn, id.group, id.index);
+}
+
+InstanceInputs Sampler::resolve(const Study& drawn, Group group, std::uint64_t index) const {
     InstanceInputs inputs = resolve_inputs(drawn);
     if (draws_planets(study_)) {
         draw_planets(drawn, gearbox_stream(study_, {group, index}, "gearbox.planets"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,7 @@ struct InstanceInputs {
     double speed_rad_s;  // of Sampler::speed_member()
     FluctuationInstance fluctuations;
     double path_exponent;
+    double gain;               // of the sensor on the gearbox's vibration
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms
     double fault_size;         // 0 in the threshold group and without a fault
@@ -72,6 +74,12 @@ struct GearboxId {
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 // Those that every record has of its own.
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+
+// A random input that is given rather than drawn.
+struct GivenInput {
+    std::string key;   // "gearbox.tooth_quality"
+    double value = 0;  // SI
+};
 
 struct ParameterColumn {
     std::string name;  // "planet_bearing_stiffness_N_m", fault_size_column()
@@ -93,6 +101,8 @@ class Sampler {
     // Of a record: the baseline has no fault yet, and another torque by
     // features.baseline_torque_scatter.
     InstanceInputs sample(const GearboxId& id) const;
+    // Of the judged record, with what is given; all other draws are as they were.
+    InstanceInputs sample(const GearboxId& id, std::span<const GivenInput> given) const;
     // Nominal values; fault_size is the nominal size.
     InstanceInputs nominal() const;
 
@@ -106,6 +116,7 @@ class Sampler {
 
   private:
     Study draw(Group group, std::uint64_t index) const;
+    InstanceInputs resolve(const Study& drawn, Group group, std::uint64_t index) const;
     Study study_;
     // By random input: how many instances have the same turn in succession.
     std::vector<std::uint64_t> turn_lengths_;

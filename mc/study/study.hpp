@@ -230,6 +230,7 @@ struct Sensor {
     double low_pass_Hz = 0.0;
     Member position = Member::pinion;  // fixed-shaft: the bearing it sits on
     double path_exponent = 0.1;
+    double gain = 1.0;        // on the gearbox's vibration, before tones and noise
     double noise_m_s2 = 0.0;  // rms
     std::vector<Tone> tones;
     double encoder_sampling_Hz = 0.0;

@@ -51,6 +51,7 @@ const Key kKeys[] = {
     {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, acceleration, kSampling, "anti-alias low-pass"},
     {"sensor", "position", choice<&Sensor::position>(kPositions), kNone, kAny, fixed_shaft<acceleration_detail>, kShared, "bearing on which the sensor sits"},
     {"sensor", "path_exponent", number<&Sensor::path_exponent>, kNone, from_to(-1, 1), planetary<acceleration_detail>, kRandom, "exponent of the transmission path"},
+    {"sensor", "gain", number<&Sensor::gain>, kNone, kPositive, acceleration_detail, kRandom, "what the gearbox's vibration is times before tones and noise are added: what housing and mounting make of it"},
     {"sensor", "noise_m_s2", number<&Sensor::noise_m_s2>, kMPerS2, kNotNegative, acceleration_detail, kRandom, "rms noise of the accelerometer"},
     {"sensor", "tones", list<&Sensor::tones>, kNone, kAny, acceleration_detail, kShared, "interfering tones from elsewhere"},
     {"sensor", "encoder_sampling_Hz", number<&Sensor::encoder_sampling_Hz>, kHz, kFrequency, always, kSampling, "sampling rate of the encoders"},

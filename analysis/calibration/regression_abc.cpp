@@ -1,0 +1,245 @@
+#include "analysis/calibration/regression_abc.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/statistics/midranks.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+using Rows =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+constexpr int kFolds = 5;
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// Centre and scale of each summary over the draws, by which they become of order 1; far ones are
+// drawn in, or their squares would rule the regression.
+class Scaling {
+  public:
+    explicit Scaling(const Matrix& summaries)
+        : centre_(summaries.cols()), scale_(summaries.cols()) {
+        for (Eigen::Index k = 0; k < summaries.cols(); ++k) {
+            std::vector<double> values(summaries.col(k).begin(), summaries.col(k).end());
+            centre_(k) = median_of(values);
+            for (double& value : values) {
+                value = std::abs(value - centre_(k));
+            }
+            const double deviation = 1.4826 * median_of(std::move(values));
+            scale_(k) = deviation > 0.0 ? 1.0 / deviation : 0.0;
+        }
+    }
+    // 1, the summaries, and their squares if there are draws enough.
+    Vector row(const Vector& summary, bool squares) const {
+        constexpr double kFar = 5.0;
+        const Vector scaled = ((summary - centre_).array() * scale_.array()).max(-kFar).min(kFar);
+        Vector row(1 + (squares ? 2 : 1) * scaled.size());
+        row(0) = 1.0;
+        row.segment(1, scaled.size()) = scaled;
+        if (squares) {
+            row.tail(scaled.size()) = scaled.array().square();
+        }
+        return row;
+    }
+
+  private:
+    Vector centre_, scale_;
+};
+
+Matrix ridge_fit(const Matrix& design, const Matrix& response, const Vector& weight, double ridge) {
+    Matrix normal = design.transpose() * weight.asDiagonal() * design;
+    normal.diagonal().tail(normal.rows() - 1).array() += ridge * weight.sum();
+    return normal.ldlt().solve(design.transpose() * weight.asDiagonal() * response);
+}
+
+// Each parameter's mean given the summaries: of the draws, and of the observation.
+struct Means {
+    Matrix draws;
+    Vector observed;
+};
+
+Means conditional_means(const AbcDraws& draws, const Matrix& unit, const Matrix& summaries,
+                        const Vector& observed) {
+    const Scaling scaling(summaries);
+    const std::size_t groups = 1 + *std::max_element(draws.group.begin(), draws.group.end());
+    constexpr std::size_t kDrawsPerCoefficient = 5;
+    const bool squares =
+        std::min(groups, draws.size()) > kDrawsPerCoefficient * (2 * draws.summaries + 1);
+    const Vector at = scaling.row(observed, squares);
+    Matrix design(summaries.rows(), at.size());
+    for (Eigen::Index i = 0; i < summaries.rows(); ++i) {
+        design.row(i) = scaling.row(summaries.row(i).transpose(), squares).transpose();
+    }
+    constexpr double kRidge = 1e-3;
+    Means means{Matrix::Zero(unit.rows(), unit.cols()), Vector::Zero(unit.cols())};
+    for (int fold = 0; fold < kFolds; ++fold) {
+        Vector weight(unit.rows());
+        for (Eigen::Index i = 0; i < unit.rows(); ++i) {
+            const bool own =
+                draws.group[static_cast<std::size_t>(i)] % kFolds == static_cast<std::size_t>(fold);
+            weight(i) = own ? 0.0 : 1.0;
+        }
+        const Matrix fit = ridge_fit(design, unit, weight, kRidge);
+        for (Eigen::Index i = 0; i < unit.rows(); ++i) {
+            if (weight(i) == 0.0) {
+                means.draws.row(i) = design.row(i) * fit;
+            }
+        }
+        means.observed += fit.transpose() * at / kFolds;
+    }
+    return means;
+}
+
+// The nearest draws with Epanechnikov's weights.
+void keep_nearest(const Means& means, double share, AbcPosterior& posterior) {
+    const Vector distance = (means.draws.rowwise() - means.observed.transpose()).rowwise().norm();
+    std::vector<std::size_t> order(static_cast<std::size_t>(distance.size()));
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return distance(static_cast<Eigen::Index>(a)) < distance(static_cast<Eigen::Index>(b));
+    });
+    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(order.size()));
+    const std::size_t kept = std::clamp<std::size_t>(wanted, 1, order.size() - 1);
+    const double reach = distance(static_cast<Eigen::Index>(order[kept]));
+    for (std::size_t i = 0; i < kept; ++i) {
+        const double near = distance(static_cast<Eigen::Index>(order[i]));
+        const double weight = reach > 0.0 ? 1.0 - near * near / (reach * reach) : 1.0;
+        if (weight > 0.0) {
+            posterior.draw.push_back(order[i]);
+            posterior.weight.push_back(weight);
+        }
+    }
+    const double sum = std::accumulate(posterior.weight.begin(), posterior.weight.end(), 0.0);
+    for (double& weight : posterior.weight) {
+        weight /= sum;
+    }
+}
+
+double logit(double u) {
+    constexpr double kEdge = 1e-6;
+    const double inside = std::clamp(u, kEdge, 1.0 - kEdge);
+    return std::log(inside / (1.0 - inside));
+}
+
+// Moves what was kept to the observation.
+void adjust(const Means& means, const Matrix& unit, AbcPosterior& posterior) {
+    const auto kept = static_cast<Eigen::Index>(posterior.draw.size());
+    const Eigen::Index parameters = unit.cols();
+    Matrix design(kept, parameters + 1), logits(kept, parameters);
+    Vector weight(kept);
+    for (Eigen::Index i = 0; i < kept; ++i) {
+        const auto row = static_cast<Eigen::Index>(posterior.draw[static_cast<std::size_t>(i)]);
+        design(i, 0) = 1.0;
+        design.row(i).tail(parameters) = means.draws.row(row) - means.observed.transpose();
+        logits.row(i) = unit.row(row).unaryExpr(&logit);
+        weight(i) = posterior.weight[static_cast<std::size_t>(i)];
+    }
+    constexpr double kRidge = 1e-6;
+    const Matrix line = ridge_fit(design, logits, weight, kRidge);
+    const Matrix residual = logits - design * line;
+    constexpr double kLeast = 1e-12;
+    const Matrix spread = (residual.array().square() + kLeast).log();
+    const Matrix fit = ridge_fit(design, spread, weight, kRidge);
+    const Matrix fitted = design * fit;
+    posterior.unit.resize(static_cast<std::size_t>(kept * parameters));
+    for (Eigen::Index i = 0; i < kept; ++i) {
+        for (Eigen::Index p = 0; p < parameters; ++p) {
+            // Half of the logarithm of a square; within what extrapolation can be trusted with.
+            const double scale = std::exp(std::clamp(0.5 * (fit(0, p) - fitted(i, p)), -1.0, 1.0));
+            const double moved = line(0, p) + scale * residual(i, p);
+            posterior.unit[static_cast<std::size_t>(i * parameters + p)] =
+                1.0 / (1.0 + std::exp(-moved));
+        }
+    }
+}
+
+std::vector<double> ranks_of(const Vector& values) {
+    return midranks({values.data(), static_cast<std::size_t>(values.size())});
+}
+
+void correlate(const Matrix& unit, const Matrix& summaries, AbcPosterior& posterior) {
+    const auto ranks = [&](const Matrix& all, Eigen::Index column) {
+        Vector values(static_cast<Eigen::Index>(posterior.draw.size()));
+        for (Eigen::Index i = 0; i < values.size(); ++i) {
+            values(i) =
+                all(static_cast<Eigen::Index>(posterior.draw[static_cast<std::size_t>(i)]), column);
+        }
+        const std::vector<double> rank = ranks_of(values);
+        Vector centred = Eigen::Map<const Vector>(rank.data(), values.size());
+        centred.array() -= centred.mean();
+        const double norm = centred.norm();
+        return norm > 0.0 ? Vector(centred / norm) : centred;
+    };
+    std::vector<Vector> of_summary;
+    for (Eigen::Index k = 0; k < summaries.cols(); ++k) {
+        of_summary.push_back(ranks(summaries, k));
+    }
+    for (Eigen::Index p = 0; p < unit.cols(); ++p) {
+        const Vector own = ranks(unit, p);
+        for (const Vector& summary : of_summary) {
+            posterior.correlation.push_back(own.dot(summary));
+        }
+    }
+}
+
+}  // namespace
+
+AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> observed, double share) {
+    constexpr std::size_t kFewest = 10;
+    if (draws.unit.size() != draws.size() * draws.parameters ||
+        draws.summary.size() != draws.size() * draws.summaries ||
+        observed.size() != draws.summaries || draws.parameters == 0 || draws.summaries == 0) {
+        throw std::invalid_argument("abc: draws and observation disagree in shape");
+    }
+    if (draws.size() < kFewest * draws.parameters) {
+        throw std::invalid_argument("abc: fewer than ten draws for a parameter");
+    }
+    const auto count = static_cast<Eigen::Index>(draws.size());
+    const Matrix unit = Rows(draws.unit.data(), count, static_cast<Eigen::Index>(draws.parameters));
+    const Matrix summaries =
+        Rows(draws.summary.data(), count, static_cast<Eigen::Index>(draws.summaries));
+    const Vector at =
+        Eigen::Map<const Vector>(observed.data(), static_cast<Eigen::Index>(observed.size()));
+    const Means means = conditional_means(draws, unit, summaries, at);
+    AbcPosterior posterior;
+    keep_nearest(means, share, posterior);
+    adjust(means, unit, posterior);
+    correlate(unit, summaries, posterior);
+    return posterior;
+}
+
+double weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                         double probability) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    double below = 0.0, before = 0.0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const double middle = below + 0.5 * weights[order[i]];
+        if (middle >= probability) {
+            if (i == 0) {
+                return values[order[0]];
+            }
+            const double part = (probability - before) / (middle - before);
+            return values[order[i - 1]] + part * (values[order[i]] - values[order[i - 1]]);
+        }
+        before = middle;
+        below += weights[order[i]];
+    }
+    return values[order.back()];
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,216 @@
+#include "mc/calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/calibration/regression_abc.hpp"
+#include "analysis/statistics/midranks.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr double kShare = 0.2;  // of the draws that are kept
+
+// Draws inside a region, by their place in it.
+struct Draws {
+    analysis::AbcDraws abc;
+    std::vector<const SimulatedSet*> sets;
+};
+
+Draws draws_in(const PriorRegion& region, std::span<const SimulatedSet> sets,
+               std::size_t summaries) {
+    Draws draws;
+    draws.abc.parameters = region.low.size();
+    draws.abc.summaries = summaries;
+    for (const SimulatedSet& set : sets) {
+        bool inside = !set.summary.empty();
+        for (std::size_t p = 0; p < region.low.size(); ++p) {
+            inside = inside && set.unit[p] >= region.low[p] && set.unit[p] <= region.high[p];
+        }
+        if (!inside) {
+            continue;
+        }
+        for (std::size_t p = 0; p < region.low.size(); ++p) {
+            draws.abc.unit.push_back((set.unit[p] - region.low[p]) /
+                                     (region.high[p] - region.low[p]));
+        }
+        draws.abc.summary.insert(draws.abc.summary.end(), set.summary.begin(), set.summary.end());
+        draws.abc.group.push_back(set.march);
+        draws.sets.push_back(&set);
+    }
+    return draws;
+}
+
+std::vector<double> column(const std::vector<double>& table, std::size_t width, std::size_t which) {
+    std::vector<double> values;
+    for (std::size_t i = which; i < table.size(); i += width) {
+        values.push_back(table[i]);
+    }
+    return values;
+}
+
+// Places in the prior, of the posterior in a region.
+std::vector<double> in_prior(const analysis::AbcPosterior& posterior, const PriorRegion& region,
+                             std::size_t p) {
+    std::vector<double> values = column(posterior.unit, region.low.size(), p);
+    for (double& value : values) {
+        value = region.low[p] + value * (region.high[p] - region.low[p]);
+    }
+    return values;
+}
+
+// Where the posterior is, and as much again to either side.
+PriorRegion narrowed(const analysis::AbcPosterior& posterior, const PriorRegion& region) {
+    constexpr double kTail = 0.005;
+    PriorRegion next = region;
+    for (std::size_t p = 0; p < region.low.size(); ++p) {
+        const auto values = in_prior(posterior, region, p);
+        const double low = analysis::weighted_quantile(values, posterior.weight, kTail);
+        const double high = analysis::weighted_quantile(values, posterior.weight, 1.0 - kTail);
+        constexpr double kMargin = 0.5, kLeast = 0.01;
+        const double margin = kMargin * (high - low) + kLeast;
+        next.low[p] = std::max(region.low[p], low - margin);
+        next.high[p] = std::min(region.high[p], high + margin);
+    }
+    return next;
+}
+
+FoundInput found_input(const CalibratedInput& input, std::span<const double> values,
+                       std::span<const double> weights) {
+    constexpr double kTail = 0.05, kTold = 0.8;
+    FoundInput found;
+    found.input = input;
+    const double low = analysis::weighted_quantile(values, weights, kTail);
+    const double high = analysis::weighted_quantile(values, weights, 1.0 - kTail);
+    found.median = input.at(analysis::weighted_quantile(values, weights, 0.5));
+    found.low = input.at(low);
+    found.high = input.at(high);
+    found.left = (high - low) / (1.0 - 2.0 * kTail);
+    found.told = found.left < kTold;
+    return found;
+}
+
+std::vector<std::string> deciding(const analysis::AbcPosterior& posterior, std::size_t p,
+                                  const SetSummary& summary) {
+    constexpr std::size_t kNamed = 3;
+    constexpr double kWeak = 0.3;
+    const std::size_t count = summary.names().size();
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto strength = [&](std::size_t k) {
+        return std::abs(posterior.correlation[p * count + k]);
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return strength(a) > strength(b); });
+    std::vector<std::string> names;
+    for (const std::size_t k : order) {
+        if (names.size() < kNamed && strength(k) >= kWeak) {
+            names.push_back(fmt::format("{} ({:+.2f})", summary.names()[k],
+                                        posterior.correlation[p * count + k]));
+        }
+    }
+    return names;
+}
+
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto x = analysis::midranks(a), y = analysis::midranks(b);
+    const double middle = 0.5 * (static_cast<double>(a.size()) + 1.0);
+    double xy = 0.0, xx = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xy += (x[i] - middle) * (y[i] - middle);
+        xx += (x[i] - middle) * (x[i] - middle);
+        yy += (y[i] - middle) * (y[i] - middle);
+    }
+    return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+
+std::vector<BoundPair> bound_pairs(const std::vector<std::vector<double>>& posterior) {
+    constexpr double kBound = 0.7;
+    std::vector<BoundPair> pairs;
+    for (std::size_t a = 0; a < posterior.size(); ++a) {
+        for (std::size_t b = a + 1; b < posterior.size(); ++b) {
+            const double correlation = rank_correlation(posterior[a], posterior[b]);
+            if (std::abs(correlation) > kBound) {
+                pairs.push_back({a, b, correlation});
+            }
+        }
+    }
+    return pairs;
+}
+
+std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior, const Draws& draws,
+                                 const SetSummary& summary, std::span<const double> observed) {
+    constexpr double kTail = 0.01;
+    std::vector<FeatureCheck> all;
+    for (std::size_t k = 0; summary.is_mean(k) && k < observed.size(); ++k) {
+        std::vector<double> values;
+        for (const std::size_t draw : posterior.draw) {
+            values.push_back(draws.sets[draw]->summary[k]);
+        }
+        const features::Feature& feature = *summary.features()[k];
+        all.push_back(
+            {std::string(feature.name), std::string(feature.unit), summary.in_unit(k, observed[k]),
+             summary.in_unit(k, analysis::weighted_quantile(values, posterior.weight, kTail)),
+             summary.in_unit(k,
+                             analysis::weighted_quantile(values, posterior.weight, 1.0 - kTail))});
+    }
+    return all;
+}
+
+void check_count(const Draws& draws, std::size_t of, std::size_t inputs) {
+    constexpr std::size_t kFewest = 50;
+    if (draws.sets.size() < kFewest * inputs) {
+        throw std::runtime_error(fmt::format(
+            "only {} of {} simulated sets have all features, and it takes {}: more --draws, or a "
+            "prior where the gearboxes work",
+            draws.sets.size(), of, kFewest * inputs));
+    }
+}
+
+}  // namespace
+
+CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
+                            const SetSummary& summary, std::vector<SimulatedSet>& first,
+                            const std::function<void(double)>& told) {
+    const std::size_t inputs = task.inputs.size();
+    const PriorRegion prior{std::vector<double>(inputs, 0.0), std::vector<double>(inputs, 1.0)};
+    const std::vector<double> observed = summary.of(task.measured);
+    const auto simulate = [&](const PriorRegion& region, std::size_t number) {
+        return simulate_sets(scene, task.inputs, region, {task.marched, task.backgrounds, number},
+                             task.lengths, summary, task.threads, told);
+    };
+    if (first.empty()) {
+        first = simulate(prior, 0);
+    }
+    const std::size_t summaries = summary.names().size();
+    const Draws coarse = draws_in(prior, first, summaries);
+    check_count(coarse, first.size(), inputs);
+    const PriorRegion region =
+        narrowed(analysis::regression_abc(coarse.abc, observed, kShare), prior);
+
+    std::vector<SimulatedSet> sets = simulate(region, task.marched);
+    sets.insert(sets.end(), first.begin(), first.end());
+    const Draws fine = draws_in(region, sets, summaries);
+    check_count(fine, sets.size(), inputs);
+    const analysis::AbcPosterior posterior = analysis::regression_abc(fine.abc, observed, kShare);
+
+    CalibrationResult result;
+    result.sets = sets.size();
+    result.failed = static_cast<std::size_t>(
+        std::ranges::count_if(sets, [](const SimulatedSet& set) { return set.summary.empty(); }));
+    std::vector<std::vector<double>> samples;
+    for (std::size_t p = 0; p < inputs; ++p) {
+        samples.push_back(in_prior(posterior, region, p));
+        result.found.push_back(found_input(task.inputs[p], samples.back(), posterior.weight));
+        result.found.back().deciding = deciding(posterior, p, summary);
+    }
+    result.pairs = bound_pairs(samples);
+    result.checks = checks(posterior, fine, summary, observed);
+    return result;
+}
+
+}  // namespace gearpod::mc

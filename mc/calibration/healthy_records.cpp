@@ -1,0 +1,220 @@
+#include "mc/calibration/healthy_records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "mc/files/text_table.hpp"
+#include "mc/gearbox/signal_units.hpp"
+#include "mc/input/spelling.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+using features::Feature;
+
+// What one record of the set may give: the sensor's own features.
+bool of_sensor_alone(const Feature& feature) {
+    return feature.from_sensor && (feature.needs & features::kHealthy) == 0;
+}
+
+std::vector<std::string_view> usable_names() {
+    std::vector<std::string_view> names;
+    for (const Feature& feature : features::record_features()) {
+        if (of_sensor_alone(feature)) {
+            names.push_back(feature.name);
+        }
+    }
+    return names;
+}
+
+const Feature* record_feature(std::string_view name) {
+    const auto all = features::record_features();
+    const auto found = std::ranges::find(all, name, &Feature::name);
+    return found == all.end() ? nullptr : &*found;
+}
+
+// Of one of these.
+std::size_t place_of(const Feature& feature) {
+    return static_cast<std::size_t>(&feature - features::record_features().data());
+}
+
+class TableReading {
+  public:
+    TableReading(const std::string& path, const Scene& scene, Problems& problems)
+        : table_(read_text_table(path)), scene_(scene), problems_(problems) {}
+
+    std::vector<HealthyRecord> read() {
+        const auto known = usable_names();
+        for (const TableColumn& column : table_.columns) {
+            any_ = any_ || std::ranges::find(known, column.name) != known.end();
+        }
+        if (!any_) {
+            problems_.push_back({table_.path, 0, "", "has no column named after a sensor's feature",
+                                 "its columns are " + table_.names()});
+        }
+        std::vector<HealthyRecord> records;
+        for (row_ = 0; any_ && row_ < table_.rows.size(); ++row_) {
+            if (text("label") == "faulty" || !text("problem").empty()) {
+                continue;
+            }
+            records.push_back({text("gearbox"), meshes(), values()});
+        }
+        return records;
+    }
+
+  private:
+    std::string text(const std::string& name) const {
+        const auto column = table_.find(name);
+        return column ? table_.rows[row_][*column] : "";
+    }
+    void reject(const std::string& key, const std::string& what, const std::string& remedy) {
+        problems_.push_back({table_.path, static_cast<int>(table_.lines[row_]), key, what, remedy});
+    }
+    int meshes() {
+        const std::string turns = text("planet_turns");
+        if (turns.empty()) {
+            return scene_.span_meshes();
+        }
+        const auto number = number_of(turns, false);
+        if (!number || !(*number >= 1.0) || *number > 1e6) {
+            reject("planet_turns", fmt::format("\"{}\" is no number of turns", turns),
+                   "give 1 or more");
+            return scene_.span_meshes();
+        }
+        return std::min(scene_.span_meshes(),
+                        static_cast<int>(*number) * scene_.span().planet_teeth);
+    }
+    std::vector<double> values() {
+        std::vector<double> all;
+        for (const Feature& feature : features::record_features()) {
+            const std::string name(feature.name), field = text(name);
+            all.push_back(std::numeric_limits<double>::quiet_NaN());
+            if (field.empty() || !of_sensor_alone(feature)) {
+                continue;
+            }
+            const auto number = number_of(field, table_.separator != ',');
+            const std::string unit = table_.columns[*table_.find(name)].unit;
+            const auto factor = feature.unit == "m/s^2" ? unit_factor(Quantity::acceleration, unit)
+                                                        : std::optional<double>(1.0);
+            if (!number || !std::isfinite(*number)) {
+                reject(name, fmt::format("\"{}\" is no finite number", field), "");
+            } else if (!factor) {
+                reject(name, "unknown unit " + unit, known_units(Quantity::acceleration));
+            } else {
+                all.back() = *number * *factor;
+            }
+        }
+        return all;
+    }
+
+    TextTable table_;
+    const Scene& scene_;
+    Problems& problems_;
+    std::size_t row_ = 0;
+    bool any_ = false;
+};
+
+bool all_have(const std::vector<HealthyRecord>& records, const Feature& feature) {
+    return std::ranges::all_of(records, [&](const HealthyRecord& record) {
+        return std::isfinite(record.values[place_of(feature)]);
+    });
+}
+
+std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& records,
+                                            const std::vector<std::string>& wanted,
+                                            Problems& problems) {
+    std::vector<const Feature*> chosen;
+    for (const std::string& name : wanted) {
+        const auto known = usable_names();
+        const Feature* feature = record_feature(name);
+        if (std::ranges::find(known, name) == known.end()) {
+            problems.push_back({"--feature", 0, name, "is no feature of a sensor's record alone",
+                                suggest(name, known)});
+        } else if (!all_have(records, *feature)) {
+            problems.push_back({"--feature", 0, name, "not all records have it", ""});
+        } else {
+            chosen.push_back(feature);
+        }
+    }
+    if (!wanted.empty()) {
+        return chosen;
+    }
+    for (const Feature& feature : features::record_features()) {
+        const bool central = (feature.needs & (features::kSun | features::kRing)) != 0;
+        if (of_sensor_alone(feature) && !central && all_have(records, feature)) {
+            chosen.push_back(&feature);
+        }
+    }
+    if (chosen.empty()) {
+        problems.push_back({"calibrate", 0, "", "no feature that all records have", ""});
+    }
+    return chosen;
+}
+
+// `most` of them at even distances, all if they are fewer.
+template <class Value>
+std::vector<Value> thinned(std::vector<Value> all, std::size_t most) {
+    if (all.size() <= most) {
+        return all;
+    }
+    std::vector<Value> some;
+    for (std::size_t i = 0; i < most; ++i) {
+        some.push_back(std::move(all[i * all.size() / most]));
+    }
+    return some;
+}
+
+}  // namespace
+
+std::vector<HealthyRecord> read_feature_table(const std::string& path, const Scene& scene,
+                                              Problems& problems) {
+    return TableReading(path, scene, problems).read();
+}
+
+HealthySet healthy_set(const std::vector<HealthyRecord>& records,
+                       const std::vector<std::string>& wanted, Problems& problems) {
+    HealthySet set;
+    set.features = wanted_features(records, wanted, problems);
+    std::vector<std::vector<const HealthyRecord*>> gearboxes;
+    std::map<std::string, std::size_t> places;
+    for (const HealthyRecord& record : records) {
+        const auto [place, is_new] = places.try_emplace(record.gearbox, gearboxes.size());
+        if (is_new || record.gearbox.empty()) {
+            gearboxes.emplace_back();
+        }
+        gearboxes[record.gearbox.empty() ? gearboxes.size() - 1 : place->second].push_back(&record);
+    }
+    for (auto& gearbox : thinned(std::move(gearboxes), kMostGearboxes)) {
+        set.lengths.emplace_back();
+        set.values.emplace_back();
+        for (const HealthyRecord* record : thinned(std::move(gearbox), kMostRecords)) {
+            set.lengths.back().push_back(record->meshes);
+            set.values.back().emplace_back();
+            for (const Feature* feature : set.features) {
+                set.values.back().back().push_back(record->values[place_of(*feature)]);
+            }
+            ++set.records;
+        }
+    }
+    set.left_out = records.size() - set.records;
+    return set;
+}
+
+double HealthySet::mean_of(const std::string& feature) const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t f = 0; f < features.size(); ++f) {
+        for (const auto& gearbox : values) {
+            for (const auto& record : gearbox) {
+                sum += features[f]->name == feature ? record[f] : 0.0;
+                count += features[f]->name == feature ? 1.0 : 0.0;
+            }
+        }
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,153 @@
+#include "mc/calibration/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mc/files/text_table.hpp"
+#include "mc/input/spelling.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+const Key* key_named(std::string_view path) {
+    const std::size_t dot = path.find('.');
+    return dot == std::string_view::npos ? nullptr
+                                         : find_key(path.substr(0, dot), path.substr(dot + 1));
+}
+
+std::vector<std::string> random_keys() {
+    std::vector<std::string> names;
+    for (const Key& key : schema()) {
+        if (key.may_be_random() && key.section != "fault") {
+            names.push_back(key.path());
+        }
+    }
+    return names;
+}
+
+// "a:b:c" in its parts.
+std::vector<std::string> parts_of(const std::string& text) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == ':') {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+class Reader {
+  public:
+    explicit Reader(Problems& problems) : problems_(problems) {}
+
+    void read(const std::string& text, std::vector<CalibratedInput>& inputs) {
+        const std::size_t equals = text.find('=');
+        const std::string name = text.substr(0, equals);
+        const auto reject = [&](const std::string& what, const std::string& remedy) {
+            problems_.push_back({"--prior", 0, name, what, remedy});
+        };
+        if (equals == std::string::npos) {
+            return reject("no range", "write KEY=LOW:HIGH or KEY=LOW:HIGH:log");
+        }
+        const Key* key = key_named(name);
+        if (key == nullptr || !key->may_be_random() || key->section == "fault") {
+            const std::vector<std::string> known = random_keys();
+            return reject(key == nullptr            ? "unknown key"
+                          : key->section == "fault" ? "healthy gearboxes have no fault"
+                                                    : "may not be random",
+                          suggest(name, {known.begin(), known.end()}));
+        }
+        CalibratedInput input{name, 0.0, 0.0, false, key->unit.to_si};
+        const std::vector<std::string> parts = parts_of(text.substr(equals + 1));
+        const auto low = number_of(parts.front(), false);
+        const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
+        input.logarithmic = parts.size() == 3 && parts[2] == "log";
+        if (!low || !high || parts.size() > 3 || (parts.size() == 3 && !input.logarithmic)) {
+            return reject("\"" + text.substr(equals + 1) + "\" is no range",
+                          "write LOW:HIGH or LOW:HIGH:log");
+        }
+        if (!std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
+            return reject("LOW must be below HIGH, both finite", "");
+        }
+        if (input.logarithmic && *low <= 0.0) {
+            return reject("LOW must be > 0 on a logarithmic scale", "");
+        }
+        if (std::ranges::any_of(inputs, [&](const auto& one) { return one.key == name; })) {
+            return reject("is given twice", "");
+        }
+        input.low = *low;
+        input.high = *high;
+        inputs.push_back(input);
+    }
+
+  private:
+    Problems& problems_;
+};
+
+}  // namespace
+
+double CalibratedInput::at(double unit) const {
+    return logarithmic ? low * std::pow(high / low, unit) : low + unit * (high - low);
+}
+
+double CalibratedInput::unit_of(double value) const {
+    return logarithmic ? std::log(value / low) / std::log(high / low)
+                       : (value - low) / (high - low);
+}
+
+bool CalibratedInput::after_march() const {
+    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain", "sensor.noise_m_s2"};
+    return std::ranges::find(kSensor, key) != kSensor.end();
+}
+
+std::string CalibratedInput::as_override() const {
+    return fmt::format("random.{}={{distribution='uniform',low={},high={}}}", key, low, high);
+}
+
+std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts,
+                                         Problems& problems) {
+    std::vector<CalibratedInput> inputs;
+    Reader reader(problems);
+    for (const std::string& text : texts) {
+        reader.read(text, inputs);
+    }
+    return inputs;
+}
+
+std::vector<CalibratedInput> usual_inputs(const Study& study, double rms) {
+    const MeshErrors& errors = study.errors;
+    const bool pitch =
+        errors.pitch_error_m > 0.0 || study.find_random("gearbox.pitch_error_um") != nullptr;
+    std::vector<CalibratedInput> usual;
+    if (pitch) {
+        usual.push_back({"gearbox.pitch_error_um", 0.2, 100.0, true, 1e-6});
+    } else {
+        usual.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
+    }
+    usual.push_back({"sensor.noise_m_s2", 0.01 * rms, 1.05 * rms, true, 1.0});
+    usual.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
+    usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
+    std::erase_if(usual, [&](const CalibratedInput& input) {
+        const bool forbidden = key_named(input.key)->presence(study).need == Need::forbidden;
+        const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;
+        return forbidden || no_path;
+    });
+    return usual;
+}
+
+std::vector<GivenInput> given_at(std::span<const CalibratedInput> inputs,
+                                 std::span<const double> unit) {
+    std::vector<GivenInput> given;
+    for (std::size_t p = 0; p < inputs.size(); ++p) {
+        given.push_back({inputs[p].key, inputs[p].at(unit[p]) * inputs[p].to_si});
+    }
+    return given;
+}
+
+}  // namespace gearpod::mc

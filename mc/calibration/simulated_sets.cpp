@@ -1,0 +1,222 @@
+#include "mc/calibration/simulated_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "machine/team.hpp"
+#include "machine/thread_clock.hpp"
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/measured_features.hpp"
+#include "mc/random/philox.hpp"
+#include "signals/noise/normals.hpp"
+#include "signals/sensor/sensor.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+double uniform(Philox& engine) {
+    constexpr double kUnit = 0x1p-53;
+    return (static_cast<double>(engine() >> 11) + 0.5) * kUnit;
+}
+
+// One gearbox of a set, marched once and heard with several backgrounds.
+struct Item {
+    std::size_t set = 0, gearbox = 0;
+    std::vector<std::vector<GivenInput>> given;  // of each background
+};
+
+class Simulator {
+  public:
+    Simulator(const Scene& scene, const RecordLengths& lengths, const SetSummary& summary)
+        : scene_(scene),
+          sampler_(scene.study()),
+          path_(path_grid(scene)),
+          lengths_(lengths),
+          summary_(summary) {}
+
+    int lanes() const { return scene_.study().numerics.lanes; }
+
+    // [item][background][record][feature]; nothing of a gearbox that failed.
+    std::vector<RecordValues> run(std::span<const Item> items) const {
+        std::vector<GearboxId> ids;
+        std::vector<InstanceInputs> inputs;
+        for (const Item& item : items) {
+            ids.push_back(id_of(item));
+            inputs.push_back(sampler_.sample(ids.back(), item.given.front()));
+            inputs.back().gain = 1.0;  // each background has its own
+        }
+        const GearboxTile tile = run_given(scene_, path_, ids, inputs, lanes());
+        std::vector<RecordValues> values(items.size());
+        for (std::size_t lane = 0; lane < items.size(); ++lane) {
+            if (tile.status[lane] == Status::ok) {
+                values[lane] = listen(tile, static_cast<int>(lane), items[lane], ids[lane]);
+            }
+        }
+        return values;
+    }
+
+  private:
+    GearboxId id_of(const Item& item) const {
+        return {Group::threshold, item.set * lengths_.size() + item.gearbox};
+    }
+
+    std::vector<double> synthesize(const GearboxTile& tile, int lane, double exponent,
+                                   const signals::Tones& tones) const {
+        return signals::synthesize(tile.views, lane, tile.march.content, scene_.span(), path_,
+                                   exponent, 0, scene_.signal_meshes(), tones);
+    }
+
+    // The records of a gearbox with each background.
+    RecordValues listen(const GearboxTile& tile, int lane, const Item& item,
+                        const GearboxId& id) const {
+        RecordValues values;
+        std::vector<double> bare, tones;
+        std::optional<double> exponent;
+        for (std::size_t k = 0; k < item.given.size(); ++k) {
+            const InstanceInputs inputs = sampler_.sample(id, item.given[k]);
+            if (exponent != inputs.path_exponent) {
+                exponent = inputs.path_exponent;
+                bare = synthesize(tile, lane, *exponent, {});
+                if (!tile.tones.empty()) {
+                    tones = synthesize(tile, lane, *exponent, tile.tones);
+                    for (std::size_t i = 0; i < tones.size(); ++i) {
+                        tones[i] -= bare[i];
+                    }
+                }
+            }
+            values.emplace_back();
+            const std::vector<int>& lengths = lengths_[item.gearbox];
+            for (std::size_t record = 0; record < lengths.size(); ++record) {
+                Philox engine =
+                    gearbox_stream(scene_.study(), id, fmt::format("calibrate.{}.{}", k, record));
+                values.back().push_back(
+                    measured_values(scene_, heard(bare, tones, inputs, lengths[record], engine),
+                                    summary_.features()));
+            }
+        }
+        return values;
+    }
+
+    // A record that begins at any mesh and has a background of its own.
+    MeasuredSignal heard(const std::vector<double>& bare, const std::vector<double>& tones,
+                         const InstanceInputs& inputs, int meshes, Philox& engine) const {
+        const auto samples = static_cast<std::size_t>(scene_.samples_per_mesh());
+        const int spare = std::max(0, scene_.signal_meshes() - meshes);
+        const auto first =
+            samples * static_cast<std::size_t>(uniform(engine) * static_cast<double>(spare + 1));
+        const std::size_t count = std::min(samples * static_cast<std::size_t>(meshes), bare.size());
+        MeasuredSignal signal;
+        signal.has_sensor = true;
+        signal.sensor.resize(count);
+        signals::draw_normals(engine, std::span(signal.sensor));
+        for (std::size_t i = 0; i < count; ++i) {
+            signal.sensor[i] = inputs.gain * bare[first + i] + inputs.noise_m_s2 * signal.sensor[i];
+            if (!tones.empty()) {
+                signal.sensor[i] += tones[first + i];
+            }
+        }
+        signal.sensor_meshes = static_cast<int>(count / samples);
+        return signal;
+    }
+
+    const Scene& scene_;
+    const Sampler sampler_;
+    const signals::PathGrid path_;
+    const RecordLengths& lengths_;
+    const SetSummary& summary_;
+};
+
+// The places in the priors of each background of a marched draw. What is marched has one place for
+// all of them.
+std::vector<std::vector<double>> places(const Study& study, std::span<const CalibratedInput> inputs,
+                                        const PriorRegion& region, std::size_t number,
+                                        std::size_t backgrounds) {
+    std::vector<std::vector<double>> all(backgrounds, std::vector<double>(inputs.size()));
+    for (std::size_t p = 0; p < inputs.size(); ++p) {
+        Philox engine =
+            gearbox_stream(study, {Group::threshold, number}, "calibrate.prior." + inputs[p].key);
+        for (std::size_t k = 0; k < backgrounds; ++k) {
+            all[k][p] = k > 0 && !inputs[p].after_march()
+                            ? all[0][p]
+                            : region.low[p] + (region.high[p] - region.low[p]) * uniform(engine);
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<SimulatedSet> simulate_sets(const Scene& scene, std::span<const CalibratedInput> inputs,
+                                        const PriorRegion& region, const DrawPlan& plan,
+                                        const RecordLengths& lengths, const SetSummary& summary,
+                                        int threads, const std::function<void(double)>& told) {
+    const std::size_t gearboxes = lengths.size();
+    std::vector<SimulatedSet> sets;
+    std::vector<Item> items;
+    for (std::size_t d = 0; d < plan.marched; ++d) {
+        const std::size_t number = plan.first + d;
+        const auto units = places(scene.study(), inputs, region, number, plan.backgrounds);
+        std::vector<std::vector<GivenInput>> given;
+        for (const auto& unit : units) {
+            sets.push_back({unit, number, {}});
+            given.push_back(given_at(inputs, unit));
+        }
+        for (std::size_t g = 0; g < gearboxes; ++g) {
+            items.push_back({number, g, given});
+        }
+    }
+    const Simulator simulator(scene, lengths, summary);
+    std::vector<RecordValues> heard(items.size());
+    const auto lanes = static_cast<std::size_t>(simulator.lanes());
+    const std::size_t tiles = (items.size() + lanes - 1) / lanes;
+    const auto run = [&](std::size_t tile) {
+        const std::size_t first = tile * lanes;
+        auto own =
+            simulator.run(std::span(items).subspan(first, std::min(lanes, items.size() - first)));
+        std::move(own.begin(), own.end(), heard.begin() + static_cast<std::ptrdiff_t>(first));
+    };
+    const double start = thread_processor_s();
+    run(0);
+    told((thread_processor_s() - start) * static_cast<double>(tiles));
+    machine::for_each_index(tiles - 1, threads, [&](std::size_t tile) { run(tile + 1); });
+    for (std::size_t d = 0; d < plan.marched; ++d) {
+        const std::span<const RecordValues> own =
+            std::span(heard).subspan(d * gearboxes, gearboxes);
+        if (std::ranges::any_of(own, [](const RecordValues& one) { return one.empty(); })) {
+            continue;
+        }
+        for (std::size_t k = 0; k < plan.backgrounds; ++k) {
+            RecordValues values;
+            for (const RecordValues& gearbox : own) {
+                values.push_back(gearbox[k]);
+            }
+            sets[d * plan.backgrounds + k].summary = summary.of(values);
+        }
+    }
+    return sets;
+}
+
+RecordValues simulate_set(const Scene& scene, std::span<const GivenInput> given, std::size_t number,
+                          const RecordLengths& lengths, const SetSummary& summary) {
+    const Simulator simulator(scene, lengths, summary);
+    RecordValues values;
+    std::vector<Item> items;
+    for (std::size_t g = 0; g < lengths.size(); ++g) {
+        items.push_back({number, g, {{given.begin(), given.end()}}});
+    }
+    const auto lanes = static_cast<std::size_t>(simulator.lanes());
+    for (std::size_t first = 0; first < items.size(); first += lanes) {
+        for (RecordValues& own : simulator.run(
+                 std::span(items).subspan(first, std::min(lanes, items.size() - first)))) {
+            if (own.empty()) {
+                return {};
+            }
+            values.push_back(std::move(own.front()));
+        }
+    }
+    return values;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,306 @@
+// calibrate STUDY --healthy REC...: what makes a study's healthy gearboxes look like measured ones.
+#include "mc/calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "mc/calibration/healthy_records.hpp"
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/thread_count.hpp"
+#include "mc/files/json_text.hpp"
+#include "mc/files/signal_file.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/recordings/measure_recordings.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Of the lines of a manifest those labelled healthy, or all if none has a label.
+void keep_healthy(RecordingList& list) {
+    const bool labelled = std::ranges::any_of(
+        list.recordings, [](const Recording& one) { return one.condition != Condition::unknown; });
+    std::erase_if(list.recordings, [&](const Recording& one) {
+        return labelled && one.condition != Condition::healthy;
+    });
+}
+
+// The records' own features; what could not be read is a problem.
+std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
+                                            const RecordingList& list, const Scene& scene,
+                                            Problems& problems) {
+    const auto measured =
+        measure_recordings(list, options.columns, scene, {}, thread_count(scene.study()), [] {});
+    std::vector<HealthyRecord> records;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (!measured[i].problem.empty()) {
+            problems.push_back({printable(measured[i].problem), 0, "", "", ""});
+            continue;
+        }
+        records.push_back({list.recordings[i].gearbox,
+                           std::min(measured[i].sensor_meshes, scene.span_meshes()),
+                           measured[i].values});
+    }
+    return records;
+}
+
+class Command {
+  public:
+    explicit Command(const CalibrateOptions& options) : options_(options) {}
+
+    int run() {
+        if (!options_good()) {
+            return kBadInput;
+        }
+        const auto scene = load_scene(options_.study).scene;
+        if (!scene || !outputs_good()) {
+            return kBadInput;
+        }
+        if (scene->study().effects.quasi_static()) {
+            problems_.push_back({options_.study.path, 0, "effects.motion",
+                                 "the study has no sensor to calibrate", "let it have inertia"});
+            return stop();
+        }
+        const std::vector<HealthyRecord> records =
+            options_.features.empty() ? measured_records(options_, list_, *scene, problems_)
+                                      : read_feature_table(options_.features, *scene, problems_);
+        if (records.empty() && problems_.empty()) {
+            problems_.push_back({"calibrate", 0, "", "no record of a healthy gearbox", ""});
+        }
+        if (!problems_.empty()) {
+            return stop();
+        }
+        set_ = healthy_set(records, options_.feature, problems_);
+        choose_inputs(scene->study());
+        return problems_.empty() ? calibrated(scene->study()) : stop();
+    }
+
+  private:
+    int stop() const {
+        print_problems(problems_);
+        return kBadInput;
+    }
+
+    bool options_good() {
+        const int sources = static_cast<int>(!options_.healthy.empty()) +
+                            static_cast<int>(!options_.manifest.empty()) +
+                            static_cast<int>(!options_.features.empty());
+        if (sources != 1) {
+            problems_.push_back(
+                {"calibrate", 0, "",
+                 sources == 0 ? "no records" : "more than one source of records",
+                 "give one of --healthy REC..., --manifest T.csv, --features T.csv"});
+        }
+        inputs_ = read_priors(options_.priors, problems_);
+        if (sources == 1 && options_.features.empty()) {
+            try {
+                list_ = options_.manifest.empty() ? recordings_of(options_.healthy, problems_)
+                                                  : read_manifest(options_.manifest, problems_);
+                keep_healthy(list_);
+            } catch (const SignalError& error) {
+                problems_.push_back({printable(error.what()), 0, "", "", ""});
+            }
+        }
+        print_problems(problems_);
+        return std::exchange(problems_, {}).empty();
+    }
+
+    bool outputs_good() const {
+        std::vector<FileRole> read{{"the study", options_.study.path},
+                                   {"the manifest", options_.manifest},
+                                   {"the table of --features", options_.features}};
+        std::erase_if(read, [](const FileRole& one) { return one.path.empty(); });
+        for (const Recording& recording : list_.recordings) {
+            read.push_back({"a recording", recording.file});
+        }
+        const bool good = can_write({"--out", options_.out}, read);
+        read.push_back({"--out", options_.out.empty() ? "-" : options_.out});
+        return can_write({"--json", options_.json}, read) && good;
+    }
+
+    // Those named, or the usual ones.
+    void choose_inputs(const Study& study) {
+        if (!inputs_.empty()) {
+            return;
+        }
+        const double rms = set_.mean_of("sensor_rms");
+        if (rms > 0.0) {
+            inputs_ = usual_inputs(study, rms);
+        } else if (problems_.empty()) {
+            problems_.push_back({"calibrate", 0, "",
+                                 "the range of the background is unknown without sensor_rms",
+                                 "give --prior sensor.noise_m_s2=LOW:HIGH:log, and the others"});
+        }
+    }
+
+    int calibrated(const Study& study) {
+        StudyOptions random = options_.study;
+        for (const CalibratedInput& input : inputs_) {
+            random.overrides.push_back(input.as_override());
+        }
+        // Teeth with errors ask for other defaults than teeth that are alike.
+        const StudyReading written = read_study(random.path, random.overrides);
+        if (!written.study) {
+            print_problems(written.problems);
+            return kBadInput;
+        }
+        std::string names;
+        for (const features::Feature* feature : set_.features) {
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : ",", feature->name);
+        }
+        random.overrides.push_back("features.use=[" + names + "]");
+        const auto scene = load_scene(random).scene;
+        if (!scene) {
+            return kBadInput;
+        }
+        CalibrationTask task;
+        task.inputs = inputs_;
+        task.lengths = set_.lengths;
+        task.measured = set_.values;
+        task.threads = thread_count(study);
+        task.marched = static_cast<std::size_t>(options_.draws);
+        const SetSummary summary(set_.features, set_.values);
+        std::vector<SimulatedSet> first;
+        say_cost(task);
+        const CalibrationResult result =
+            calibrate(*scene, task, summary, first, [&](double seconds) {
+                if (!options_.quiet) {
+                    fmt::print(
+                        stderr,
+                        "this round: about {:.0f} processor seconds, {:.0f} s on {} thread(s)\n",
+                        seconds, seconds / task.threads, task.threads);
+                }
+            });
+        return finish(*written.study, task, result);
+    }
+
+    void say_cost(const CalibrationTask& task) const {
+        if (!options_.quiet) {
+            fmt::print(stderr,
+                       "{} record(s) of {} gearbox(es){}; {} rounds of {} marched draws, {} "
+                       "gearboxes, with {} backgrounds each\n",
+                       set_.records, set_.lengths.size(),
+                       set_.left_out > 0 ? fmt::format(", {} more left out", set_.left_out) : "",
+                       kCalibrationRounds, task.marched, task.marched * set_.lengths.size(),
+                       task.backgrounds);
+        }
+    }
+
+    int finish(const Study& study, const CalibrationTask& task, const CalibrationResult& result) {
+        if (options_.json != "-" && options_.out != "-") {
+            print_table(result);
+        }
+        const std::string text = calibrated_study(study, result, intro(study, result));
+        const bool out = options_.out.empty() || write_text_to(options_.out, text);
+        const bool json = options_.json.empty() ||
+                          write_text_to(options_.json, json_text(json_of(task, result), 2) + "\n");
+        return out && json ? kDone : kBadInput;
+    }
+
+    std::vector<std::string> intro(const Study& study, const CalibrationResult& result) const {
+        std::vector<std::string> lines{
+            fmt::format("Calibrated on {} record(s) of {} healthy gearbox(es), by approximate "
+                        "Bayesian computation:",
+                        set_.records, set_.lengths.size()),
+            fmt::format(
+                "{} simulated sets ({} failed), seed {}. Each distribution is what is known "
+                "of one value that",
+                result.sets, result.failed, study.ensemble.seed),
+            "all gearboxes share, so a run with it carries that uncertainty."};
+        for (const FeatureCheck& check : result.checks) {
+            if (check.outside()) {
+                lines.push_back(fmt::format("NOT REPRODUCED: {} {:.4g}, simulated {:.4g} to {:.4g}",
+                                            check.name, check.measured, check.low, check.high));
+            }
+        }
+        return lines;
+    }
+
+    static void print_table(const CalibrationResult& result) {
+        fmt::print("{:<28}{:>11}{:>11}{:>11}{:>8}  {}\n", "input", "median", "5 %", "95 %", "left",
+                   "told by (rank correlation)");
+        for (const FoundInput& one : result.found) {
+            fmt::print("{:<28}{:>11.4g}{:>11.4g}{:>11.4g}{:>6.0f} %  {}\n", one.input.key,
+                       one.median, one.low, one.high, 100.0 * one.left,
+                       one.told ? fmt::format("{}", fmt::join(one.deciding, ", "))
+                                : "NOT TOLD by the recordings: this is the prior");
+        }
+        for (const BoundPair& pair : result.pairs) {
+            fmt::print("{} and {} are known together alone, rank correlation {:+.2f}\n",
+                       result.found[pair.first].input.key, result.found[pair.second].input.key,
+                       pair.correlation);
+        }
+        fmt::print("left: of the prior's 90 % interval\n\n{:<22}{:>12}{:>26}\n", "feature",
+                   "measured", "simulated, 98 %");
+        for (const FeatureCheck& check : result.checks) {
+            fmt::print("{:<22}{:>12.5g}{:>13.5g} to{:>10.5g}  {}\n", check.name, check.measured,
+                       check.low, check.high, check.outside() ? "NOT REPRODUCED" : "");
+        }
+        if (result.failed > 0) {
+            fmt::print("{} of {} simulated sets have no features and were left out\n",
+                       result.failed, result.sets);
+        }
+    }
+
+    nlohmann::ordered_json json_of(const CalibrationTask& task,
+                                   const CalibrationResult& result) const {
+        nlohmann::ordered_json json;
+        json["records"] = set_.records;
+        json["gearboxes"] = set_.lengths.size();
+        json["left_out"] = set_.left_out;
+        json["marched_draws"] = kCalibrationRounds * task.marched;
+        json["simulated_sets"] = result.sets;
+        json["failed_sets"] = result.failed;
+        json["inputs"] = nlohmann::ordered_json::array();
+        for (const FoundInput& one : result.found) {
+            json["inputs"].push_back({{"key", one.input.key},
+                                      {"prior_low", one.input.low},
+                                      {"prior_high", one.input.high},
+                                      {"logarithmic", one.input.logarithmic},
+                                      {"median", one.median},
+                                      {"low", one.low},
+                                      {"high", one.high},
+                                      {"left", one.left},
+                                      {"told", one.told},
+                                      {"told_by", one.deciding}});
+        }
+        json["together"] = nlohmann::ordered_json::array();
+        for (const BoundPair& pair : result.pairs) {
+            json["together"].push_back({{"first", result.found[pair.first].input.key},
+                                        {"second", result.found[pair.second].input.key},
+                                        {"correlation", pair.correlation}});
+        }
+        json["features"] = nlohmann::ordered_json::array();
+        for (const FeatureCheck& check : result.checks) {
+            json["features"].push_back({{"name", check.name},
+                                        {"measured", check.measured},
+                                        {"low", check.low},
+                                        {"high", check.high},
+                                        {"reproduced", !check.outside()}});
+        }
+        return json;
+    }
+
+    const CalibrateOptions& options_;
+    Problems problems_;
+    RecordingList list_;
+    HealthySet set_;
+    std::vector<CalibratedInput> inputs_;
+};
+
+}  // namespace
+
+int calibrate_command(const CalibrateOptions& options) {
+    try {
+        return Command(options).run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
+    }
+}
+
+}  // namespace gearpod::mc
