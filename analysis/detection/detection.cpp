@@ -90,7 +90,7 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
     const double rate = request.false_alarm_rate;
     if (level.threshold_rate.upper > 2.0 * rate) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} healthy gearboxes fix the false-alarm rate of {:g} "
+            fmt::format("noise level {:g}: {} healthy ones fix the false-alarm rate of {:g} "
                         "only to within "
                         "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
                         level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
@@ -98,7 +98,7 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
     }
     if (!std::isnan(level.threshold) && tied(level, request)) {
         warnings.push_back(fmt::format(
-            "noise level {:g}: healthy gearboxes share the threshold's value, the feature is "
+            "noise level {:g}: healthy ones share the threshold's value, the feature is "
             "constant there or nearly so; the false-alarm rate is below {:g}",
             level.noise_level, rate));
         return;
@@ -113,7 +113,7 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                                                      healthy->tested, kSurprising);
     if (expected.lower > rate || expected.upper < rate) {
         warnings.push_back(fmt::format(
-            "noise level {:g}: {} of {} graded healthy gearboxes alarm, which a false-alarm rate "
+            "noise level {:g}: {} of {} graded healthy ones alarm, which a false-alarm rate "
             "of "
             "{:g} does not explain even with the threshold's own scatter (it would be in "
             "[{:.2g}, {:.2g}])",
@@ -126,16 +126,16 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
           std::vector<std::string>& warnings) {
     if (std::isnan(level.threshold)) {
         warnings.push_back(fmt::format(
-            "noise level {:g}: no threshold, {} healthy gearboxes are too few for a false-alarm "
+            "noise level {:g}: no threshold, {} healthy ones are too few for a false-alarm "
             "rate of {:g}; it takes {:.0f}",
             level.noise_level, level.threshold_sample, rate, std::ceil(1.0 / rate - 1.0 - 1e-9)));
     }
     const long without = static_cast<long>(healthy) - level.threshold_sample;
     if (without > 0) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: {} of {} healthy gearboxes gave no value and do not count "
-            "in the threshold",
-            level.noise_level, without, healthy));
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} healthy ones gave no value and do not count "
+                        "in the threshold",
+                        level.noise_level, without, healthy));
     }
 }
 

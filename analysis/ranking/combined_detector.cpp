@@ -111,7 +111,7 @@ std::string sample_refusal(long healthy, long faulty) {
     return std::min(healthy, faulty) >= kFewest
                ? ""
                : fmt::format(
-                     "{} healthy and {} faulty gearboxes to train on, {} of each are needed",
+                     "{} healthy and {} faulty ones to train on, {} of each are needed",
                      healthy, faulty, kFewest);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Features = std::span<const FeatureDetection>;
 
 constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
-constexpr std::size_t kCountWidth = 8;  // gearboxes, failed
+constexpr std::size_t kCountWidth = 8;  // gearboxes or recordings, failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
 constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
 
@@ -66,16 +66,22 @@ long most_failed(Features features, std::size_t level, std::size_t cell) {
     return failed;
 }
 
-void add_level(std::string& out, Features features, std::size_t n, const SizeUnit& unit) {
+void add_level(std::string& out, Features features, std::size_t n, const DetectionRequest& request,
+               Subject subject) {
+    const SizeUnit& unit = request.size;
+    const bool boxes = subject == Subject::gearboxes;
     add_row(out,
-            fmt::format("{:<{}}{:>{}}{:>{}}", "size " + unit.shown_unit(), kSizeWidth, "boxes",
-                        kCountWidth, "failed", kCountWidth),
+            fmt::format("{:<{}}{:>{}}{:>{}}",
+                        has_sizes(request) ? "size " + unit.shown_unit() : kNoSize, kSizeWidth,
+                        boxes ? "boxes" : "records", kCountWidth, "failed", kCountWidth),
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
-    add_row(out, "healthy sample: alarms/boxes", features, [n](const FeatureDetection& f) {
-        return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
-    });
+    add_row(out, boxes ? "healthy sample: alarms/boxes" : "healthy: alarms/recordings", features,
+            [n](const FeatureDetection& f) {
+                return fmt::format("{}/{}", f.levels[n].threshold_alarms,
+                                   f.levels[n].threshold_sample);
+            });
     add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
         const Interval& rate = f.levels[n].threshold_rate;
         return std::isnan(rate.lower) ? std::string("-")
@@ -83,20 +89,23 @@ void add_level(std::string& out, Features features, std::size_t n, const SizeUni
     });
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const std::string label =
-            fmt::format("{:<{}}{:>{}}{:>{}}", size_text(cells[c].size, unit), kSizeWidth,
-                        cells[c].tested + cells[c].failed, kCountWidth, most_failed(features, n, c),
-                        kCountWidth);
+        const std::string label = fmt::format(
+            "{:<{}}{:>{}}{:>{}}", has_sizes(request) ? size_text(cells[c].size, unit) : "faulty",
+            kSizeWidth, cells[c].tested + cells[c].failed, kCountWidth, most_failed(features, n, c),
+            kCountWidth);
         add_row(out, label, features,
                 [n, c](const FeatureDetection& f) { return rate_text(f.levels[n].cells[c]); });
     }
 }
 
-void add_reliable_sizes(std::string& out, Features features, const SizeUnit& unit) {
-    add_row(out, "noise", features, [](const FeatureDetection& f) { return f.feature; });
+void add_reliable_sizes(std::string& out, Features features, const SizeUnit& unit,
+                        Subject subject) {
+    const bool noise = subject == Subject::gearboxes;
+    add_row(out, noise ? "noise" : "", features,
+            [](const FeatureDetection& f) { return f.feature; });
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
-        add_row(out, fmt::format("x {:g}", features.front().levels[n].noise_level), features,
-                [n, &unit](const FeatureDetection& f) {
+        add_row(out, noise ? fmt::format("x {:g}", features.front().levels[n].noise_level) : "size",
+                features, [n, &unit](const FeatureDetection& f) {
                     const auto size = reliable_size(f.levels[n], kReliablePd);
                     if (!size) {
                         return std::string("not reached");
@@ -138,7 +147,7 @@ void in_blocks(std::string& out, Features features, Block block) {
 
 }  // namespace
 
-std::string detection_text(Features features, const DetectionRequest& request) {
+std::string detection_text(Features features, const DetectionRequest& request, Subject subject) {
     std::string out;
     if (features.empty() || features.front().levels.empty()) {
         return "no detection rates: no features or no noise levels\n";
@@ -148,13 +157,19 @@ std::string detection_text(Features features, const DetectionRequest& request) {
         "thresholds for at most {:g} % expected false alarms\n",
         100.0 * request.confidence, 100.0 * request.false_alarm_rate);
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
-        out += fmt::format("\nNoise x {:g}\n", features.front().levels[n].noise_level);
-        in_blocks(out, features, [&](Features block) { add_level(out, block, n, request.size); });
+        if (subject == Subject::gearboxes) {
+            out += fmt::format("\nNoise x {:g}\n", features.front().levels[n].noise_level);
+        }
+        in_blocks(out, features,
+                  [&](Features block) { add_level(out, block, n, request, subject); });
     }
-    out += fmt::format(
-        "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
-        kReliablePd);
-    in_blocks(out, features, [&](Features block) { add_reliable_sizes(out, block, request.size); });
+    if (has_sizes(request)) {
+        out += fmt::format(
+            "\nSmallest tested size from which on the lower bound of Pd stays at {:g} or more\n",
+            kReliablePd);
+        in_blocks(out, features,
+                  [&](Features block) { add_reliable_sizes(out, block, request.size, subject); });
+    }
     add_warnings(out, features);
     return out;
 }

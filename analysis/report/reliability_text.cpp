@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr long kFewest = 10;  // healthy and faulty gearboxes for the text to say anything
+constexpr long kFewest = 10;  // healthy and faulty ones for the text to say anything
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -155,11 +155,30 @@ std::string basis_text(const SmallestFault& least) {
                        tested.empty() ? "" : "; " + tested);
 }
 
+// Of faults without a size: no curves.
+void add_unsized_level(std::string& out, const Reliability& reliability, std::size_t n) {
+    const auto features = in_order(reliability, n);
+    std::size_t width = 8;
+    for (const FeatureReliability* feature : features) {
+        width = std::max(width, feature->feature.size() + 2);
+    }
+    out += fmt::format("{:<{}}AUC\n", "feature", width);
+    for (const FeatureReliability* feature : features) {
+        out += fmt::format("{:<{}}{}\n", feature->feature, width, auc_text(feature->levels[n].auc));
+    }
+    add_ranking(out, reliability.rankings[n]);
+}
+
 void add_level(std::string& out, const Reliability& reliability, std::size_t n,
-               const DetectionRequest& request) {
+               const DetectionRequest& request, Subject subject) {
     const SizeUnit& unit = request.size;
     const double percent = 100.0 * request.confidence;
-    out += fmt::format("\nNoise x {:g}\n", request.noise_levels[n]);
+    if (subject == Subject::gearboxes) {
+        out += fmt::format("\nNoise x {:g}\n", request.noise_levels[n]);
+    }
+    if (!has_sizes(request)) {
+        return add_unsized_level(out, reliability, n);
+    }
     if (const auto least = smallest_fault(reliability, n)) {
         add_wrapped(
             out,
@@ -205,26 +224,36 @@ Sample largest_sample(const Reliability& reliability) {
     return sample;
 }
 
-void add_levels(std::string& out, const Reliability& reliability, const DetectionRequest& request) {
+// What the figures of all levels are.
+std::string figures_text(const DetectionRequest& request) {
+    const double percent = 100.0 * request.confidence;
+    if (!has_sizes(request)) {
+        return fmt::format(
+            "Area under the ROC, healthy against faulty, with DeLong's interval at "
+            "{:g} %",
+            percent);
+    }
+    const std::string unit = request.size.shown_unit();
+    return fmt::format(
+        "Probability of detection over {}{}: sizes with POD 50 % and 90 %, and "
+        "the latter's upper bound, one-sided at {:g} % (likelihood ratio); AUC "
+        "with DeLong's interval at {:g} %",
+        request.size.name, unit.empty() ? "" : ", shown in " + unit, percent, percent);
+}
+
+void add_levels(std::string& out, const Reliability& reliability, const DetectionRequest& request,
+                Subject subject) {
     const Sample sample = largest_sample(reliability);
     if (std::min(sample.healthy, sample.faulty) < kFewest) {
         out += fmt::format(
-            "no POD curves, areas and ranking: {} healthy and {} faulty gearboxes have values, "
+            "no POD curves, areas and ranking: {} healthy and {} faulty {} have values, "
             "{} of each are needed\n",
-            sample.healthy, sample.faulty, kFewest);
+            sample.healthy, sample.faulty, many(subject), kFewest);
         return;
     }
-    const SizeUnit& unit = request.size;
-    add_wrapped(
-        out,
-        fmt::format("Probability of detection over {}{}: sizes with POD 50 % and 90 %, and "
-                    "the latter's upper bound, one-sided at {:g} % (likelihood ratio); AUC "
-                    "with DeLong's interval at {:g} %",
-                    unit.name, unit.shown_unit().empty() ? "" : ", shown in " + unit.shown_unit(),
-                    100.0 * request.confidence, 100.0 * request.confidence),
-        0);
+    add_wrapped(out, figures_text(request), 0);
     for (std::size_t n = 0; n < request.noise_levels.size(); ++n) {
-        add_level(out, reliability, n, request);
+        add_level(out, reliability, n, request, subject);
     }
 }
 
@@ -254,12 +283,13 @@ void add_condition(std::string& out, const ConditionDetection& detection, const 
 
 }  // namespace
 
-std::string reliability_text(const Reliability& reliability, const DetectionRequest& request) {
+std::string reliability_text(const Reliability& reliability, const DetectionRequest& request,
+                             Subject subject) {
     if (reliability.features.empty() || request.noise_levels.empty()) {
         return "no POD curves: no features or no noise levels\n";
     }
     std::string out;
-    add_levels(out, reliability, request);
+    add_levels(out, reliability, request, subject);
     if (!reliability.conditions.empty()) {
         out += fmt::format("\nThresholds by {} ({})\n", reliability.conditions.front().input,
                            reliability.conditions.front().unit);

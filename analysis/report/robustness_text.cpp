@@ -37,7 +37,7 @@ void add_combined(std::string& out, const CombinedDetector& combined, const Size
     }
     add_wrapped(
         out,
-        fmt::format("combined detector, on the half of the gearboxes that it was not trained on: "
+        fmt::format("combined detector, on the half that it was not trained on: "
                     "AUC {:.3f} "
                     "(gain {:+.3f} over {}, {}), {}; {}: {}; weights {}",
                     combined.combined.auc.auc, combined.combined.auc.auc - combined.single.auc.auc,
@@ -115,13 +115,12 @@ void add_sensitivity(std::string& out, const LevelSensitivity& sensitivity, cons
                                 index.total_bounds.lower, index.total_bounds.upper);
         }
     }
-    add_wrapped(
-        out,
-        fmt::format("share of the variance of {}'s misses at {} ({} gearboxes; Sobol, first "
-                    "order and total):{}; all inputs {:.2f}, the rest is noise",
-                    sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
-                    list.empty() ? " no input above 0.01" : list, misses.explained),
-        4);
+    add_wrapped(out,
+                fmt::format("share of the variance of {}'s misses at {} ({} of them; Sobol, first "
+                            "order and total):{}; all inputs {:.2f}, the rest is noise",
+                            sensitivity.feature, range_text(sensitivity.sizes, unit), misses.count,
+                            list.empty() ? " no input above 0.01" : list, misses.explained),
+                4);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::string results_text(const Results& frame, const RowSource& rows,
         analysis::add_wrapped(text, holds, 2);
         text += "\n";
     }
-    text += analysis::detection_text(frame.detection, frame.request) + "\n" +
+    text += analysis::detection_text(frame.detection, frame.request, subject_of(frame)) + "\n" +
             reliability_text(reliability, frame);
     const std::string times = alarms_text(frame, alarms_over_time(frame, rows), reliability);
     text += times.empty() ? "" : "\n" + times;

@@ -93,17 +93,22 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     return analysis::assess_reliability(data, frame.detection, frame.request, threads);
 }
 
+analysis::Subject subject_of(const Results& frame) {
+    return frame.provenance_value("kind") == kRecordingsKind ? analysis::Subject::recordings
+                                                             : analysis::Subject::gearboxes;
+}
+
 std::string reliability_text(const std::optional<analysis::Reliability>& reliability,
                              const Results& frame) {
     if (reliability) {
-        return analysis::reliability_text(*reliability, frame.request);
+        return analysis::reliability_text(*reliability, frame.request, subject_of(frame));
     }
     const std::size_t each =
         std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
     return fmt::format(
-        "no POD curves, areas and ranking: they need the values of all gearboxes at "
-        "once, at most {} gearboxes\nwith these features and noise levels\n",
-        kMostAssessedValues / each);
+        "no POD curves, areas and ranking: they need the values of all {} at "
+        "once, at most {} of them\nwith these features and noise levels\n",
+        analysis::many(subject_of(frame)), kMostAssessedValues / each);
 }
 
 }  // namespace gearpod::mc

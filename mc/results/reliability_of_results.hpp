@@ -5,6 +5,7 @@
 #include <string>
 
 #include "analysis/reliability.hpp"
+#include "analysis/report/subject.hpp"
 #include "mc/results/row_source.hpp"
 
 namespace gearpod::mc {
@@ -19,6 +20,9 @@ inline constexpr std::size_t kMostAssessedValues = std::size_t{1} << 24;
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
                                                     std::size_t most_values = kMostAssessedValues);
+
+// What a results file's rows are.
+analysis::Subject subject_of(const Results& frame);
 
 // As the terminal shows it, or why there is none.
 std::string reliability_text(const std::optional<analysis::Reliability>& reliability,

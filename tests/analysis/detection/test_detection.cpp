@@ -108,7 +108,7 @@ TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
     CHECK(result.levels[0].cells[0].tested == 2);
     CHECK(result.levels[0].cells[1].tested == 3);
     REQUIRE(result.warnings.size() == 2);
-    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy gearboxes fix"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy ones fix"));
     CHECK_THAT(result.warnings[1], Catch::Contains("1 of 6 gearboxes"));
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported"
     CHECK(result.levels[0].threshold == 1.0);
     REQUIRE(result.warnings.size() == 2);
     CHECK_THAT(result.warnings[0], Catch::Contains("1 of 20 healthy"));
-    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy gearboxes fix"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy ones fix"));
 }
 
 TEST_CASE("Samples and groups that do not fit are refused") {

@@ -162,6 +162,39 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
     CHECK(program("report " + results).mentions("Alarms over time, day"));
 }
 
+TEST_CASE("On the terminal recordings are recordings, and have a size only where one is known") {
+    const Recorded recorded;
+    const std::string results = recorded.folder.file("f.h5");
+    recorded.features("--out " + results);
+    const Outcome sized = program("report " + results);
+    INFO(sized.output);
+    CHECK(sized.code == 0);
+    CHECK(sized.mentions("healthy: alarms/recordings"));
+    CHECK(sized.mentions("size mm"));
+    CHECK(sized.mentions("a90/95"));
+    CHECK(!sized.mentions("boxes"));
+    CHECK(!sized.mentions("Noise x"));
+
+    std::string table = "file,label\n";
+    for (int i = 0; i < 60; ++i) {
+        table += recorded.folder.file("r" + std::to_string(i) + ".csv") +
+                 (i < 30 ? ",healthy\n" : ",faulty\n");
+    }
+    write_bytes(recorded.folder.file("labels.csv"), table);
+    REQUIRE(program("features --manifest " + recorded.folder.file("labels.csv") + " --study " +
+                    kSmall + " --samples-per-mesh 8 --quiet --out " + results)
+                .code == 0);
+    const Outcome labelled = program("report " + results);
+    INFO(labelled.output);
+    CHECK(labelled.code == 0);
+    CHECK(labelled.mentions("label"));
+    CHECK(labelled.mentions("Area under the ROC, healthy against faulty"));
+    for (const char* word : {"boxes", "size", "a90", "Noise x"}) {
+        INFO(word);
+        CHECK(!labelled.mentions(word));
+    }
+}
+
 TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
     const Folder folder;
     const std::vector<double> first = turn(1.0, 1), second = turn(3.0, 2);
