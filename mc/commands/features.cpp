@@ -31,6 +31,11 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
             planet_turns(measured.change->signal, scene), measured.change->meshes,
             measured.change->correlation);
     }
+    if (!signal.losses_noticed) {
+        fmt::print(
+            "samples lost without a trace would not be noticed: that takes six turns of the "
+            "carrier, or wheel, that sound alike\n");
+    }
     for (const MeasuredFeature& one : all) {
         if (one.missing.empty()) {
             fmt::print("{:<22}{:>14.8g}  {}\n", one.feature->name, one.value,
@@ -48,6 +53,7 @@ nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
                                      const MeasuredSignal& signal, const Scene& scene) {
     nlohmann::ordered_json json;
     json["mesh_phase"] = signal.tracking;
+    json["losses_noticed"] = signal.losses_noticed;
     json["sensor_meshes"] = signal.sensor_meshes;
     json["te_meshes"] = signal.te_meshes;
     json["span_meshes"] = scene.span_meshes();

@@ -40,11 +40,11 @@ class SignalFile {
 //   .h5, .hdf5   datasets of one dimension in the group /signals, else in the root, or a row of
 //   those
 //                of two; the rate may be an attribute sampling_Hz of the group or the root; an
-//                attribute scale of a dataset is a factor on its values, unit their unit
-//   .mat         variables that are real vectors (MATLAB 4 to 7.3); the rate may be a variable
-//                sampling_Hz
-//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the
-//   full
+//                attribute scale of a dataset is a factor on its values, unit their unit; what
+//                lies in other files (links, external and virtual storage) is refused
+//   .mat         variables that are real vectors (MATLAB 4 to 7.3), and fields of structs that are,
+//                as "s.sensor"; the rate may be a variable or field sampling_Hz; tables are refused
+//   .wav         the column sensor, or channel1, channel2, ...; whole numbers as a share of the full
 //                scale
 //   .uff, .unv   dataset 58, real and even in time: the column sensor, or function1, function2, ...
 // `row`, from 0: the record of an HDF5 file whose datasets hold one in each row.

@@ -5,9 +5,27 @@
 
 #include "mc/files/hdf5_data.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {
+
+// Whether a member's values lie in another file, which whoever wrote this one has chosen.
+bool lies_elsewhere(hid_t group, const std::string& name) {
+    H5L_info_t link{};
+    check(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT), name);
+    if (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) {
+        return true;
+    }
+    H5O_info_t info{};
+    if (H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
+        info.type != H5O_TYPE_DATASET) {
+        return false;
+    }
+    const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+    const Hdf5Handle made(H5Dget_create_plist(dataset.get()), H5Pclose, name);
+    return H5Pget_external_count(made.get()) > 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL;
+}
 
 // Dimensions of a dataset of numbers; 0 if `name` is none.
 int dimensions_of(hid_t group, const std::string& name) {
@@ -31,8 +49,26 @@ Shape shape_of(hid_t group, const std::string& name) {
     return shape;
 }
 
+void refuse_elsewhere(const std::string& path, hid_t group, const std::string& name) {
+    if (lies_elsewhere(group, name)) {
+        throw SignalError(fmt::format(
+            "{}: {} lies in another file (a link, or external or virtual storage), which is not "
+            "read; copy it into this one, as h5py's group.copy or h5copy does",
+            path, printable(name)));
+    }
+}
+
+// The group /signals, or the root.
+Hdf5Handle signals_of(const std::string& path, hid_t file) {
+    if (H5Lexists(file, "signals", H5P_DEFAULT) <= 0) {
+        return open_group(file, "/");
+    }
+    refuse_elsewhere(path, file, "signals");
+    return open_group(file, "signals");
+}
+
 // By name: groups from elsewhere do not know the order of their creation.
-std::vector<std::string> columns_of(hid_t group, int dimensions) {
+std::vector<std::string> columns_of(const std::string& path, hid_t group, int dimensions) {
     H5G_info_t info{};
     check(H5Gget_info(group, &info), "names");
     std::vector<std::string> names;
@@ -44,6 +80,7 @@ std::vector<std::string> columns_of(hid_t group, int dimensions) {
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(),
                            H5P_DEFAULT);
         name.pop_back();
+        refuse_elsewhere(path, group, name);
         if (dimensions_of(group, name) == dimensions) {
             names.push_back(name);
         }
@@ -58,9 +95,8 @@ class SignalHdf5 : public SignalFile {
           row_(row),
           most_(std::filesystem::file_size(path)),
           file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path),
-          group_(open_group(file_.get(),
-                            H5Lexists(file_.get(), "signals", H5P_DEFAULT) > 0 ? "signals" : "/")),
-          names_(columns_of(group_.get(), row ? 2 : 1)) {}
+          group_(signals_of(path, file_.get())),
+          names_(columns_of(path, group_.get(), row ? 2 : 1)) {}
 
     std::vector<std::string> names() const override { return names_; }
 

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <matio.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "mc/files/hdf5_handle.hpp"
 #include "mc/files/signal_file.hpp"
+#include "mc/input/printable.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -51,6 +53,12 @@ bool is_real_vector(const matvar_t& matrix) {
            (matrix.dims[0] == 1 || matrix.dims[1] == 1);
 }
 
+// One struct, not an array of them.
+bool is_struct(const matvar_t& matrix) {
+    return matrix.class_type == MAT_C_STRUCT && matrix.rank == 2 && matrix.dims[0] == 1 &&
+           matrix.dims[1] == 1;
+}
+
 class SignalMat : public SignalFile {
   public:
     explicit SignalMat(const std::string& path)
@@ -63,9 +71,15 @@ class SignalMat : public SignalFile {
             if (!matrix) {
                 break;
             }
-            if (matrix->name != nullptr && is_real_vector(*matrix)) {
-                names_.emplace_back(matrix->name);
+            if (matrix->name != nullptr) {
+                list(*matrix);
             }
+        }
+        if (names_.empty() && !objects_.empty()) {
+            throw SignalError(fmt::format(
+                "{}: {} is a table, timetable or object, which is not read; in MATLAB save its "
+                "columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
+                path, printable(objects_)));
         }
     }
 
@@ -74,9 +88,17 @@ class SignalMat : public SignalFile {
     std::vector<double> read(const std::string& name) override {
         const SilentHdf5 silent;
         Mat_Rewind(file_.get());
-        const Matrix matrix(Mat_VarRead(file_.get(), name.c_str()), Mat_VarFree);
+        // "s.sensor": variable and field; names of variables have no dots.
+        const std::size_t dot = name.find('.');
+        const Matrix whole(Mat_VarRead(file_.get(), name.substr(0, dot).c_str()), Mat_VarFree);
+        const matvar_t* matrix = whole.get();
+        if (matrix != nullptr && dot != std::string::npos) {
+            matrix = is_struct(*whole)
+                         ? Mat_VarGetStructFieldByName(whole.get(), name.substr(dot + 1).c_str(), 0)
+                         : nullptr;
+        }
         std::vector<double> values;
-        if (matrix && is_real_vector(*matrix)) {
+        if (matrix != nullptr && is_real_vector(*matrix)) {
             values = numbers(*matrix, matrix->dims[0] * matrix->dims[1]);
         }
         if (values.empty()) {
@@ -86,10 +108,13 @@ class SignalMat : public SignalFile {
     }
 
     std::optional<double> sampling_Hz() override {
-        if (!has("sampling_Hz")) {
+        const auto named = std::find_if(names_.begin(), names_.end(), [](const std::string& name) {
+            return name == "sampling_Hz" || name.ends_with(".sampling_Hz");
+        });
+        if (named == names_.end()) {
             return std::nullopt;
         }
-        const std::vector<double> rate = read("sampling_Hz");
+        const std::vector<double> rate = read(*named);
         if (rate.size() != 1) {
             throw SignalError(path_ + ": sampling_Hz must be one number");
         }
@@ -97,9 +122,34 @@ class SignalMat : public SignalFile {
     }
 
   private:
+    // A vector, or the vectors that are fields of a struct.
+    void list(matvar_t& matrix) {
+        if (is_object(matrix)) {
+            objects_ += (objects_.empty() ? "" : ", ") + std::string(matrix.name);
+        } else if (is_real_vector(matrix)) {
+            names_.emplace_back(matrix.name);
+        } else if (is_struct(matrix)) {
+            char* const* const fields = Mat_VarGetStructFieldnames(&matrix);
+            const unsigned count = Mat_VarGetNumberOfFields(&matrix);
+            for (unsigned f = 0; fields != nullptr && f < count; ++f) {
+                const matvar_t* field = Mat_VarGetStructFieldByIndex(&matrix, f, 0);
+                if (field != nullptr && fields[f] != nullptr && is_real_vector(*field)) {
+                    names_.push_back(fmt::format("{}.{}", matrix.name, fields[f]));
+                }
+            }
+        }
+    }
+
+    // Of a class that matio does not know, as tables are, or knows as MATLAB's own.
+    static bool is_object(const matvar_t& matrix) {
+        const matio_classes type = matrix.class_type;
+        return type == MAT_C_EMPTY || type == MAT_C_OBJECT || type == MAT_C_OPAQUE;
+    }
+
     std::string path_;
     std::unique_ptr<mat_t, int (*)(mat_t*)> file_;
     std::vector<std::string> names_;
+    std::string objects_;  // variables that are tables and the like
 };
 
 }  // namespace

@@ -19,10 +19,20 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
 constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s
+
+// 0, 1, 2, ... over `rate`.
+std::vector<double> counted(std::size_t samples, double rate) {
+    std::vector<double> values(samples);
+    for (std::size_t i = 0; i < samples; ++i) {
+        values[i] = static_cast<double>(i) / rate;
+    }
+    return values;
+}
 
 class Reading {
   public:
@@ -38,7 +48,7 @@ class Reading {
             ~Closed() { file.reset(); }
         } closed{file_};
         file_ = open_signal_file(path_, wanted_.row);
-        std::vector<double> sensor = chosen(wanted_.sensor, "sensor", Quantity::acceleration);
+        std::vector<double> sensor = chosen(wanted_.sensor, kSensor, Quantity::acceleration);
         std::vector<double> te = chosen(wanted_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
@@ -73,6 +83,8 @@ class Reading {
             measured.tracking += fmt::format(", times {:.5f} after the mesh lines", ratio);
             resample(sensor, te, phase, measured);
         }
+        check_losses(measured);
+        stop_at_problems();
         return measured;
     }
 
@@ -95,20 +107,27 @@ class Reading {
     void reject(const std::string& what) {
         problems_ += fmt::format("{}{}: {}", problems_.empty() ? "" : "\n", path_, printable(what));
     }
+    void reject_column(const std::string& name, const std::string& why) {
+        if (!why.empty()) {
+            reject(fmt::format("column {}: {}", name, why));
+        }
+    }
     void stop_at_problems() const {
         if (!problems_.empty()) {
             throw SignalError(problems_);
         }
     }
     std::string columns_text() const {
-        const auto names = file_->names();
+        auto names = file_->names();
         constexpr std::size_t kShown = 20;
-        const auto end =
-            names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
-        const std::string rest =
-            names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "";
-        return names.empty() ? "none"
-                             : fmt::format("{}{}", fmt::join(names.begin(), end, ", "), rest);
+        const std::size_t more = names.size() - std::min(names.size(), kShown);
+        names.resize(names.size() - more);
+        const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
+        return names.empty() ? "none" : fmt::format("{}{}", fmt::join(names, ", "), rest);
+    }
+
+    void reject_missing(const std::string& name) {
+        reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
     }
 
     // What the values of a column are times.
@@ -133,23 +152,7 @@ class Reading {
                 value *= times;
             }
         }
-        const auto is_bad = [](double value) { return !std::isfinite(value); };
-        const auto bad = std::find_if(values.begin(), values.end(), is_bad);
-        if (bad != values.end()) {
-            reject(
-                fmt::format("column {}: {} of {} samples are no finite numbers, the first is "
-                            "sample {}; cut them off or fill the gaps",
-                            name, std::count_if(values.begin(), values.end(), is_bad),
-                            values.size(), bad - values.begin() + 1));
-        }
-        const auto huge = std::find_if(values.begin(), values.end(),
-                                       [](double value) { return std::abs(value) > kLargest; });
-        if (huge != values.end() && bad == values.end()) {
-            reject(
-                fmt::format("column {}: sample {} is {:g}; numbers above {:g} cannot be computed "
-                            "with",
-                            name, huge - values.begin() + 1, *huge, kLargest));
-        }
+        reject_column(name, bad_values(values));
         if (values.size() < 2) {
             reject(fmt::format("column {} has {} sample(s)", name, values.size()));
         } else if (samples_ != 0 && values.size() != samples_) {
@@ -167,13 +170,11 @@ class Reading {
         const std::string& taken = name.empty() ? usual : name;
         if (file_->has(taken)) {
             std::vector<double> values = column(taken, quantity);
-            if (const std::string cut = clipping(values); !cut.empty()) {
-                reject(fmt::format("column {}: {}", taken, cut));
-            }
+            reject_column(taken, clipping(values));
             return values;
         }
         if (!name.empty()) {
-            reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
+            reject_missing(name);
         }
         return {};
     }
@@ -186,9 +187,7 @@ class Reading {
                 return {};
             }
             SampleTimes time = sample_times(std::move(written));
-            if (!time.problem.empty()) {
-                reject(fmt::format("column {}: {}", kTime, time.problem));
-            }
+            reject_column(kTime, time.problem);
             return std::move(time.seconds);
         }
         const double rate =
@@ -200,22 +199,14 @@ class Reading {
                             kTime, kPhase, columns_text()));
             return {};
         }
-        std::vector<double> time(samples);
-        for (std::size_t i = 0; i < samples; ++i) {
-            time[i] = static_cast<double>(i) / rate;
-        }
-        return time;
+        return counted(samples, rate);
     }
 
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
         if (wanted_.samples_per_mesh > 0.0) {
             how = fmt::format("{:.6g} samples a mesh period", wanted_.samples_per_mesh);
-            std::vector<double> phase(samples);
-            for (std::size_t i = 0; i < samples; ++i) {
-                phase[i] = static_cast<double>(i) / wanted_.samples_per_mesh;
-            }
-            return phase;
+            return counted(samples, wanted_.samples_per_mesh);
         }
         if (!wanted_.tachometer.empty()) {
             return phases_of_pulses(how);
@@ -228,6 +219,7 @@ class Reading {
         if (!problems_.empty()) {
             return {};
         }
+        counted_ = true;
         if (!file_->has(kSpeed)) {
             how = fmt::format("constant speed, {:.6g} Hz at the mesh",
                               scene_.nominal_mesh_frequency_Hz());
@@ -247,17 +239,13 @@ class Reading {
     // Of a tachometer; the samples between its first pulse and its last are left.
     std::vector<double> phases_of_pulses(std::string& how) {
         if (!file_->has(wanted_.tachometer)) {
-            reject(fmt::format("no column {}; its columns are {}", wanted_.tachometer,
-                               columns_text()));
+            reject_missing(wanted_.tachometer);
             return {};
         }
         const std::vector<double> heights = column(wanted_.tachometer, Quantity::phase);
+        const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
+        reject_column(wanted_.tachometer, pulses.problem);
         if (!problems_.empty()) {
-            return {};
-        }
-        const Pulses pulses = tachometer_pulses(heights);
-        if (!pulses.problem.empty()) {
-            reject(fmt::format("column {}: {}", wanted_.tachometer, pulses.problem));
             return {};
         }
         how = fmt::format("{} pulses of column {}, {:g} a turn", pulses.at.size(),
@@ -305,6 +293,16 @@ class Reading {
             reject(lines + ", but they are too few to tell it by; correct the speed");
         }
         return found->ratio;
+    }
+
+    // Where the phase is only counted samples, times and speed: lost ones leave a jump in it.
+    void check_losses(MeasuredSignal& measured) {
+        if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
+            return;
+        }
+        reject_column(wanted_.sensor.empty() ? kSensor : wanted_.sensor,
+                      losses_text(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes(),
+                                  measured.losses_noticed));
     }
 
     // A gearbox that turns about passes its meshes again, and loads its other flanks.
@@ -379,7 +377,6 @@ class Reading {
     }
 
     static constexpr double kFewestSamples = 2.0;  // a mesh period
-    static constexpr double kLargest = 1e18;
     static constexpr double kSpareRate = 1.02;
 
     const std::string& path_;
@@ -388,6 +385,7 @@ class Reading {
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
     std::size_t samples_ = 0, first_sample_ = 0;
+    bool counted_ = false;  // the phase, from samples and times alone
 };
 
 }  // namespace

@@ -37,6 +37,8 @@ struct MeasuredSignal {
     bool has_sensor = false, has_te = false;  // whether there is such a column, however short
     int sensor_meshes = 0, te_meshes = 0;     // whole mesh periods of the recording
     std::string tracking;                     // how the samples got their mesh phase
+    // Whether samples that were lost without a trace in its times would have been noticed.
+    bool losses_noticed = true;
 };
 
 // Reads a file (signal_file.hpp) and resamples it where it is not on the grid already. A sample's
@@ -51,7 +53,8 @@ struct MeasuredSignal {
 //
 // and its time from sampling_Hz, the column time (s), or the rate that the file tells.
 // Units are converted (signal_units.hpp); unknown ones are problems, as are missing and clipped
-// samples (sample_times.hpp), and a speed that the mesh lines do not fit. Throws SignalError with
+// samples (sample_times.hpp, signals/spectra/lost_samples.hpp), and a speed that the mesh lines do
+// not fit. Throws SignalError with
 // every problem, one a line. May be called by several threads: one reads at a time.
 MeasuredSignal read_measured_signal(const std::string& path, const SignalColumns& columns,
                                     const Scene& scene);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "signals/spectra/lost_samples.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -193,6 +195,25 @@ void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<do
     }
 }
 
+std::string bad_values(std::span<const double> values) {
+    constexpr double kLargest = 1e18;
+    const auto is_bad = [](double value) { return !std::isfinite(value); };
+    const auto bad = std::find_if(values.begin(), values.end(), is_bad);
+    if (bad != values.end()) {
+        return fmt::format(
+            "{} of {} samples are no finite numbers, the first is sample {}; cut them off or fill "
+            "the gaps",
+            std::count_if(values.begin(), values.end(), is_bad), values.size(),
+            bad - values.begin() + 1);
+    }
+    const auto huge = std::find_if(values.begin(), values.end(),
+                                   [](double value) { return std::abs(value) > kLargest; });
+    return huge == values.end()
+               ? ""
+               : fmt::format("sample {} is {:g}; numbers above {:g} cannot be computed with",
+                             huge - values.begin() + 1, *huge, kLargest);
+}
+
 std::string clipping(std::span<const double> samples) {
     constexpr std::size_t kRun = 3;
     constexpr long kFewestRuns = 2;
@@ -227,6 +248,20 @@ std::string clipping(std::span<const double> samples) {
                      "record with a larger range",
                      clipped, runs, level)
                : "";
+}
+
+std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
+                        bool& noticed) {
+    const auto lost = signals::lost_samples(samples, per_mesh, turn_meshes);
+    noticed = lost.has_value();
+    if (!lost || !lost->found) {
+        return "";
+    }
+    return fmt::format(
+        "the meshes come {:.2f} of a period too {} (or whole periods more) after mesh period {} to "
+        "{}: samples were lost or repeated without a trace in the times; cut the recording there",
+        std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late", lost->first_mesh,
+        lost->last_mesh);
 }
 
 }  // namespace gearpod::mc

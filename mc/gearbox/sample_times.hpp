@@ -40,8 +40,16 @@ PulseCount count_pulses(const std::vector<double>& pulses);
 void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,
                 double samples_per_turn);
 
+// "" unless values are no finite numbers, or larger than can be computed with.
+std::string bad_values(std::span<const double> values);
+
 // "" unless the signal was cut off at its largest or least value: several runs of equal samples
 // there that it enters and leaves by more than its own resolution.
 std::string clipping(std::span<const double> samples);
+
+// "" unless samples are missing inside a signal on the mesh-phase grid
+// (signals/spectra/lost_samples.hpp); `noticed`: whether they would be.
+std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
+                        bool& noticed);
 
 }  // namespace gearpod::mc

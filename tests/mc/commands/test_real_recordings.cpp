@@ -138,6 +138,31 @@ TEST_CASE("Gaps in time, time that runs back and clipped samples are named") {
     CHECK(outcome.mentions("clipped; record with a larger range"));
 }
 
+TEST_CASE("Samples that are lost without a trace in the times are noticed, or that is said") {
+    const Simulated s;
+    const auto plain = features(s.write("sensor", {s.sensor}), "--sampling-Hz 280 --json -");
+    INFO(plain.output);
+    REQUIRE(plain.code == 0);
+    CHECK(nlohmann::json::parse(plain.output)["losses_noticed"] == true);
+    for (const long lost : {1L, 3L, 5L}) {
+        auto sensor = s.sensor;
+        sensor.erase(sensor.begin() + 1800, sensor.begin() + 1800 + lost);
+        const Outcome outcome = features(s.write("sensor", {sensor}), "--sampling-Hz 280");
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("without a trace in the times"));
+        // In turn 7 of 35 mesh periods, or the one before or after it.
+        CHECK(outcome.mentions("after mesh period 1"));
+        CHECK(features(s.write("sensor", {sensor}), "--sampling-Hz 280 --speed stated").code == 0);
+    }
+    // Four turns of the carrier are too few.
+    const std::vector<double> part(s.sensor.begin(), s.sensor.begin() + 4L * 35 * 8);
+    const Outcome few = features(s.write("sensor", {part}), "--sampling-Hz 280");
+    INFO(few.output);
+    CHECK(few.code == 0);
+    CHECK(few.mentions("samples lost without a trace would not be noticed"));
+}
+
 TEST_CASE("A speed that is wrong by 2 % is noticed, and can be taken from the mesh lines") {
     const Simulated s;
     for (const double wrong : {0.98, 1.02}) {
@@ -223,6 +248,28 @@ TEST_CASE("A recording is judged against a results file, in a sentence") {
     CHECK(other.code == 2);
     CHECK(features(path, "--feature window_ratio").mentions("is of --against"));
     CHECK(features(path, "--feature fm4 --against " + folder.file("p.h5")).code == 2);
+}
+
+TEST_CASE("Ten million rows are answered in bounded time and memory") {
+    const Folder folder;
+    const std::string path = folder.file("long.csv");
+    {
+        std::ofstream stream(path);
+        stream << "sensor\n";
+        std::string block;
+        for (int i = 0; i < 1000; ++i) {
+            block += std::to_string((i * 7919) % 1000) + "\n";
+        }
+        for (int i = 0; i < 10000; ++i) {
+            stream << block;
+        }
+    }
+    const Outcome outcome =
+        shell("ulimit -v 2000000; timeout 120 " + std::string(GEARPOD_PROGRAM) + " features " +
+              path + " --study " + kSmall + " --sampling-Hz 280 --speed stated");
+    INFO(outcome.output);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.mentions("1250000 mesh periods of sensor signal"));
 }
 
 }  // namespace

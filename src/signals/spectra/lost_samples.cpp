@@ -1,0 +1,96 @@
+#include "signals/spectra/lost_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gearpod::signals {
+namespace {
+
+constexpr int kFewestTurns = 6;
+constexpr double kAlike = 0.3;  // correlation of turns that sound alike
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// How much earlier `next` sounds than `before`, in samples, and how much alike they are then. Both
+// turns have more samples around them; a lag takes from these.
+struct Lag {
+    double samples = 0.0, correlation = 0.0;
+};
+
+Lag lag_between(std::span<const double> all, std::size_t before, std::size_t next,
+                std::size_t length, int farthest) {
+    const auto correlation = [&](int lag) {
+        double xy = 0.0, xx = 0.0, yy = 0.0;
+        for (std::size_t i = static_cast<std::size_t>(farthest); i + farthest < length; ++i) {
+            const double x = all[before + i];
+            const double y = all[next + i - static_cast<std::size_t>(lag)];  // wraps round and back
+            xy += x * y;
+            xx += x * x;
+            yy += y * y;
+        }
+        return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+    };
+    std::vector<double> values;
+    for (int lag = -farthest; lag <= farthest; ++lag) {
+        values.push_back(correlation(lag));
+    }
+    const auto best = std::max_element(values.begin(), values.end()) - values.begin();
+    double part = 0.0;
+    if (best > 0 && best + 1 < static_cast<std::ptrdiff_t>(values.size())) {
+        const auto at = static_cast<std::size_t>(best);
+        const double bend = values[at - 1] - 2.0 * values[at] + values[at + 1];
+        part = bend < 0.0 ? 0.5 * (values[at - 1] - values[at + 1]) / bend : 0.0;
+    }
+    return {static_cast<double>(best) - farthest + part, values[static_cast<std::size_t>(best)]};
+}
+
+}  // namespace
+
+std::optional<LostSamples> lost_samples(std::span<const double> samples, int per_mesh,
+                                        int turn_meshes) {
+    const std::size_t length =
+        static_cast<std::size_t>(per_mesh) * static_cast<std::size_t>(turn_meshes);
+    const std::size_t turns = length > 0 ? samples.size() / length : 0;
+    const int farthest = per_mesh / 2;  // a mesh period further it all sounds alike
+    if (turn_meshes < 2 || turns < kFewestTurns) {
+        return std::nullopt;
+    }
+    std::vector<double> steps, alike;
+    for (std::size_t t = 1; t < turns; ++t) {
+        const Lag lag = lag_between(samples, (t - 1) * length, t * length, length, farthest);
+        steps.push_back(lag.samples);
+        alike.push_back(lag.correlation);
+    }
+    if (median_of(alike) < kAlike) {
+        return std::nullopt;
+    }
+    const double usual = median_of(steps);
+    std::vector<double> away;
+    for (const double step : steps) {
+        away.push_back(std::abs(std::remainder(step - usual, static_cast<double>(per_mesh))));
+    }
+    constexpr double kLeast = 0.05, kStandsOut = 8.0;
+    const double scatter = std::max(kLeast, 1.4826 * median_of(away));
+    // The turn that lost them is late in part, so two steps share the loss.
+    LostSamples most;
+    double largest = 0.0;
+    for (std::size_t t = 0; t + 1 < steps.size(); ++t) {
+        const double sum =
+            std::remainder(steps[t] + steps[t + 1] - 2.0 * usual, static_cast<double>(per_mesh));
+        if (std::abs(sum) > std::abs(largest)) {
+            largest = sum;
+            most.first_mesh = static_cast<int>(t) * turn_meshes;
+            most.last_mesh = static_cast<int>(t + 3) * turn_meshes;
+        }
+    }
+    most.meshes = largest / per_mesh;
+    most.found = std::abs(largest) > kStandsOut * scatter;
+    return most;
+}
+
+}  // namespace gearpod::signals
