@@ -110,9 +110,8 @@ std::string fit_covariate(Covariate& covariate, const Half& half,
 std::string sample_refusal(long healthy, long faulty) {
     return std::min(healthy, faulty) >= kFewest
                ? ""
-               : fmt::format(
-                     "{} healthy and {} faulty ones to train on, {} of each are needed",
-                     healthy, faulty, kFewest);
+               : fmt::format("{} healthy and {} faulty ones to train on, {} of each are needed",
+                             healthy, faulty, kFewest);
 }
 
 // Complete training gearboxes.
