@@ -25,7 +25,7 @@ except ImportError as error:
 import gearpod  # noqa: E402
 from gearpod.program import toml_value  # noqa: E402
 
-STUDY = SOURCES / "studies" / "planet-crack.toml"
+STUDY = SOURCES / "studies" / "planet-crack-ideal.toml"
 SMALL = {"ensemble.threshold_instances": 60, "sensor.noise_levels": [0, 1]}
 
 

@@ -318,7 +318,7 @@ class Program(unittest.TestCase):
     def test_comparisons_have_a_page(self):
         def run(name, *options):
             results = os.path.join(self.folder.name, name)
-            self.gearpod("run", SOURCES / "studies" / "planet-crack.toml", "--quiet", "--out",
+            self.gearpod("run", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet", "--out",
                          results, "--instances", "350", "--set",
                          "ensemble.threshold_instances=200", *options)
             return results

@@ -16,7 +16,7 @@ namespace {
 // Quasi-static, with the sensor out of it: a second or so.
 std::string run(const Folder& folder, const std::string& name, const std::string& options) {
     const std::string file = folder.file(name);
-    const Outcome run = program("run " + test::study("planet-crack.toml") +
+    const Outcome run = program("run " + test::study("planet-crack-ideal.toml") +
                                 " --quiet --set ensemble.threshold_instances=100 "
                                 "--set ensemble.instances=140 --set numerics.threads=2 --out " +
                                 file + " " + options);

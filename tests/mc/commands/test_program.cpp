@@ -106,7 +106,7 @@ TEST_CASE("Results under the name of another kind of file are refused with what 
          {std::pair{"x.csv", "x.h5 --csv DIR"}, std::pair{"x.json", "x.h5 --json F.json"},
           std::pair{"x.toml", "name"}}) {
         const Outcome refused =
-            program("run " + study("planet-crack.toml") + " --out " + folder.file(name));
+            program("run " + study("planet-crack-ideal.toml") + " --out " + folder.file(name));
         CHECK(refused.code == 2);
         CHECK(mentions(refused, "the results are HDF5"));
         CHECK(mentions(refused, right));

@@ -1,0 +1,27 @@
+// The command line's options, as CLI11 reads them. Commands of several options have an add_...() of
+// their own: it adds the command, which fills its options and leaves its exit code in `code`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "mc/commands/commands.hpp"
+
+namespace gearpod::mc {
+
+// Of an option that names a file to write: "" would be no file, or another than the one meant.
+CLI::Option* needs_name(CLI::Option* option);
+
+// --set SECTION.KEY=VALUE; and with it the study's path, the first positional argument.
+void add_study_keys(CLI::App& command, StudyOptions& options);
+CLI::Option* add_study(CLI::App& command, StudyOptions& options);
+
+// --instances N and --seed S are short for keys of the study.
+void add_shorthand(CLI::App& command, const char* name, const char* key, const char* doc,
+                   StudyOptions& options);
+
+void add_features(CLI::App& app, FeaturesOptions& features, int& code);
+void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
+void add_pod(CLI::App& app, PodOptions& pod, int& code);
+void add_compare(CLI::App& app, CompareOptions& compare, int& code);
+
+}  // namespace gearpod::mc
