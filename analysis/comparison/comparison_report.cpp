@@ -153,8 +153,10 @@ std::string comparison_text(const ComparisonReport& report) {
     std::string out;
     for (std::size_t f = 0; f < report.files.size(); ++f) {
         const ComparedFile& file = report.files[f];
-        out += fmt::format("{}  {}{}: {} gearboxes\n", letter(f), file.path,
-                           file.title.empty() ? "" : " (" + file.title + ")", file.gearboxes);
+        add_wrapped(out,
+                    fmt::format("{}  {}{}: {} gearboxes", letter(f), file.path,
+                                file.title.empty() ? "" : " (" + file.title + ")", file.gearboxes),
+                    3);
         for (std::size_t n = 0; n < file.noise_levels.size(); ++n) {
             if (file.noise_levels[n] == report.noise_level && n < file.smallest.size()) {
                 const auto& found = file.smallest[n];
