@@ -26,7 +26,7 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr std::size_t kSpareBytes = std::size_t{256} << 20, kMostCompressed = 1000;
+constexpr std::size_t kFreeMemory = std::size_t{256} << 20, kMemoryPerByte = 1000;
 // Without a byte of an answer: so long, and a second for every ten megabytes of the file.
 constexpr std::uintmax_t kPatience_ms = 8000, kBytes_ms = 10000, kMostPatience_ms = 3600000;
 
@@ -84,13 +84,13 @@ bool receive_message(int fd, char& kind, std::string& bytes, int patience_ms) {
     return receive_all(fd, bytes.data(), length, patience_ms);
 }
 
-std::string bytes_of(std::span<const double> values) {
+std::string bytes_of_doubles(std::span<const double> values) {
     std::string bytes(values.size() * sizeof(double), '\0');
     std::memcpy(bytes.data(), values.data(), bytes.size());
     return bytes;
 }
 
-std::vector<double> values_of(const std::string& bytes) {
+std::vector<double> doubles_in(const std::string& bytes) {
     std::vector<double> values(bytes.size() / sizeof(double));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
     return values;
@@ -106,14 +106,14 @@ std::string answer_to(Question question, const std::string& name, SignalFile& fi
             return all;
         }
         case Question::read:
-            return bytes_of(file.read(name));
+            return bytes_of_doubles(file.read(name));
         case Question::unit:
             return file.unit(name);
         case Question::sampling_Hz:
             break;
     }
     const std::optional<double> rate = file.sampling_Hz();
-    return rate ? bytes_of(std::array{*rate}) : "";
+    return rate ? bytes_of_doubles(std::array{*rate}) : "";
 }
 
 // So many more bytes of memory than now, and no core file.
@@ -186,7 +186,7 @@ class IsolatedSignal : public SignalFile {
         if (child_ == 0) {
             ::close(ends[0]);
             try {
-                serve(ends[1], path, kSpareBytes + kMostCompressed * size, open);
+                serve(ends[1], path, kFreeMemory + kMemoryPerByte * size, open);
             } catch (...) {
                 ::_exit(1);
             }
@@ -208,11 +208,11 @@ class IsolatedSignal : public SignalFile {
 
     std::vector<std::string> names() const override { return names_; }
     std::vector<double> read(const std::string& name) override {
-        return values_of(ask(Question::read, name));
+        return doubles_in(ask(Question::read, name));
     }
     std::string unit(const std::string& name) override { return ask(Question::unit, name); }
     std::optional<double> sampling_Hz() override {
-        const std::vector<double> rate = values_of(ask(Question::sampling_Hz, ""));
+        const std::vector<double> rate = doubles_in(ask(Question::sampling_Hz, ""));
         return rate.empty() ? std::nullopt : std::optional(rate.front());
     }
 
