@@ -166,4 +166,26 @@ Reliability assess_reliability(const ReliabilityData& data,
     return result;
 }
 
+std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size_t level) {
+    std::vector<std::size_t> order;
+    std::vector<char> taken(reliability.features.size(), 0);
+    const auto take = [&](std::size_t f) {
+        if (taken[f] == 0) {
+            taken[f] = 1;
+            order.push_back(f);
+        }
+    };
+    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
+        for (std::size_t f = 0; f < reliability.features.size(); ++f) {
+            if (reliability.features[f].feature == rank.name) {
+                take(f);
+            }
+        }
+    }
+    for (std::size_t f = 0; f < reliability.features.size(); ++f) {
+        take(f);
+    }
+    return order;
+}
+
 }  // namespace gearpod::analysis

@@ -51,6 +51,9 @@ struct Reliability {
         conditions;  // one a feature; empty if no condition was asked for
 };
 
+// Places of the features at a noise level, the best ranked first, those without a rank last.
+std::vector<std::size_t> in_rank_order(const Reliability& reliability, std::size_t level);
+
 struct FeatureColumns {
     std::string name;
     Alarm alarm = Alarm::high;

@@ -38,29 +38,6 @@ double found(const LevelReliability& at) {
                            [](double sum, double pd) { return sum + (std::isnan(pd) ? 0.0 : pd); });
 }
 
-// Places of the features, the best ranked first, those without a rank last.
-std::vector<std::size_t> ranked(const Reliability& reliability, std::size_t level) {
-    std::vector<std::size_t> order;
-    std::vector<char> taken(reliability.features.size(), 0);
-    const auto take = [&](std::size_t f) {
-        if (taken[f] == 0) {
-            taken[f] = 1;
-            order.push_back(f);
-        }
-    };
-    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
-        for (std::size_t f = 0; f < reliability.features.size(); ++f) {
-            if (reliability.features[f].feature == rank.name) {
-                take(f);
-            }
-        }
-    }
-    for (std::size_t f = 0; f < reliability.features.size(); ++f) {
-        take(f);
-    }
-    return order;
-}
-
 }  // namespace
 
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
@@ -84,7 +61,7 @@ std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std:
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {
     std::optional<SmallestFault> least;
     double most = 0.0;
-    for (const std::size_t f : ranked(reliability, level)) {
+    for (const std::size_t f : in_rank_order(reliability, level)) {
         const auto fault = smallest_fault(reliability, level, f);
         const double finds = found(reliability.features[f].levels[level]);
         if (fault &&

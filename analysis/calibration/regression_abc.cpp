@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "analysis/statistics/midranks.hpp"
+#include "machine/upper_median.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -19,12 +20,6 @@ using Rows =
 
 constexpr int kFolds = 5;
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 // Centre and scale of each summary over the draws, by which they become of order 1; far ones are
 // drawn in, or their squares would rule the regression.
 class Scaling {
@@ -33,11 +28,11 @@ class Scaling {
         : centre_(summaries.cols()), scale_(summaries.cols()) {
         for (Eigen::Index k = 0; k < summaries.cols(); ++k) {
             std::vector<double> values(summaries.col(k).begin(), summaries.col(k).end());
-            centre_(k) = median_of(values);
+            centre_(k) = machine::upper_median(values);
             for (double& value : values) {
                 value = std::abs(value - centre_(k));
             }
-            const double deviation = 1.4826 * median_of(std::move(values));
+            const double deviation = 1.4826 * machine::upper_median(std::move(values));
             scale_(k) = deviation > 0.0 ? 1.0 / deviation : 0.0;
         }
     }

@@ -26,17 +26,8 @@ std::string auc_text(const Auc& auc) {
 // The features in order of rank, those without a rank last.
 std::vector<const FeatureReliability*> in_order(const Reliability& reliability, std::size_t level) {
     std::vector<const FeatureReliability*> order;
-    for (const FeatureRank& rank : reliability.rankings[level].ranks) {
-        for (const FeatureReliability& feature : reliability.features) {
-            if (feature.feature == rank.name) {
-                order.push_back(&feature);
-            }
-        }
-    }
-    for (const FeatureReliability& feature : reliability.features) {
-        if (std::find(order.begin(), order.end(), &feature) == order.end()) {
-            order.push_back(&feature);
-        }
+    for (const std::size_t f : in_rank_order(reliability, level)) {
+        order.push_back(&reliability.features[f]);
     }
     return order;
 }

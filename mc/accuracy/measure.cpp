@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "lockstep/integrators/facts.hpp"
+#include "machine/upper_median.hpp"
 #include "mc/accuracy/listing.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/accuracy/rung_scenes.hpp"
@@ -25,12 +26,6 @@ constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
 // Tried on the fastest rung for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 class Measurement {
   public:
@@ -264,7 +259,7 @@ class Measurement {
                 continue;
             }
             result.march_s = *std::min_element(times_[i].march.begin(), times_[i].march.end());
-            result.march_median_s = median(times_[i].march);
+            result.march_median_s = machine::upper_median(times_[i].march);
             result.total_s = *std::min_element(times_[i].total.begin(), times_[i].total.end());
             result.mesh_s = result.march_s / result.meshes;
         }
@@ -320,7 +315,7 @@ class Measurement {
             const auto known = step_cost(study_, integrator, {});
             report_.step_costs.push_back(
                 fmt::format("{}: {:.1f} measured, {} in the table", integrator,
-                            median(steps) / report_.explicit_limit.step_s,
+                            machine::upper_median(steps) / report_.explicit_limit.step_s,
                             known ? fmt::format("{:.1f}", *known) : "none"));
         }
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mc/files/text_table.hpp"
+#include "mc/input/document.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -27,19 +28,6 @@ std::vector<std::string> random_keys() {
         }
     }
     return names;
-}
-
-// "a:b:c" in its parts.
-std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == ':') {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
 }
 
 class Reader {
@@ -64,7 +52,7 @@ class Reader {
                           suggest(name, {known.begin(), known.end()}));
         }
         CalibratedInput input{name, 0.0, 0.0, false, key->unit.to_si};
-        const std::vector<std::string> parts = parts_of(text.substr(equals + 1));
+        const std::vector<std::string> parts = split(text.substr(equals + 1), ':');
         const auto low = number_of(parts.front(), false);
         const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
         input.logarithmic = parts.size() == 3 && parts[2] == "log";

@@ -167,12 +167,8 @@ int features_command(const FeaturesOptions& options) {
     for (const std::string& path : options.healthy) {
         read.push_back({"a recording of --healthy", path});
     }
-    for (const FileRole& one : {FileRole{"the file of --against", options.against},
-                                FileRole{"the recording of --baseline", options.baseline}}) {
-        if (!one.path.empty()) {
-            read.push_back(one);
-        }
-    }
+    read.push_back({"the file of --against", options.against});
+    read.push_back({"the recording of --baseline", options.baseline});
     const bool writable = can_write({"--json", options.json}, read);
     const auto scene = load_scene(options.study).scene;
     if (!scene || !writable) {

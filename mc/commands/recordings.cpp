@@ -42,12 +42,8 @@ bool can_write_all(const FeaturesOptions& options, const RecordingList& list) {
     if (!options.manifest.empty()) {
         read.push_back({"the manifest", options.manifest});
     }
-    for (const FileRole& one : {FileRole{"the file of --against", options.against},
-                                FileRole{"the recording of --baseline", options.baseline}}) {
-        if (!one.path.empty()) {
-            read.push_back(one);
-        }
-    }
+    read.push_back({"the file of --against", options.against});
+    read.push_back({"the recording of --baseline", options.baseline});
     std::string last;
     for (const Recording& recording : list.recordings) {
         if (recording.file != last) {

@@ -133,6 +133,18 @@ TextTable read_text_table(const std::string& path) {
     return table;
 }
 
+std::string csv_field(const std::string& text, std::string_view separators) {
+    if (text.find_first_of("\"\r\n") == std::string::npos &&
+        text.find_first_of(separators) == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + '"';
+}
+
 std::string_view trimmed_field(std::string_view text) {
     constexpr std::string_view kBlank = " \t\r\"";
     const std::size_t first = text.find_first_not_of(kBlank);

@@ -31,6 +31,10 @@ struct TextTable {
 // (signal_file.hpp) at the first line that does not fit, or with more than a million rows.
 TextTable read_text_table(const std::string& path);
 
+// The text as a field to write (RFC 4180): in double quotes where one of the separators, a quote or
+// an end of line is inside.
+std::string csv_field(const std::string& text, std::string_view separators = ",");
+
 // Without blanks and quotes around it.
 std::string_view trimmed_field(std::string_view text);
 // "sensor [m/s^2]" in its parts.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/upper_median.hpp"
 #include "signals/spectra/lost_samples.hpp"
 
 namespace gearpod::mc {
@@ -26,12 +27,6 @@ double decimals_of(const std::vector<double>& values) {
         }
     }
     return 0.0;
-}
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 // Farthest from even spacing.
@@ -56,7 +51,7 @@ std::string what_is_uneven(const std::vector<double>& time, double unit, double 
             "evenly spaced",
             -*back, back - steps.begin() + 1);
     }
-    const double usual = median_of(steps);
+    const double usual = machine::upper_median(steps);
     const double allowed = std::max(0.5 * std::abs(usual), 1.01 * unit);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         if (std::abs(steps[i] - usual) <= allowed) {

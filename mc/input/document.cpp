@@ -154,18 +154,6 @@ std::string trimmed(std::string_view text) {
     return std::string(text);
 }
 
-std::vector<std::string> split_path(const std::string& path) {
-    std::vector<std::string> parts(1);
-    for (const char c : path) {
-        if (c == '.') {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
-
 Entry* find_entry(Value& table, std::string_view name) {
     const auto found = std::find_if(table.entries.begin(), table.entries.end(),
                                     [&](const Entry& entry) { return entry.name == name; });
@@ -196,6 +184,18 @@ bool overridden(const Entry& entry) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
 
 const Entry* Value::find(std::string_view name) const {
     const auto found = std::find_if(entries.begin(), entries.end(),
@@ -233,7 +233,7 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
 void apply_override(Value& document, const std::string& assignment, Problems& problems) {
     const std::size_t equals = assignment.find('=');
     const std::string path = trimmed(assignment.substr(0, equals));
-    const std::vector<std::string> parts = split_path(path);
+    const std::vector<std::string> parts = split(path, '.');
     const bool empty_part =
         std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
     const std::string file(kOverrideFile);

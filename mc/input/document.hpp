@@ -47,4 +47,7 @@ void drop_overridden_random(Value& document);
 // The whole file; a problem if it cannot be read.
 std::string read_file(const std::string& path, Problems& problems);
 
+// "a.b.c" in its parts; of "" one, which is empty.
+std::vector<std::string> split(const std::string& text, char separator);
+
 }  // namespace gearpod::mc

@@ -48,15 +48,9 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
     return measured;
 }
 
+// Whatever separates the fields of whoever reads it.
 std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\n;\t") == std::string::npos) {
-        return text;
-    }
-    std::string out = "\"";
-    for (const char c : text) {
-        out += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return out + "\"";
+    return csv_field(text, ",;\t");
 }
 
 std::string header_of(const TableColumn& column) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "analysis/detection/threshold.hpp"
@@ -47,27 +48,14 @@ double threshold_of(const Results& frame, std::size_t feature) {
                : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Features in order of rank, those without a rank last.
+// Features in order of rank, if there is one.
 std::vector<std::size_t> ranked(const Results& frame,
                                 const std::optional<analysis::Reliability>& reliability) {
-    std::vector<std::size_t> order;
-    const auto add = [&](std::size_t feature) {
-        if (std::find(order.begin(), order.end(), feature) == order.end()) {
-            order.push_back(feature);
-        }
-    };
     if (reliability && !reliability->rankings.empty()) {
-        for (const analysis::FeatureRank& rank : reliability->rankings.front().ranks) {
-            for (std::size_t f = 0; f < frame.features.size(); ++f) {
-                if (frame.features[f].name == rank.name) {
-                    add(f);
-                }
-            }
-        }
+        return in_rank_order(*reliability, 0);
     }
-    for (std::size_t f = 0; f < frame.features.size(); ++f) {
-        add(f);
-    }
+    std::vector<std::size_t> order(frame.features.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
 }
 

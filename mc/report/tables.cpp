@@ -9,29 +9,17 @@
 
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
+#include "mc/files/text_table.hpp"
 
 namespace gearpod::mc {
 namespace {
 
 using TableJson = nlohmann::json;
 
-// RFC 4180: quoted where a separator, a quote or an end of line is inside.
 std::string field(const TableJson& value) {
-    if (value.is_null()) {
-        return "";
-    }
-    if (!value.is_string()) {
-        return json_text(value);
-    }
-    const auto& text = value.get_ref<const std::string&>();
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return quoted + '"';
+    return value.is_null()     ? ""
+           : value.is_string() ? csv_field(value.get_ref<const std::string&>())
+                               : json_text(value);
 }
 
 class Tables {

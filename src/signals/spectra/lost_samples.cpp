@@ -4,17 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "machine/upper_median.hpp"
+
 namespace gearpod::signals {
 namespace {
 
 constexpr int kFewestTurns = 6;
 constexpr double kAlike = 0.3;  // correlation of turns that sound alike
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // How much earlier `next` sounds than `before`, in samples, and how much alike they are then. Both
 // turns have more samples around them; a lag takes from these.
@@ -66,16 +62,16 @@ std::optional<LostSamples> lost_samples(std::span<const double> samples, int per
         steps.push_back(lag.samples);
         alike.push_back(lag.correlation);
     }
-    if (median_of(alike) < kAlike) {
+    if (machine::upper_median(alike) < kAlike) {
         return std::nullopt;
     }
-    const double usual = median_of(steps);
+    const double usual = machine::upper_median(steps);
     std::vector<double> away;
     for (const double step : steps) {
         away.push_back(std::abs(std::remainder(step - usual, static_cast<double>(per_mesh))));
     }
     constexpr double kLeast = 0.05, kStandsOut = 8.0;
-    const double scatter = std::max(kLeast, 1.4826 * median_of(away));
+    const double scatter = std::max(kLeast, 1.4826 * machine::upper_median(away));
     // The turn that lost them is late in part, so two steps share the loss.
     LostSamples most;
     double largest = 0.0;

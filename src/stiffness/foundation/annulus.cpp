@@ -50,8 +50,6 @@ HarmonicCompliance Annulus::harmonic(int n) const {
                 return power_field(-1, 1, n - 1, r, growing);
             case 2:
                 return power_field(-1, -1, -n - 1, r, falling);
-            default:
-                break;
         }
         if (n > 1)
             return power_field(kappa_ - (1 - n), -(kappa_ + (1 - n)), 1 - n, r, falling);

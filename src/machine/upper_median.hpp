@@ -1,0 +1,17 @@
+// The middle value of a sample in order, of two the upper one.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace gearpod::machine {
+
+// Of at least one value.
+inline double upper_median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace gearpod::machine
