@@ -49,9 +49,12 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seco
                       task_.scene.study().numerics.lanes, false, &task_.marches);
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
+    std::vector<LaneSignals> signals =
+        all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::leave_if_stopped();
-        add_row(ids[lane], computed, static_cast<int>(lane), rows);
+        const LaneSignals own = std::move(signals[lane]);  // freed when its row is done
+        add_row(ids[lane], computed, lane, own, rows);
     }
     const double spent_s = seconds_since(start);
     const double noise = features_.noise_s() - noise_before;
@@ -60,19 +63,17 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seco
          spent_s - noise,     computed.meshes};
 }
 
-void BatchWorker::add_row(const GearboxId& id, const GearboxTile& computed, int lane,
-                          BatchRows& rows) {
+void BatchWorker::add_row(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
+                          const LaneSignals& signals, BatchRows& rows) {
     const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
     rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
-    const Status status = computed.status[static_cast<std::size_t>(lane)];
+    const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 
     std::vector<double> values(shape_.features * shape_.levels,
                                std::numeric_limits<double>::quiet_NaN());
     if (status == Status::ok) {
-        values = features_.compute(
-            lane_signals(task_.scene, task_.path, computed, lane, features_.meshes()),
-            computed.inputs[static_cast<std::size_t>(lane)], id);
+        values = features_.compute(signals, computed.inputs[lane], id);
     }
     rows.values.insert(rows.values.end(), values.begin(), values.end());
 }

@@ -52,7 +52,8 @@ class BatchWorker {
 
   private:
     void add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seconds& seconds);
-    void add_row(const GearboxId& id, const GearboxTile& computed, int lane, BatchRows& rows);
+    void add_row(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
+                 const LaneSignals& signals, BatchRows& rows);
 
     const BatchTask& task_;
     InstanceFeatures features_;

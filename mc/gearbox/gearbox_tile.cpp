@@ -212,13 +212,7 @@ GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const sign
     auto start = WallClock::now();
     const unsigned needs = needs_of(used_features(scene.study()));
     const int meshes = needs_samples(needs) ? scene.signal_meshes() : 0;
-    std::vector<LaneSignals> signals(ids.size());
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        if (tile.status[lane] == Status::ok) {
-            signals[lane] = lane_signals(scene, path, tile, static_cast<int>(lane), meshes);
-        }
-    }
-    tile.baseline = std::move(signals);
+    tile.baseline = all_lane_signals(scene, path, tile, meshes);
     tile.signals_s += lap(start);
     tile.march = {};
     tile.views = {};
@@ -282,8 +276,10 @@ GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const sign
     return tile;
 }
 
-LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
-                         int lane, int meshes) {
+namespace {
+
+// All but the sensor's samples.
+LaneSignals folded_lane(const GearboxTile& tile, int lane) {
     const auto lanes = static_cast<std::size_t>(tile.views.lanes);
     LaneSignals own;
     own.folded.resize(tile.folded.size() / lanes);
@@ -293,12 +289,38 @@ LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, cons
     if (!tile.baseline.empty()) {
         own.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
     }
+    return own;
+}
+
+}  // namespace
+
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    LaneSignals own = folded_lane(tile, lane);
     if (meshes > 0) {
         own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
                                          tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
                                          0, meshes, tile.tones);
     }
     return own;
+}
+
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
+                                          const GearboxTile& tile, int meshes) {
+    std::vector<LaneSignals> all;
+    std::vector<double> exponents;
+    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
+        all.push_back(folded_lane(tile, static_cast<int>(lane)));
+        exponents.push_back(tile.inputs[lane].path_exponent);
+    }
+    if (meshes > 0) {
+        auto sensor = signals::synthesize(tile.views, tile.march.content, scene.span(), path,
+                                          exponents, 0, meshes, tile.tones);
+        for (std::size_t lane = 0; lane < all.size(); ++lane) {
+            all[lane].sensor = std::move(sensor[lane]);
+        }
+    }
+    return all;
 }
 
 }  // namespace gearpod::mc

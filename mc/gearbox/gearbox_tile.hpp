@@ -66,5 +66,8 @@ GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const sign
 // `meshes`: mesh periods of sensor signal, 0 for none.
 LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
                          int lane, int meshes);
+// The same of all gearboxes asked for, at once.
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
+                                          const GearboxTile& tile, int meshes);
 
 }  // namespace gearpod::mc

@@ -72,12 +72,11 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
             ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
         }
         const GearboxTile tile = run_gearboxes(scene, sampler, path, ids, lanes);
+        const auto signals = all_lane_signals(scene, path, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::leave_if_stopped();
             if (tile.status[lane] == Status::ok) {
-                const int l = static_cast<int>(lane);
-                const LaneSignals own = lane_signals(scene, path, tile, l, records.meshes());
-                records.load(own, tile.inputs[lane], ids[lane]);
+                records.load(signals[lane], tile.inputs[lane], ids[lane]);
                 for (std::size_t level = 0; level < levels; ++level) {
                     mean.add(level, records.at(level));
                 }

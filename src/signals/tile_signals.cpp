@@ -17,12 +17,26 @@ constexpr int kMaxPlanets = 8;
 }  // namespace
 
 void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::span<double> out) {
-    if (lane < 0 || lane >= lanes || interleaved.size() != out.size() * lanes) {
-        throw std::invalid_argument(fmt::format("lane {} of {}: {} values do not fill {}", lane,
-                                                lanes, interleaved.size(), out.size()));
+    if (interleaved.size() != out.size() * static_cast<std::size_t>(lanes)) {
+        fail(fmt::format("{} values of {} lanes do not fill {}", interleaved.size(), lanes,
+                         out.size()));
     }
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = interleaved[i * lanes + lane];
+    copy_lanes(interleaved, lanes, lane, out);
+}
+
+void copy_lanes(std::span<const double> interleaved, int lanes, int first, std::span<double> out) {
+    const std::size_t all = static_cast<std::size_t>(lanes), values = interleaved.size() / all;
+    const std::size_t some = values > 0 ? out.size() / values : 0;
+    if (first < 0 || first >= lanes || some > all - static_cast<std::size_t>(first) ||
+        values * all != interleaved.size() || some * values != out.size()) {
+        fail(fmt::format("{} values of {} lanes from lane {} on do not fill {}", interleaved.size(),
+                         lanes, first, out.size()));
+    }
+    const double* from = interleaved.data() + first;
+    for (std::size_t i = 0; i < values; ++i, from += all) {
+        for (std::size_t n = 0; n < some; ++n) {
+            out[n * values + i] = from[n];
+        }
     }
 }
 

@@ -46,6 +46,10 @@ struct TileSignals {
 // One lane of a lane-interleaved array, contiguous: out[i] = interleaved[i * lanes + lane].
 void copy_lane(std::span<const double> interleaved, int lanes, int lane, std::span<double> out);
 
+// The lanes from `first` on, one after the other: out[n * values + i] is lane first + n's i-th of
+// `values` values. Reads the array once for all of them.
+void copy_lanes(std::span<const double> interleaved, int lanes, int first, std::span<double> out);
+
 // Throws std::invalid_argument, saying what is wrong, unless lanes are 16, 8, 4 or 1, planets 1..8,
 // phases positive, every mesh has both arrays, and the timeline names only recorded meshes.
 void check_tile(const TileSignals& tile, const Timeline& timeline);

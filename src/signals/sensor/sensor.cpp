@@ -1,6 +1,9 @@
 #include "signals/sensor/sensor.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "signals/sensor/time_signal.hpp"
 
@@ -20,36 +23,71 @@ Tones of_lane(const Tones& tones, int lanes, int lane) {
             every(tones.amplitude_m_s2, lanes, lane), every(tones.phase_rad, lanes, lane)};
 }
 
+// Lanes that are read together: as many as one line of the cache holds.
+constexpr int kTogether = 8;
+
+// Of the lanes from `first` on.
+std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
+                                            const Timeline& timeline, const SpanLayout& layout,
+                                            const PathGrid& path,
+                                            std::span<const double> path_exponent, int first_mesh,
+                                            int mesh_count, const Tones& tones) {
+    const int lanes = static_cast<int>(path_exponent.size());
+    check_tile(tile, timeline);
+    if (first < 0 || lanes > tile.lanes - first || first_mesh < 0 || mesh_count < 0 ||
+        path.planets() != tile.planets || path.phases() != tile.phases ||
+        path.positions() != layout.carrier_meshes) {
+        throw std::invalid_argument("sensor signal: tile, path and layout disagree in shape");
+    }
+    const std::size_t values = static_cast<std::size_t>(tile.phases) * tile.channels();
+    std::vector<double> whole_steps(path.positions() / 2 + 1), accel(values * lanes);
+    std::vector<std::vector<double>> weight, signal;
+    std::vector<ToneTable> table;
+    for (int n = 0; n < lanes; ++n) {
+        weight.emplace_back(static_cast<std::size_t>(path.positions()) * tile.phases *
+                            tile.planets);
+        all_path_weights(path, path_exponent[n], whole_steps.data(), weight.back().data());
+        signal.emplace_back(static_cast<std::size_t>(mesh_count) * tile.phases);
+        table.emplace_back(of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
+                           tile.phases);
+    }
+    for (int i = 0; i < mesh_count; ++i) {
+        const long k = static_cast<long>(first_mesh) + i;
+        const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
+        copy_lanes({mesh, values * tile.lanes}, tile.lanes, first, accel);
+        for (int n = 0; n < lanes; ++n) {
+            double* samples = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
+            mesh_signal(path, weight[n].data(), static_cast<int>(k % path.positions()),
+                        accel.data() + n * values, samples);
+            if (table[n].tones() > 0) {
+                add_tones(table[n], i, mesh_count, tile.phases, samples);
+            }
+        }
+    }
+    return signal;
+}
+
 }  // namespace
 
 std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
                                int first_mesh, int mesh_count, const Tones& tones) {
-    check_tile(tile, timeline);
-    if (lane < 0 || lane >= tile.lanes || first_mesh < 0 || mesh_count < 0 ||
-        path.planets() != tile.planets || path.phases() != tile.phases ||
-        path.positions() != layout.carrier_meshes) {
-        throw std::invalid_argument("sensor signal: tile, path and layout disagree in shape");
-    }
-    const std::size_t places = static_cast<std::size_t>(path.positions()) * tile.phases;
-    std::vector<double> whole_steps(path.positions() / 2 + 1);
-    std::vector<double> weight(places * tile.planets);
-    all_path_weights(path, path_exponent, whole_steps.data(), weight.data());
+    return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1}, first_mesh,
+                                mesh_count, tones)
+                         .front());
+}
 
-    const std::size_t values = static_cast<std::size_t>(tile.phases) * tile.channels();
-    std::vector<double> accel(values);
-    std::vector<double> signal(static_cast<std::size_t>(mesh_count) * tile.phases);
-    const ToneTable table(of_lane(tones, tile.lanes, lane), 1, first_mesh, mesh_count, tile.phases);
-    for (int i = 0; i < mesh_count; ++i) {
-        const long k = static_cast<long>(first_mesh) + i;
-        const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
-        copy_lane({mesh, values * tile.lanes}, tile.lanes, lane, accel);
-        double* samples = signal.data() + static_cast<std::size_t>(i) * tile.phases;
-        mesh_signal(path, weight.data(), static_cast<int>(k % path.positions()), accel.data(),
-                    samples);
-        if (table.tones() > 0) {
-            add_tones(table, i, mesh_count, tile.phases, samples);
-        }
+std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
+                                            const SpanLayout& layout, const PathGrid& path,
+                                            std::span<const double> path_exponent, int first_mesh,
+                                            int mesh_count, const Tones& tones) {
+    std::vector<std::vector<double>> signal;
+    for (std::size_t n = 0; n < path_exponent.size(); n += kTogether) {
+        auto some = signals_of(
+            tile, static_cast<int>(n), timeline, layout, path,
+            path_exponent.subspan(n, std::min<std::size_t>(kTogether, path_exponent.size() - n)),
+            first_mesh, mesh_count, tones);
+        std::move(some.begin(), some.end(), std::back_inserter(signal));
     }
     return signal;
 }

@@ -1,6 +1,7 @@
 // The sensor's time signal, sample by sample, for looking at a gearbox and for exporting it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "signals/noise/tones.hpp"
@@ -16,5 +17,12 @@ namespace gearpod::signals {
 std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
                                int first_mesh, int mesh_count, const Tones& tones = {});
+
+// The same bits for the first lanes of a tile, as many as there are exponents, which read what was
+// recorded once for several of them.
+std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
+                                            const SpanLayout& layout, const PathGrid& path,
+                                            std::span<const double> path_exponent, int first_mesh,
+                                            int mesh_count, const Tones& tones = {});
 
 }  // namespace gearpod::signals
