@@ -93,10 +93,10 @@ void print_shifts(const Scene& scene) {
     for (const Member member : kAllMembers) {
         if (has_toothed_member(study.gearbox.kind, member)) {
             const gears::Gear gear = gear_of(study, member);
-            shifts +=
-                fmt::format("{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)",
-                            shifts.empty() ? "" : "; ", member_name(member), gear.profile_shift,
-                            2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
+            shifts += fmt::format(
+                "{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)", shifts.empty() ? "" : "; ",
+                member_name(member), gear.profile_shift / normal_over_transverse(study.gearbox),
+                2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
         }
     }
     print_entry("profile shifts", shifts);
@@ -115,6 +115,15 @@ void print_shifts(const Scene& scene) {
     }
 }
 
+// What a helical pair's contact ratio consists of.
+std::string helical_parts(const stiffness::MeshStiffness& mesh) {
+    const double transverse = mesh.slice().contact_ratio();
+    return transverse < mesh.contact_ratio()
+               ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
+                             mesh.contact_ratio() - transverse)
+               : "";
+}
+
 void print_gearbox(const Scene& scene) {
     print_heading("gearbox");
     if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
@@ -124,9 +133,10 @@ void print_gearbox(const Scene& scene) {
     }
     print_shifts(scene);
     for (const SceneMesh& mesh : scene.meshes()) {
-        print_entry((mesh_name(mesh.members) + " mesh").c_str(),
-                    fmt::format("contact ratio {:.4f}, mean {:.4g} N/m",
-                                mesh.stiffness->contact_ratio(), mean_total(*mesh.stiffness)));
+        print_entry(
+            (mesh_name(mesh.members) + " mesh").c_str(),
+            fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
+                        helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
     }
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
 }

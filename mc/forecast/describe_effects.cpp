@@ -156,7 +156,7 @@ void print_meshes(const Study& study) {
     }
     if (has_static_errors(study)) {
         print_entry("transmission error", has_relief(study)
-                                              ? "tip and root relief under the nominal load, and "
+                                              ? "relief and crowning under the nominal load, and "
                                                 "harmonics of the mesh period if given"
                                               : "harmonics of the mesh period");
     }
@@ -283,6 +283,9 @@ void print_left_out(const Scene& scene) {
     print_driving_left_out(study);
     if (!stiffness_given(study) && e.foundation == Foundation::none) {
         print_entry("gear bodies", "effects.foundation = \"none\"");
+    }
+    if (study.gearbox.helix_angle_rad > 0.0) {
+        print_entry("axial motion, tilting", "helical gears move in the transverse plane only");
     }
     if (study.fault.kind == nullptr) {
         print_entry("fault", "fault.kind = \"none\"");

@@ -147,9 +147,10 @@ class LaneTeeth {
             const lockstep::PairSet& pairs = scene_.pairs();
             for (const int which : {0, 1}) {
                 if (static_cast<std::size_t>(teeth.gear[which]) == side) {
-                    const double ratio = pairs.curve(pair).contact_ratio();
+                    const stiffness::MeshStiffness& mesh = pairs.curve(pair);
+                    const double ratio = mesh.slice().contact_ratio();
                     const bool outwards = (which == teeth.driver) != pairs.reversed;
-                    return {0.5 * ratio - (pairs.pitch_phase(pair) - pairs.start[p]),
+                    return {0.5 * mesh.contact_ratio() - (pairs.pitch_phase(pair) - pairs.start[p]),
                             outwards ? ratio : -ratio};
                 }
             }

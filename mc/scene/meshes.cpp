@@ -4,6 +4,7 @@
 #include "mc/scene/scene_error.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
+#include "stiffness/helical_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
 namespace gearpod::mc {
@@ -70,7 +71,7 @@ std::unique_ptr<const stiffness::LoadedMesh> make_loaded(const Study& study, dou
     return std::make_unique<const stiffness::LoadedMesh>(
         *mesh.stiffness,
         [geometry, one, two](double tau) { return gears::relief_gap(geometry, one, two, tau); },
-        gears::relief_kinks(geometry, one, two), force_N);
+        gears::relief_kinks(geometry, one, two), force_N, one.crowning_m + two.crowning_m);
 }
 
 }  // namespace
@@ -98,6 +99,10 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
                     *mesh.geometry, material_of(study), profile_of(study),
                     study.numerics.stiffness_tolerance);
             }
+        }
+        if (!stiffness_given(study) && study.gearbox.helix_angle_rad > 0.0) {
+            mesh.stiffness = std::make_unique<const stiffness::HelicalMesh>(
+                std::move(mesh.stiffness), overlap_ratio(study));
         }
         mesh.loaded = make_loaded(study, force_N, mesh);
         meshes.push_back(std::move(mesh));

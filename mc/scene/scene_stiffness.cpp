@@ -5,9 +5,11 @@
 namespace gearpod::mc {
 namespace {
 
-gears::DeviationScales grade_5(const gears::Gear& gear) {
-    return gears::scales_of(gears::tooth_tolerances(gear.module_m, 2.0 * gear.pitch_radius(), 5.0),
-                            gear.teeth, gear.pressure_angle_rad);
+gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) {
+    const double normal_module_m = gear.module_m * normal_over_transverse(gearbox);
+    return gears::scales_of(
+        gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
+        gear.pressure_angle_rad);
 }
 
 }  // namespace
@@ -21,7 +23,7 @@ SceneStiffness::SceneStiffness(const Study& study, const Drive& drive)
                            mean_total(*mesh.stiffness));
         for (const Member member : {mesh.members.driver, mesh.members.driven}) {
             if (has_tooth_quality(study) && tooth_scales_[member].pitch == 0.0) {
-                tooth_scales_[member] = grade_5(gear_of(study, member));
+                tooth_scales_[member] = grade_5(study.gearbox, gear_of(study, member));
             }
         }
     }

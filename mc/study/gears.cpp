@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "dynamics/helical_pair.hpp"
@@ -124,7 +126,7 @@ bool stiffness_given(const Study& study) {
 
 bool has_gears(const Study& study) {
     const auto meshes = meshes_of(study.gearbox.kind);
-    return study.gearbox.module_m &&
+    return study.gearbox.transverse_module_m() &&
            std::all_of(meshes.begin(), meshes.end(), [&](const MeshMembers& mesh) {
                return teeth_of(study, mesh.driver) && teeth_of(study, mesh.driven);
            });
@@ -137,6 +139,10 @@ double transverse_pressure_angle_rad(const Gearbox& gearbox) {
                                                      gearbox.helix_angle_rad);
 }
 
+double normal_over_transverse(const Gearbox& gearbox) {
+    return std::cos(gearbox.helix_angle_rad);
+}
+
 namespace {
 
 gears::Gear standard_gear(const Study& study, Member member) {
@@ -144,10 +150,10 @@ gears::Gear standard_gear(const Study& study, Member member) {
     gears::Gear gear;
     gear.teeth = teeth_of(study, member).value();
     gear.internal = member == Member::ring;
-    gear.module_m = gearbox.module_m.value();
+    gear.module_m = gearbox.transverse_module_m().value();
     gear.pressure_angle_rad = transverse_pressure_angle_rad(gearbox);
-    gear.addendum_coefficient = gearbox.addendum_coefficient;
-    gear.dedendum_coefficient = gearbox.dedendum_coefficient;
+    gear.addendum_coefficient = gearbox.addendum_coefficient * normal_over_transverse(gearbox);
+    gear.dedendum_coefficient = gearbox.dedendum_coefficient * normal_over_transverse(gearbox);
     return gear;
 }
 
@@ -184,8 +190,15 @@ gears::WorkingShifts working_shifts(const Study& study) {
     }
     const Gearbox& g = study.gearbox;
     const auto [first, second] = shifted_pair(study);
-    const gears::DrawnShifts drawn{g.bodies[first].profile_shift, g.bodies[second].profile_shift,
-                                   g.bodies[Member::ring].profile_shift, g.centre_distance_m};
+    const auto transverse = [&](Member member) {
+        std::optional<double> shift = g.bodies[member].profile_shift;
+        if (shift) {
+            *shift *= normal_over_transverse(g);
+        }
+        return shift;
+    };
+    const gears::DrawnShifts drawn{transverse(first), transverse(second), transverse(Member::ring),
+                                   g.centre_distance_m};
     const gears::Gear gear_1 = standard_gear(study, first), gear_2 = standard_gear(study, second);
     if (g.kind == GearboxKind::fixed_shaft) {
         return gears::working_shifts(gear_1, gear_2, nullptr, drawn);
@@ -212,22 +225,22 @@ gears::Gear gear_of(const Study& study, Member member) {
 
 double centre_distance_m(const Study& study) {
     const auto [first, second] = shifted_pair(study);
-    const double standard = 0.5 * study.gearbox.module_m.value() *
+    const double standard = 0.5 * study.gearbox.transverse_module_m().value() *
                             (teeth_of(study, first).value() + teeth_of(study, second).value());
     return working_shifts(study).centre_distance_m.value_or(standard);
 }
 
 gears::PlanetRoom planet_room(const Study& study) {
-    const double module = study.gearbox.module_m.value();
+    const double module = study.gearbox.transverse_module_m().value();
     return {centre_distance_m(study) / module,
             2.0 * gear_of(study, Member::planet).tip_radius() / module};
 }
 
 gears::FlankRelief relief_of(const Study& study, Member member) {
     const MemberValues& given = study.gearbox.bodies[member];
-    return {given.tip_relief_m.value_or(0.0), given.tip_relief_length_m.value_or(0.0),
+    return {given.tip_relief_m.value_or(0.0),  given.tip_relief_length_m.value_or(0.0),
             given.root_relief_m.value_or(0.0), given.root_relief_length_m.value_or(0.0),
-            study.gearbox.relief_shape};
+            study.gearbox.relief_shape,        given.crowning_m.value_or(0.0)};
 }
 
 bool has_relief(const Study& study) {
@@ -262,8 +275,16 @@ stiffness::Profile profile_of(const Study& study) {
 
 stiffness::Material material_of(const Study& study) {
     const Gearbox& g = study.gearbox;
-    return {g.young_modulus_Pa.value(), g.poisson_ratio.value(), g.face_width_m.value(),
-            study.effects.shear};
+    stiffness::Material material{g.young_modulus_Pa.value(), g.poisson_ratio.value(),
+                                 g.face_width_m.value(), study.effects.shear};
+    stiffness::set_helix(g.helix_angle_rad, g.pressure_angle_rad, material);
+    return material;
+}
+
+double overlap_ratio(const Study& study) {
+    const Gearbox& g = study.gearbox;
+    return g.face_width_m.value() * std::tan(g.helix_angle_rad) /
+           (std::numbers::pi * g.transverse_module_m().value());
 }
 
 }  // namespace gearpod::mc

@@ -73,6 +73,9 @@ bool has_gears(const Study& study);
 // The pressure angle in the plane in which the gears turn.
 double transverse_pressure_angle_rad(const Gearbox& gearbox);
 
+// Modules: heights of teeth and shifts are counted in the normal one, a gears::Gear's in its own.
+double normal_over_transverse(const Gearbox& gearbox);
+
 // A toothed member of the study's gearbox, whose tooth number and module must be given. Helical
 // gears stand for the spur gears that they are in the transverse plane.
 gears::Gear gear_of(const Study& study, Member member);
@@ -82,5 +85,8 @@ stiffness::Profile profile_of(const Study& study);
 
 // What they are made of, and how wide. They must not be without a face width.
 stiffness::Material material_of(const Study& study);
+
+// Mesh periods by which helical teeth engage later at one end of the face width than at the other.
+double overlap_ratio(const Study& study);
 
 }  // namespace gearpod::mc

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -66,6 +67,7 @@ struct MemberValues {
     std::optional<double> tip_diameter_m;  // by the usual rules if not given
     // Ground off every flank, lengths along the line of action from the end of contact.
     std::optional<double> tip_relief_m, tip_relief_length_m, root_relief_m, root_relief_length_m;
+    std::optional<double> crowning_m;
     // Of the foundation: diameter of the bore, of a ring the outer one.
     std::optional<double> held_diameter_m;
     std::optional<double> mass_kg;
@@ -95,9 +97,9 @@ struct Gearbox {
     int planets = 0;
     EachMember<MemberValues> bodies;
     EachMesh<MeshValues> meshes;
-    std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
-    std::optional<double> module_m;
-    std::optional<double> centre_distance_m;  // at which the gears work
+    std::vector<double> planet_positions_rad;         // ascending from 0; empty: equally spaced
+    std::optional<double> module_m, normal_module_m;  // transverse, of helical teeth; one of them
+    std::optional<double> centre_distance_m;          // at which the gears work
     double pressure_angle_rad = 0.0;
     double helix_angle_rad = 0.0;
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
@@ -110,6 +112,11 @@ struct Gearbox {
     double support_damping_N_s_m = 0.0;
     std::optional<double> mesh_damping_ratio, mesh_damping_time_s, mesh_damping_N_s_m;
     std::optional<double> backlash_m;  // 2b along the line of action
+
+    // In the plane in which the gears turn.
+    std::optional<double> transverse_module_m() const {
+        return normal_module_m ? *normal_module_m / std::cos(helix_angle_rad) : module_m;
+    }
 
     // Planetary: of all three or of none; without them only the modes of a constant-stiffness
     // gearbox are defined.

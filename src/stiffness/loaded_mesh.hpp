@@ -7,6 +7,11 @@
 // push. Munro (1989); Smith, Gear Noise and Vibration (2003): with relief from the end of single
 // contact on whose amount at the tip is the deflection of one pair, d is constant at that load.
 // Pairs coupled through elastic bodies have the k_j of all of them in contact, as the march has.
+//
+// Across the face the teeth are thin slices (helical_mesh.hpp), each of which only pushes: those of
+// helical teeth are touched one after the other, and crowning, a parabola that leaves its amount at
+// both ends, gives each a gap of its own. Crowned spur teeth that touch on their whole width
+// approach by a third of the crowning more.
 #pragma once
 
 #include <functional>
@@ -18,10 +23,11 @@ namespace gearpod::stiffness {
 
 class LoadedMesh {
   public:
-    // gap(tau): m, of the tooth pair tau mesh periods after its engagement began; kinks: where it
-    // is not smooth, ascending. The mesh must outlive it.
+    // gap(tau): m, of a slice of the tooth pair tau mesh periods after its engagement began; kinks:
+    // where it is not smooth, ascending; crowning: of both gears together. The mesh must outlive
+    // it.
     LoadedMesh(const MeshStiffness& mesh, std::function<double(double)> gap,
-               std::vector<double> kinks, double force_N);
+               std::vector<double> kinks, double force_N, double crowning_m = 0);
 
     double force_N() const { return force_; }
     // d, m, at a position within the stretch of `inside` (mesh_stiffness.hpp).
@@ -42,9 +48,21 @@ class LoadedMesh {
     const std::vector<double>& phases() const { return phases_; }
 
   private:
+    struct TouchingPair {
+        double stiffness, gap;
+    };
+    static double approach_of(std::vector<TouchingPair> pairs, double force);
+    // The tooth pairs of a slice that stands at tau, `part` of the width.
+    void add_slice(double tau, double inside, double part, double gap,
+                   std::vector<TouchingPair>& pairs) const;
+    // `part` of the width where the slices' positions run from `begin` to `end`, smoothly.
+    void add_slices(double begin, double end, double tau, std::vector<TouchingPair>& pairs) const;
+
     const MeshStiffness& mesh_;
+    const MeshStiffness& slice_;  // of the whole width
     std::function<double(double)> gap_;
-    double force_;
+    double force_, crowning_, overlap_;
+    std::vector<double> slice_phases_;  // where the slices' stiffness jumps or their gap kinks
     std::vector<double> phases_;
 };
 

@@ -43,6 +43,12 @@ class MeshStiffness {
     virtual double contact_ratio() const = 0;
     // Mesh periods from the start of an engagement to the contact at the pitch point.
     virtual double pitch_position() const = 0;
+    // Where on its flank a tooth pair is touched on average at tau: -1/2 to 1/2 from its one end to
+    // the other. Of spur teeth linear in tau.
+    virtual double flank_place(double tau) const { return tau / contact_ratio() - 0.5; }
+    // The spur pair that the slices of a helical one are, as wide as all of them; a spur pair
+    // itself.
+    virtual const MeshStiffness& slice() const { return *this; }
     // Total stiffness, N/m, at ascending positions within one stretch.
     virtual void total(std::span<const double> tau, double inside,
                        std::span<double> stiffness) const = 0;

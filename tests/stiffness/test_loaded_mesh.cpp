@@ -1,10 +1,12 @@
 // The loaded static transmission error, without and with relief.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "gears/flank_relief.hpp"
 #include "stiffness/additive_mesh.hpp"
+#include "stiffness/helical_mesh.hpp"
 #include "stiffness/loaded_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
@@ -121,4 +123,54 @@ TEST_CASE("on involute teeth the best long relief is near one pair's deflection"
               Approx((loaded.error(tau + 1e-4, tau) - loaded.error(tau - 1e-4, tau)) / 2e-4)
                   .margin(1e-3 * deflection));
     }
+}
+
+// F = k (d - C / 3) where the whole width touches, F = 2/3 k d^(3/2) / C^(1/2) where its middle
+// does.
+TEST_CASE("crowned teeth approach as the parabola's integral says") {
+    const auto flat = [](double) { return 0.0; };
+    const double alone = 0.8;  // one pair touches
+    const double crowning = 0.3 * kDeflection, more = 5 * kDeflection;
+    CHECK(LoadedMesh(kAlike, flat, {}, kForce, crowning).approach(alone, alone) ==
+          Approx(kDeflection + crowning / 3).epsilon(1e-12));
+    CHECK(LoadedMesh(kAlike, flat, {}, kForce, more).approach(alone, alone) ==
+          Approx(std::pow(1.5 * kDeflection * std::sqrt(more), 2.0 / 3)).epsilon(1e-2));
+    CHECK(LoadedMesh(kAlike, flat, {}, kForce, 0.0).approach(alone, alone) ==
+          LoadedMesh(kAlike, flat, {}, kForce).approach(alone, alone));
+}
+
+// The force over the approach, summed over ten thousand slices that only push.
+TEST_CASE("relieved and crowned helical teeth carry their load slice by slice") {
+    const gears::MeshGeometry geometry = spur(23, 47);
+    const Material material{2.06e11, 0.3, 0.03};
+    const double overlap = 0.8, amount = 12e-6, crowning = 6e-6;
+    const gears::FlankRelief tip{amount, 3e-3, 0, 0};
+    const auto gap = [&](double tau) { return gears::relief_gap(geometry, tip, tip, tau); };
+    const AdditiveMesh slices(geometry, material, Profile::root_circle);
+    const HelicalMesh mesh(std::make_unique<AdditiveMesh>(geometry, material, Profile::root_circle),
+                           overlap);
+    const double force = 8e3;
+    const LoadedMesh loaded(mesh, gap, gears::relief_kinks(geometry, tip, tip), force, crowning);
+    constexpr int kSlices = 10000;
+    for (const double tau : {0.05, 0.33, 0.61, 0.92}) {
+        const double d = loaded.approach(tau, tau);
+        double sum = 0;
+        for (int i = 0; i < kSlices; ++i) {
+            const double place = (i + 0.5) / kSlices, begun = tau - overlap * place;
+            const double from_middle = 2 * place - 1;
+            for (int age = -2; age <= 2; ++age) {
+                const double at = begun + age;
+                if (at > 0 && at < slices.contact_ratio())
+                    sum += slices.tooth_pair(at) / kSlices *
+                           std::max(0.0, d - gap(at) - crowning * from_middle * from_middle);
+            }
+        }
+        CHECK(sum == Approx(force).epsilon(3e-3));
+        CHECK(loaded.error(tau, tau) > 0);
+    }
+    // Perfect flanks have no error.
+    const LoadedMesh perfect(
+        mesh, [](double) { return 0.0; }, {}, force);
+    for (const double tau : {0.05, 0.33, 0.92})
+        CHECK(perfect.error(tau, tau) == Approx(0).margin(1e-8 * perfect.approach(tau, tau)));
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 
@@ -70,7 +72,10 @@ Presence tooth_numbers(const Study& s) {
 }
 
 Presence tooth_module(const Study& s) {
-    return s.gearbox.kind == GearboxKind::fixed_shaft
+    return s.gearbox.normal_module_m ? Presence{Need::forbidden,
+                                                "gearbox.normal_module_mm is given",
+                                                {"gearbox.normal_module_mm"}}
+           : s.gearbox.kind == GearboxKind::fixed_shaft
                ? Presence{Need::required, "gearbox.kind is \"fixed-shaft\"", {"gearbox.kind"}}
                : tooth_numbers(s);
 }
@@ -83,8 +88,9 @@ Presence shifted_teeth(const Study& s) {
 }
 
 Presence relief_shape(const Study& s) {
-    return has_relief(s) ? kOptional
-                         : Presence{Need::forbidden, "only with tip or root relief", {}};
+    const bool any = std::any_of(kAllMembers.begin(), kAllMembers.end(),
+                                 [&](Member member) { return relief_of(s, member).of_profile(); });
+    return any ? kOptional : Presence{Need::forbidden, "only with tip or root relief", {}};
 }
 
 Presence relief_length(const Study& s, Member member, std::string_view end) {
@@ -110,15 +116,6 @@ Presence tooth_model(const Study& s) {
                                          "gearbox.tooth_profile",
                                          {kProfile}}
                               : kOptional;
-}
-
-Presence helix(const Study& s) {
-    return stiffness_given(s)
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only for gearbox.tooth_profile = \"constant\" or \"square-wave\": "
-                          "the tooth profiles are those of spur gears",
-                          {kProfile}};
 }
 
 Presence constant_stiffness(const Study& s) {
@@ -227,7 +224,7 @@ Presence mass(const Study& s) {
 }
 
 Presence inertia(const Study& s) {
-    return s.gearbox.has_teeth() && s.gearbox.module_m
+    return s.gearbox.has_teeth() && s.gearbox.transverse_module_m()
                ? kOptional
                : Presence{Need::forbidden,
                           "its radius is unknown without tooth numbers and module",

@@ -36,7 +36,6 @@ Presence shifted_teeth(const Study&);       // only if the gears are known
 Presence relief_shape(const Study&);        // only with relief
 Presence tooth_body(const Study&);          // unless the stiffness is given
 Presence tooth_model(const Study&);         // only if it is not
-Presence helix(const Study&);               // only if the stiffness is given
 Presence constant_stiffness(const Study&);  // only if it is
 Presence square_wave(const Study&);         // only if it is
 Presence foundation(const Study&);          // required for one

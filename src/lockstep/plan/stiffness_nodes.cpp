@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
 namespace gearpod::lockstep {

@@ -6,7 +6,11 @@
 
 #include "dynamics/effects/mesh_damping.hpp"
 #include "lockstep/plan/phase_grid.hpp"
-#include "stiffness/mesh_stiffness.hpp"
+
+namespace gearpod::stiffness {
+class FaultyMesh;  // stiffness/mesh_stiffness.hpp: kernels, which read tables, know nothing of it
+class MeshStiffness;
+}  // namespace gearpod::stiffness
 
 namespace gearpod::lockstep {
 

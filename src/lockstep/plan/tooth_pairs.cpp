@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "dynamics/effects/mesh_law.hpp"
+#include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
 namespace gearpod::lockstep {
@@ -28,7 +29,7 @@ double share_at(const PairSet& pairs, int pair, double since, double inside) {
 }  // namespace
 
 double engagement_place(const PairSet& pairs, int pair, double since) {
-    const double place = since / pairs.curve(pair).contact_ratio() - 0.5;
+    const double place = pairs.curve(pair).flank_place(since);
     return pairs.reversed ? -place : place;
 }
 

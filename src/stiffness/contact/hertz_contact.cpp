@@ -7,7 +7,8 @@ namespace gearpod::stiffness {
 HertzContact::HertzContact(const Material& material, Contact contact)
     : contact_(contact),
       unit_(load_dependent() ? 1.37 / (std::pow(material.youngs_modulus_Pa, 0.9) *
-                                       std::pow(material.face_width_m, 0.8))
+                                       std::pow(material.face_width_m, 0.8) *
+                                       std::pow(material.contact_factor, 1.1))
                              : 1 / hertz_stiffness(material)) {}
 
 double HertzContact::compliance(double force_N, double width) const {

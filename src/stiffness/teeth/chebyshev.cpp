@@ -55,6 +55,24 @@ double ChebyshevSeries::operator()(double t) const {
     return value;
 }
 
+ChebyshevSeries ChebyshevSeries::integral_of(std::span<const double> coefficients, double begin,
+                                             double end, double value) {
+    // Integral of T_j: T_(j+1) / 2 (j+1) - T_(j-1) / 2 (j-1); of T_0: T_1.
+    const std::size_t n = coefficients.size();
+    const auto c = [&](std::size_t j) { return j < n ? coefficients[j] : 0.0; };
+    ChebyshevSeries sum(0.0, begin, end);
+    sum.coefficients_.resize(n + 1);
+    double at_begin = 0;
+    for (std::size_t j = 1; j <= n; ++j) {
+        const double before = j == 1 ? 2 * c(0) : c(j - 1);
+        const double own = 0.5 * (end - begin) * (before - c(j + 1)) / (2 * static_cast<double>(j));
+        sum.coefficients_[j] = own;
+        at_begin += j % 2 == 0 ? own : -own;
+    }
+    sum.coefficients_[0] = value - at_begin;
+    return sum;
+}
+
 double ChebyshevSeries::integral() const {
     // Integral of T_j over [-1, 1]: 2 / (1 - j^2) for even j, 0 for odd j.
     double sum = 0;

@@ -53,6 +53,9 @@ class ChebyshevSeries {
     void operator()(std::span<const double> t, std::span<double> values) const {
         evaluate_chebyshev(coefficients_, begin_, end_, t, values);
     }
+    // The integral of the series with these coefficients on [begin, end], from `value` at begin on.
+    static ChebyshevSeries integral_of(std::span<const double> coefficients, double begin,
+                                       double end, double value);
     // Integral over [begin, end].
     double integral() const;
     double begin() const { return begin_; }

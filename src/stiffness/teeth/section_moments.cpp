@@ -22,13 +22,14 @@ double bending_compliance(const SectionMoments& m, const ToothProfile& profile,
     const double root_arm = profile.base_radius() - profile.root_axial() * cosine;
     return (root_arm * (root_arm * m.bending[0] - 2 * cosine * m.bending[1]) +
             cosine * cosine * m.bending[2]) /
-           (material.youngs_modulus_Pa * material.face_width_m);
+           (material.bending_factor * material.youngs_modulus_Pa * material.face_width_m);
 }
 
 double shear_compliance(const SectionMoments& m, const Material& material, double cosine) {
-    return material.shear_energy ? 2.4 * (1 + material.poisson_ratio) * cosine * cosine * m.shear /
-                                       (material.youngs_modulus_Pa * material.face_width_m)
-                                 : 0;
+    return material.shear_energy
+               ? 2.4 * (1 + material.poisson_ratio) * cosine * cosine * m.shear /
+                     (material.shear_factor * material.youngs_modulus_Pa * material.face_width_m)
+               : 0;
 }
 
 double axial_compliance(const SectionMoments& m, const Material& material, double sine) {

@@ -31,7 +31,8 @@ class BeamIntegrals {
           cosine_(std::cos(contact_angle)),
           sine_(std::sin(contact_angle)),
           stretch_(material.youngs_modulus_Pa * material.face_width_m),
-          shear_(stretch_ / (2 * (1 + material.poisson_ratio))),
+          bend_(material.bending_factor * stretch_),
+          shear_(material.shear_factor * stretch_ / (2 * (1 + material.poisson_ratio))),
           shear_energy_(material.shear_energy) {}
 
     template <typename Axial, typename Slope, typename Thickness>
@@ -40,7 +41,7 @@ class BeamIntegrals {
         const auto bending = [&](double p) {
             const double arm = base_radius_ - axial(p) * cosine_;
             const double t = thickness(p);
-            return 12 * arm * arm * slope(p) / (stretch_ * t * t * t);
+            return 12 * arm * arm * slope(p) / (bend_ * t * t * t);
         };
         const auto shear = [&](double p) {
             return 1.2 * cosine_ * cosine_ * slope(p) / (shear_ * thickness(p));
@@ -62,7 +63,7 @@ class BeamIntegrals {
 
   private:
     double base_radius_, cosine_, sine_;
-    double stretch_, shear_;  // E L, G L
+    double stretch_, bend_, shear_;  // E L, G L, with the helix
     bool shear_energy_;
     ToothCompliance sum_;
 };

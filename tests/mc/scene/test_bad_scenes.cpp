@@ -140,10 +140,6 @@ const BadScene kBadScenes[] = {
      "a quasi-static gearbox has no accelerations"},
     {kQuasiStaticStudy, "motion = \"quasi-static-torsional\"", "motion = \"quasistatic\"",
      "effects.motion", "did you mean quasi-static?"},
-    {kSpatialCrackStudy, "tooth_profile = \"fillet\"",
-     "helix_angle_deg = 7\ntooth_profile = "
-     "\"fillet\"",
-     "gearbox.helix_angle_deg", "are those of spur gears"},
     {kSpatialCrackStudy, "sun_bore_mm = 20\n", "", "gearbox.sun_bore_mm",
      "missing (effects.foundation is not \"none\")"},
     {kSpatialCrackStudy, "sun_bore_mm = 20", "sun_bore_mm = 52", "gearbox.sun_bore_mm",

@@ -1,0 +1,201 @@
+#include "stiffness/helical_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr double kOfMean = 1e-10;    // of the spur pair's mean stiffness
+constexpr double kTogether = 1e-10;  // mesh periods
+
+// Points, ascending, those that coincide once.
+std::vector<double> ordered(std::vector<double> points) {
+    std::sort(points.begin(), points.end());
+    const auto same = [](double a, double b) { return b - a < kTogether; };
+    points.erase(std::unique(points.begin(), points.end(), same), points.end());
+    return points;
+}
+
+// The transitions within [begin, end], and both ends.
+std::vector<double> points_within(std::span<const double> transitions, double begin, double end) {
+    std::vector<double> points{begin, end};
+    for (double period = std::floor(begin); period <= end; ++period)
+        for (const double phase : transitions)
+            if (const double at = period + phase; at > begin + kTogether && at < end - kTogether)
+                points.push_back(at);
+    return ordered(std::move(points));
+}
+
+std::vector<double> helical_transitions(const MeshStiffness& spur, double overlap) {
+    std::vector<double> phases;
+    for (const double phase : spur.transitions())
+        for (const double later : {0.0, overlap}) {
+            const double at = phase + later - std::floor(phase + later);
+            phases.push_back(at > 1 - kTogether ? 0 : at);
+        }
+    return ordered(std::move(phases));
+}
+
+// mean += integral / width over the window of that width which ends at tau, for ascending tau. Of a
+// curve that repeats every mesh period, `inside` lies in the stretch of tau.
+void add_mean(const RunningIntegral& integral, double width, std::span<const double> tau,
+              std::span<double> mean, const double* inside = nullptr) {
+    std::vector<double> t(tau.size()), value(tau.size());
+    for (const bool end : {true, false}) {
+        const double back = end ? 0 : width;
+        const double period = inside ? std::floor(*inside - back) : 0;
+        std::transform(tau.begin(), tau.end(), t.begin(), [&](double at) {
+            return inside ? std::clamp(at - back - period, 0.0, 1.0) : at - back;
+        });
+        integral(t, value);
+        for (std::size_t i = 0; i < t.size(); ++i)
+            mean[i] += (end ? 1 : -1) * (value[i] + period * integral.whole()) / width;
+    }
+}
+
+RunningIntegral integral_of_period(const MeshStiffness& spur, double tolerance) {
+    return {[&](auto t, double inside, auto values) { spur.total(t, inside, values); },
+            points_within(spur.transitions(), 0, 1), tolerance};
+}
+
+// A healthy tooth pair of the spur pair, N/m.
+void spur_pair(const MeshStiffness& spur, std::span<const double> t, double inside,
+               std::span<double> values) {
+    std::vector<double> all(t.size());
+    spur.share(t, inside, values);
+    spur.total(t, inside, all);
+    std::transform(values.begin(), values.end(), all.begin(), values.begin(), std::multiplies<>());
+}
+
+RunningIntegral integral_of_pair(const MeshStiffness& spur, double tolerance) {
+    return {[&](auto t, double inside, auto values) { spur_pair(spur, t, inside, values); },
+            points_within(spur.transitions(), 0, spur.contact_ratio()), tolerance};
+}
+
+double checked(double overlap_ratio) {
+    if (!(overlap_ratio > 0))
+        throw std::invalid_argument(
+            fmt::format("an overlap ratio of {} (must be positive)", overlap_ratio));
+    return overlap_ratio;
+}
+
+}  // namespace
+
+// What the fault takes from the spur pair, integrated: outside its passage nothing.
+class FaultyHelicalMesh : public FaultyMesh {
+  public:
+    FaultyHelicalMesh(const HelicalMesh& healthy, const ToothFault& fault)
+        : healthy_(healthy),
+          spur_(healthy.slice().with_fault(fault)),
+          lost_(integral([&](auto t, double inside, auto values) {
+              std::vector<double> whole(t.size());
+              spur_->total(t, inside, values);
+              healthy_.slice().total(t, inside, whole);
+              subtract(whole, values);
+          })) {}
+
+    double duration() const override { return spur_->duration() + healthy_.overlap_; }
+
+    void total(std::span<const double> tau, double inside,
+               std::span<double> stiffness) const override {
+        healthy_.total(tau, inside, stiffness);
+        add_mean(lost_, healthy_.overlap_, tau, stiffness);
+    }
+
+    void tooth_pair(int tooth, std::span<const double> tau, double inside,
+                    std::span<double> stiffness) const override {
+        std::fill(stiffness.begin(), stiffness.end(), 0.0);
+        if (inside <= tooth || inside >= tooth + healthy_.contact_ratio())
+            return;
+        std::vector<double> own(tau.size());
+        std::transform(tau.begin(), tau.end(), own.begin(), [&](double t) { return t - tooth; });
+        healthy_.one_pair(own, stiffness);
+        std::call_once(teeth_known_, [&] { integrate_tooth_pairs(); });
+        const std::size_t i = static_cast<std::size_t>(tooth - first_tooth());
+        if (tooth >= first_tooth() && i < lost_by_tooth_.size())
+            add_mean(lost_by_tooth_[i], healthy_.overlap_, tau, stiffness);
+    }
+
+  private:
+    static void subtract(std::span<const double> from, std::span<double> values) {
+        std::transform(values.begin(), values.end(), from.begin(), values.begin(), std::minus<>());
+    }
+
+    // Of the tooth pairs of the spur pair that touch during its passage.
+    int first_tooth() const {
+        return 1 - static_cast<int>(std::ceil(healthy_.slice().contact_ratio()));
+    }
+
+    RunningIntegral integral(const RunningIntegral::Curve& curve) const {
+        std::vector<double> points =
+            points_within(healthy_.slice().transitions(), 0, spur_->duration());
+        for (const double jump : spur_->jumps())
+            points.push_back(jump);
+        return {curve, ordered(std::move(points)), healthy_.tolerance_};
+    }
+
+    void integrate_tooth_pairs() const {
+        for (int tooth = first_tooth(); tooth < spur_->duration(); ++tooth)
+            lost_by_tooth_.push_back(integral([&](auto t, double inside, auto values) {
+                std::vector<double> own(t.size()), whole(t.size());
+                std::transform(t.begin(), t.end(), own.begin(),
+                               [&](double at) { return at - tooth; });
+                spur_->tooth_pair(tooth, t, inside, values);
+                spur_pair(healthy_.slice(), own, inside - tooth, whole);
+                subtract(whole, values);
+            }));
+    }
+
+    const HelicalMesh& healthy_;
+    std::unique_ptr<const FaultyMesh> spur_;
+    RunningIntegral lost_;
+    mutable std::once_flag teeth_known_;
+    mutable std::vector<RunningIntegral> lost_by_tooth_;
+};
+
+HelicalMesh::HelicalMesh(std::unique_ptr<const MeshStiffness> spur, double overlap_ratio)
+    : spur_(std::move(spur)),
+      overlap_(checked(overlap_ratio)),
+      tolerance_(kOfMean * mean_total(*spur_)),
+      transitions_(helical_transitions(*spur_, overlap_)),
+      period_(integral_of_period(*spur_, tolerance_)),
+      pair_(integral_of_pair(*spur_, tolerance_)) {}
+
+double HelicalMesh::flank_place(double tau) const {
+    const double ratio = spur_->contact_ratio();
+    const double oldest = std::clamp(tau, 0.0, ratio);
+    const double youngest = std::clamp(tau - overlap_, 0.0, ratio);
+    return 0.5 * (oldest + youngest) / ratio - 0.5;
+}
+
+void HelicalMesh::one_pair(std::span<const double> tau, std::span<double> stiffness) const {
+    add_mean(pair_, overlap_, tau, stiffness);
+}
+
+void HelicalMesh::total(std::span<const double> tau, double inside,
+                        std::span<double> stiffness) const {
+    std::fill(stiffness.begin(), stiffness.end(), 0.0);
+    add_mean(period_, overlap_, tau, stiffness, &inside);
+}
+
+void HelicalMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
+    std::fill(share.begin(), share.end(), 0.0);
+    if (inside < 0 || inside > contact_ratio())
+        return;
+    one_pair(tau, share);
+    std::vector<double> all(tau.size());
+    total(tau, inside, all);
+    std::transform(share.begin(), share.end(), all.begin(), share.begin(), std::divides<>());
+}
+
+std::unique_ptr<const FaultyMesh> HelicalMesh::with_fault(const ToothFault& fault) const {
+    return std::make_unique<FaultyHelicalMesh>(*this, fault);
+}
+
+}  // namespace gearpod::stiffness

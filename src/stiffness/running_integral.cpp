@@ -1,0 +1,58 @@
+#include "stiffness/running_integral.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "stiffness/teeth/position_range.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+constexpr int kNodes = 32;
+constexpr int kResolvedTerms = 26;  // more may hide an error in those that are missing
+constexpr int kMostHalvings = 8;
+
+}  // namespace
+
+RunningIntegral::RunningIntegral(const Curve& curve, std::span<const double> points,
+                                 double tolerance) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        if (points[i] < points[i + 1])
+            add_piece(curve, points[i], points[i + 1], tolerance, kMostHalvings);
+}
+
+void RunningIntegral::add_piece(const Curve& curve, double begin, double end, double tolerance,
+                                int halvings) {
+    static const ChebyshevTransform transform(kNodes);
+    const double middle = 0.5 * (begin + end);
+    std::array<double, kNodes> t, values, coefficients;
+    for (int i = 0; i < kNodes; ++i)  // the points fall
+        t[kNodes - 1 - i] = middle + 0.5 * (end - begin) * transform.points()[i];
+    curve(t, middle, values);
+    std::reverse(values.begin(), values.end());
+    transform.fit(values, coefficients);
+    const int terms = chebyshev_terms(coefficients, tolerance);
+    if (terms > kResolvedTerms && halvings > 0) {
+        add_piece(curve, begin, middle, tolerance, halvings - 1);
+        add_piece(curve, middle, end, tolerance, halvings - 1);
+        return;
+    }
+    pieces_.push_back(ChebyshevSeries::integral_of(
+        std::span(coefficients).first(static_cast<std::size_t>(terms)), begin, end, whole_));
+    whole_ = pieces_.back()(end);
+}
+
+void RunningIntegral::operator()(std::span<const double> t, std::span<double> values) const {
+    std::fill(values.begin(), values.end(), whole_);
+    if (pieces_.empty())
+        return;
+    for (std::size_t i = 0; i < t.size() && t[i] < pieces_.front().begin(); ++i)
+        values[i] = 0;
+    for (const ChebyshevSeries& piece : pieces_) {
+        const auto [first, count] = positions_within(t, piece.begin(), piece.end());
+        piece(t.subspan(first, count), values.subspan(first, count));
+    }
+}
+
+}  // namespace gearpod::stiffness

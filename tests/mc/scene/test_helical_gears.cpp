@@ -1,0 +1,118 @@
+// Studies of helical gears whose stiffness is computed from their teeth.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "gears/working_pair.hpp"
+#include "mc/study/gears.hpp"
+#include "tests/mc/study_example.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using mc::Member;
+using mc::Scene;
+using mc::Study;
+using test::shipped_study;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+double relative_range(const mc::SceneMesh& mesh) {
+    double least = INFINITY, largest = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const double k = total_at(*mesh.stiffness, (i + 0.5) / 200.0);
+        least = std::min(least, k);
+        largest = std::max(largest, k);
+    }
+    return (largest - least) / mean_total(*mesh.stiffness);
+}
+
+}  // namespace
+
+TEST_CASE("A helix of no degrees gives the bits of giving none") {
+    const std::vector<std::string> few{"ensemble.instances=4", "ensemble.threshold_instances=2"};
+    const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
+    std::vector<std::string> all = few;
+    all.push_back("gearbox.helix_angle_deg=0");
+    CHECK(test::feature_bits(test::study_of_text(tests::kExampleStudy, all)) == reference);
+}
+
+TEST_CASE("Helical gears are the gears of their normal module in the transverse plane") {
+    const mc::Study study = shipped_study("wind-turbine-helical.toml", {});
+    const gears::Gear sun = gear_of(study, Member::sun);
+    const double c = std::cos(8.0 * kDegree);
+    CHECK(sun.module_m == Approx(0.012 / c).epsilon(1e-14));
+    CHECK(std::tan(sun.pressure_angle_rad) == Approx(std::tan(20.0 * kDegree) / c));
+    // Tooth heights are those of the normal module.
+    CHECK(sun.tip_radius() - sun.pitch_radius() == Approx(0.012));
+    CHECK(sun.pitch_radius() - sun.root_radius() == Approx(0.015));
+    CHECK(overlap_ratio(study) ==
+          Approx(0.28 * std::sin(8.0 * kDegree) / (std::numbers::pi * 0.012)));
+    // As drawings and ISO 21771 count it, a shift moves the rack by normal modules.
+    const mc::Study shifted = shipped_study("wind-turbine-helical.toml", {"gearbox.sun_shift=0.3"});
+    CHECK(gear_of(shifted, Member::sun).root_radius() - sun.root_radius() == Approx(0.3 * 0.012));
+}
+
+TEST_CASE("A helical set whose overlap is about one hardly varies in stiffness") {
+    const Scene helical(shipped_study("wind-turbine-helical.toml", {}));
+    const Scene spur(shipped_study(
+        "wind-turbine-helical.toml",
+        {"gearbox.helix_angle_deg=0", "gearbox.tooth_quality=5", "gearbox.normal_module_mm=12"}));
+    for (const std::size_t mesh : {0u, 1u}) {
+        const mc::SceneMesh& one = helical.meshes()[mesh];
+        CHECK(one.stiffness->contact_ratio() ==
+              Approx(one.geometry->contact_ratio() + overlap_ratio(helical.study())));
+        CHECK(relative_range(one) < 0.1 * relative_range(spur.meshes()[mesh]));
+    }
+}
+
+// A crack passes over the contact ratio and the overlap: in recorded meshes that are arranged and
+// in meshes that are marched one by one alike.
+TEST_CASE("Reused and marched meshes of a cracked helical gearbox agree") {
+    const auto features = [](std::vector<std::string> overrides) {
+        overrides.insert(overrides.end(),
+                         {"gearbox.helix_angle_deg=12", "operation.carrier_speed_rpm=60",
+                          "sensor.sampling_Hz=20000", "sensor.encoder_sampling_Hz=20000",
+                          "sensor.noise_levels=[0]"});
+        Study study = shipped_study("planet-crack-ideal.toml", overrides);
+        study.ensemble.threshold_instances = 1;
+        study.ensemble.instances = 7;
+        return test::run(study);
+    };
+    const mc::Results reused = features({}), marched = features({"numerics.horizon=march"});
+    for (std::size_t f = 0; f < reused.features.size(); ++f) {
+        INFO(reused.features[f].name);
+        for (std::size_t row = 0; row < reused.status.size(); ++row) {
+            CHECK(reused.features[f].values[row] ==
+                  Approx(marched.features[f].values[row]).epsilon(1e-6).margin(1e-6));
+        }
+    }
+    // The last of the sizes, each drawn once, is the deepest; the first row is healthy.
+    const auto& ratio = reused.features[test::feature_index(reused, "window_ratio")].values;
+    CHECK(ratio.front() == Approx(1.0).epsilon(1e-5));
+    CHECK(*std::max_element(ratio.begin(), ratio.end()) > 1.05);
+}
+
+TEST_CASE("A module is given in one plane") {
+    const auto problems =
+        mc::read_study_text(tests::kExampleStudy, "study.toml",
+                            {"gearbox.helix_angle_deg=8", "gearbox.normal_module_mm=3"})
+            .problems;
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].key == "gearbox.module_mm");
+    CHECK(problems[0].what.find("gearbox.normal_module_mm is given") != std::string::npos);
+}
+
+TEST_CASE("Relief and crowning of helical teeth change the approach under load alone") {
+    const Scene plain(shipped_study("wind-turbine-helical.toml", {}));
+    const Scene ground(
+        shipped_study("wind-turbine-helical.toml",
+                      {"gearbox.sun_crowning_um=10", "gearbox.planet_tip_relief_um=20",
+                       "gearbox.planet_tip_relief_length_mm=10"}));
+    CHECK(mean_total(*ground.meshes()[0].stiffness) == mean_total(*plain.meshes()[0].stiffness));
+    const double before = plain.meshes()[0].loaded->range().mean;
+    CHECK(ground.meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);
+    CHECK(ground.meshes()[0].loaded->range().mean < before + 30e-6);
+}
