@@ -1,0 +1,195 @@
+#include "analysis/monitoring/false_alarms.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/gamma.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Sum {
+    long records = 0;
+    double hours = 0.0;
+};
+
+Sum sum_of(std::span<const HealthyLife> lives) {
+    Sum sum;
+    for (const HealthyLife& life : lives) {
+        sum.records += std::count_if(life.values.begin(), life.values.end(),
+                                     [](double value) { return !std::isnan(value); });
+        sum.hours += life.hours;
+    }
+    return sum;
+}
+
+struct Counted {
+    long alarms = 0;
+    double largest_quiet = -kInfinity;
+};
+
+Counted count(const Detector& detector, std::span<const HealthyLife> lives, double threshold) {
+    Counted counted;
+    for (const HealthyLife& life : lives) {
+        const Watch seen = watch(detector, life.values, threshold);
+        counted.alarms += static_cast<long>(seen.alarms.size());
+        counted.largest_quiet = std::max(counted.largest_quiet, seen.largest_quiet);
+    }
+    return counted;
+}
+
+// The smallest statistic of these lives that leaves at most `most` alarms. Counts change at
+// statistics alone: the largest that stays quiet below a threshold leaves the same alarms as this.
+double smallest_threshold(const Detector& detector, std::span<const HealthyLife> lives, long most) {
+    double high = count(detector, lives, kInfinity).largest_quiet, low = -kInfinity, step = 1.0;
+    while (std::isfinite(high)) {
+        const bool bracketed = std::isfinite(low);
+        const Counted below = count(detector, lives, std::nextafter(high, -kInfinity));
+        if (below.alarms > most || !std::isfinite(below.largest_quiet)) {
+            break;
+        }
+        high = below.largest_quiet;
+        const double lower = bracketed ? low + 0.5 * (high - low) : high - step;
+        step *= 2.0;
+        if (bracketed && lower <= low) {
+            break;
+        }
+        const Counted there = count(detector, lives, lower);
+        if (there.alarms > most) {
+            low = lower;
+        } else if (std::isfinite(there.largest_quiet)) {
+            high = there.largest_quiet;
+        }
+    }
+    return high;
+}
+
+// How the lives' counts scatter beside independent alarms', whose variance is the mean.
+struct Dispersion {
+    double ratio = 1.0;    // of the variance to independent alarms', at least 1
+    double cluster = 1.0;  // alarms that one more life may bring: third moment over the second
+    // By which the ratio is known: F. E. Satterthwaite, Biometrics Bulletin 2 (1946), 110-114, few
+    // where few lives make the variance.
+    double freedom = std::numeric_limits<double>::infinity();
+};
+
+Dispersion dispersion_of(const std::vector<long>& alarms, std::span<const HealthyLife> lives,
+                         double rate) {
+    const auto n = static_cast<double>(lives.size());
+    double squares = 0.0, cubes = 0.0, fourths = 0.0, expected = 0.0, of_independent = 0.0;
+    for (std::size_t i = 0; i < lives.size(); ++i) {
+        const double mean = rate * lives[i].hours;
+        const double away = static_cast<double>(alarms[i]) - mean;
+        squares += away * away;
+        cubes += away * away * away;
+        fourths += away * away * away * away;
+        expected += mean;
+        of_independent += mean + 2.0 * mean * mean;
+    }
+    const double ratio = expected > 0.0 && n > 1.0 ? squares / expected * n / (n - 1.0) : 1.0;
+    if (ratio <= 1.0 + 1e-9) {
+        return {};
+    }
+    // What independent alarms scatter by themselves is no doubt about the ratio.
+    const double scatter = fourths - squares * squares / n - of_independent;
+    return {ratio, std::max(ratio, cubes / squares),
+            scatter > 0.0 ? std::clamp(2.0 * squares * squares / scatter, 1.0, n - 1.0) : n - 1.0};
+}
+
+// Bounds of the mean of a count, M. P. Fay, E. J. Feuer, Statistics in Medicine 16 (1997), 791-801:
+// gamma laws of the count's mean and variance, for the upper bound with one more cluster. Of
+// independent alarms F. Garwood's, Biometrika 28 (1936), 437-442.
+Interval count_bounds(double alarms, const Dispersion& dispersion, double tail) {
+    using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
+    const double variance = dispersion.ratio * alarms;
+    const double more = alarms + dispersion.cluster;
+    const double more_variance = variance + dispersion.cluster * dispersion.cluster;
+    const Gamma below(alarms / dispersion.ratio, dispersion.ratio);
+    const Gamma above(more * more / more_variance, more_variance / more);
+    return {alarms > 0.0 ? boost::math::quantile(below, tail) : 0.0,
+            boost::math::quantile(boost::math::complement(above, tail))};
+}
+
+// The tail of a normal number that Student's t reaches with that many degrees of freedom where its
+// own tail is that of the confidence.
+double tail_of(double confidence, double freedom) {
+    const double tail = 0.5 * (1.0 - confidence);
+    if (!std::isfinite(freedom)) {
+        return tail;
+    }
+    using Student = boost::math::students_t_distribution<double, QuietPolicy>;
+    using Normal = boost::math::normal_distribution<double, QuietPolicy>;
+    return boost::math::cdf(Normal(), boost::math::quantile(Student(freedom), tail));
+}
+
+}  // namespace
+
+MonitorThreshold monitor_threshold(const Detector& detector, std::span<const HealthyLife> lives,
+                                   double per_1000_h) {
+    const auto [records, hours] = sum_of(lives);
+    MonitorThreshold threshold;
+    threshold.records = records;
+    threshold.hours = hours;
+    if (records == 0 || !(hours > 0.0)) {
+        threshold.least_per_1000_h = kInfinity;
+        return threshold;
+    }
+    const double hours_a_record = hours / static_cast<double>(records);
+    threshold.least_per_1000_h = 1000.0 / (hours_a_record * static_cast<double>(records + 1));
+    const double rate = std::min(1.0, per_1000_h * hours_a_record / 1000.0);
+    const long rank = threshold_rank(records, rate);
+    if (rank > records) {
+        return threshold;
+    }
+    threshold.value = smallest_threshold(detector, lives, records - rank);
+    threshold.alarms = count(detector, lives, threshold.value).alarms;
+    return threshold;
+}
+
+FalseAlarms false_alarms(const Detector& detector, std::span<const HealthyLife> lives,
+                         double threshold, double confidence) {
+    FalseAlarms result;
+    const auto [records, hours] = sum_of(lives);
+    result.records = records;
+    result.hours = hours;
+    if (!(hours > 0.0) || std::isnan(threshold)) {
+        return result;
+    }
+    std::vector<long> alarms;
+    for (const HealthyLife& life : lives) {
+        alarms.push_back(static_cast<long>(watch(detector, life.values, threshold).alarms.size()));
+    }
+    result.alarms = std::accumulate(alarms.begin(), alarms.end(), 0L);
+    const double rate = static_cast<double>(result.alarms) / hours;
+    result.per_1000_h = 1000.0 * rate;
+    const Dispersion dispersion = dispersion_of(alarms, lives, rate);
+    result.dispersion = dispersion.ratio;
+    result.tail = tail_of(confidence, dispersion.freedom);
+    const Interval counts =
+        count_bounds(static_cast<double>(result.alarms), dispersion, result.tail);
+    result.bounds = {1000.0 * counts.lower / hours, 1000.0 * counts.upper / hours};
+    return result;
+}
+
+Interval expected_per_1000_h(const MonitorThreshold& threshold, const FalseAlarms& seen) {
+    if (!(seen.hours > 0.0) || std::isnan(threshold.value)) {
+        return {kNan, kNan};
+    }
+    const auto independent = [&](long count) {
+        return std::lround(static_cast<double>(count) / seen.dispersion);
+    };
+    const Interval rates =
+        expected_rate_interval(independent(threshold.records), independent(seen.alarms),
+                               independent(seen.records), 1.0 - 2.0 * seen.tail);
+    const double scale = 1000.0 * static_cast<double>(seen.records) / seen.hours;
+    return {rates.lower * scale, rates.upper * scale};
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,145 @@
+#include "analysis/monitoring/own_baseline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/statistics/interval.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+// The mean, and a line where a condition is given.
+struct Normal {
+    double count = 0.0, mean = 0.0, slope = 0.0;
+    double at = 0.0, spread = 0.0;  // of the condition: its mean, its sum of squares about it
+    double sd = kNan;               // about the line
+
+    double expected(double condition) const { return mean + slope * (condition - at); }
+    double prediction_sd(double condition) const {
+        const double away = condition - at;
+        return sd * std::sqrt(1.0 + 1.0 / count + (spread > 0.0 ? away * away / spread : 0.0));
+    }
+};
+
+// Learns from the first `baseline` records with a value.
+Normal learn(std::span<const double> values, std::span<const double> condition,
+             std::size_t baseline) {
+    std::vector<std::size_t> good;
+    for (std::size_t i = 0; i < std::min(baseline, values.size()); ++i) {
+        if (std::isfinite(values[i]) && (condition.empty() || std::isfinite(condition[i]))) {
+            good.push_back(i);
+        }
+    }
+    const double freedom = static_cast<double>(good.size()) - (condition.empty() ? 1.0 : 2.0);
+    Normal normal;
+    if (freedom < 2.0) {
+        return normal;
+    }
+    normal.count = static_cast<double>(good.size());
+    for (const std::size_t i : good) {
+        normal.mean += values[i] / normal.count;
+        normal.at += condition.empty() ? 0.0 : condition[i] / normal.count;
+    }
+    double together = 0.0, squares = 0.0;
+    for (const std::size_t i : good) {
+        const double away = condition.empty() ? 0.0 : condition[i] - normal.at;
+        normal.spread += away * away;
+        together += away * (values[i] - normal.mean);
+    }
+    normal.slope = normal.spread > 0.0 ? together / normal.spread : 0.0;
+    for (const std::size_t i : good) {
+        const double rest = values[i] - normal.expected(condition.empty() ? 0.0 : condition[i]);
+        squares += rest * rest;
+    }
+    // What rounding leaves of values that are all alike is no scatter.
+    const double least = 1e-12 * std::abs(normal.mean);
+    const double sd = std::sqrt(squares / freedom);
+    normal.sd = sd > least ? sd : kNan;
+    return normal;
+}
+
+double sign_of(Alarm alarm) {
+    return alarm == Alarm::high ? 1.0 : -1.0;
+}
+
+// Of all records, those of the baseline too.
+std::vector<double> residuals(std::span<const double> values, std::span<const double> condition,
+                              std::size_t baseline, Alarm alarm) {
+    const Normal normal = learn(values, condition, baseline);
+    std::vector<double> all(values.size(), kNan);
+    for (std::size_t i = 0; i < values.size() && std::isfinite(normal.sd); ++i) {
+        const double at = condition.empty() ? 0.0 : condition[i];
+        // Of its own records the scatter about the line, of further ones that of their prediction.
+        const double sd = i < baseline ? normal.sd : normal.prediction_sd(at);
+        all[i] = sign_of(alarm) * (values[i] - normal.expected(at)) / sd;
+    }
+    return all;
+}
+
+void check(std::size_t values, std::span<const double> condition) {
+    if (!condition.empty() && condition.size() != values) {
+        throw std::invalid_argument("baseline: as many conditions as values");
+    }
+}
+
+// Over the records that have both.
+double correlation(std::span<const double> a, std::span<const double> b) {
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (std::isfinite(a[i]) && std::isfinite(b[i])) {
+            ab += a[i] * b[i];
+            aa += a[i] * a[i];
+            bb += b[i] * b[i];
+        }
+    }
+    return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+}  // namespace
+
+std::vector<double> own_deviations(std::span<const double> values,
+                                   std::span<const double> condition, std::size_t baseline,
+                                   Alarm alarm) {
+    check(values.size(), condition);
+    if (baseline == 0) {
+        std::vector<double> all(values.begin(), values.end());
+        std::transform(all.begin(), all.end(), all.begin(),
+                       [&](double value) { return sign_of(alarm) * value; });
+        return all;
+    }
+    std::vector<double> all = residuals(values, condition, baseline, alarm);
+    std::fill_n(all.begin(), std::min(baseline, all.size()), kNan);
+    return all;
+}
+
+std::vector<double> fused_deviations(const std::vector<std::vector<double>>& values,
+                                     std::span<const double> condition, std::size_t baseline,
+                                     std::span<const Alarm> alarms) {
+    std::vector<std::vector<double>> parts;
+    for (std::size_t f = 0; f < values.size(); ++f) {
+        check(values[f].size(), condition);
+        auto part = residuals(values[f], condition, baseline, alarms[f]);
+        if (std::any_of(part.begin(), part.end(), [](double one) { return !std::isnan(one); })) {
+            parts.push_back(std::move(part));
+        }
+    }
+    std::vector<double> sum(values.empty() ? 0 : values.front().size(), kNan);
+    double variance = 0.0;
+    for (const auto& a : parts) {
+        for (const auto& b : parts) {
+            variance += correlation(std::span(a).first(std::min(baseline, a.size())),
+                                    std::span(b).first(std::min(baseline, b.size())));
+        }
+    }
+    for (std::size_t i = baseline; i < sum.size() && variance > 0.0; ++i) {
+        const double total =
+            std::accumulate(parts.begin(), parts.end(), 0.0,
+                            [&](double so_far, const auto& part) { return so_far + part[i]; });
+        sum[i] = total / std::sqrt(variance);
+    }
+    return sum;
+}
+
+}  // namespace gearpod::analysis
