@@ -1,0 +1,109 @@
+// Stress intensities at a cracked tooth's root.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "stiffness/growth/edge_crack.hpp"
+#include "stiffness/growth/root_crack.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
+
+namespace gearpod::stiffness {
+namespace {
+
+using std::numbers::pi;
+
+TEST_CASE("Geometry factors of an edge crack are the published ones", "[growth]") {
+    // Kaya and Erdogan (1987): a / w, tension, bending.
+    struct Row {
+        double share, tension, bending;
+    };
+    for (const Row& row :
+         {Row{0.1, 1.1892, 1.0472}, Row{0.2, 1.3673, 1.0553}, Row{0.3, 1.6599, 1.1241},
+          Row{0.4, 2.1114, 1.2606}, Row{0.5, 2.8246, 1.4972}, Row{0.6, 4.0332, 1.9140},
+          Row{0.7, 6.3549, 2.7252}, Row{0.8, 11.955, 4.6764}, Row{0.9, 34.633, 12.462}}) {
+        INFO(row.share);
+        CHECK(edge_crack_tension(row.share) == Approx(row.tension).epsilon(1.5e-3));
+        CHECK(edge_crack_bending(row.share) == Approx(row.bending).epsilon(1.5e-3));
+    }
+    // The polynomials of B. Gross and J. E. Srawley in W. F. Brown, J. E. Srawley, ASTM STP 410
+    // (1966), a / w up to 0.6: within 0.5 % (tension) and 0.2 % (bending) by their own account.
+    for (double a = 0.0; a < 0.61; a += 0.05) {
+        INFO(a);
+        const double bending = 1.122 + a * (-1.40 + a * (7.33 + a * (-13.08 + a * 14.0)));
+        const double tension = 1.122 + a * (-0.231 + a * (10.55 + a * (-21.72 + a * 30.39)));
+        CHECK(edge_crack_bending(a) == Approx(bending).epsilon(5e-3));
+        CHECK(edge_crack_tension(a) == Approx(tension).epsilon(7e-3));
+    }
+    // A small ligament b feels the moment M on it: K_I = 3.975 M / b^(3/2). Bending has sigma w^2 /
+    // 6, tension acts w / 2 away.
+    const double b = 1e-4, limit = 3.975 / std::sqrt(pi) * std::pow(b, -1.5);
+    CHECK(edge_crack_bending(1.0 - b) == Approx(limit / 6.0).epsilon(2e-3));
+    CHECK(edge_crack_tension(1.0 - b) == Approx(limit / 2.0).epsilon(2e-3));
+}
+
+// A force on a tooth of half thickness h at the root, cracked square to its centre line: the beam's
+// stresses times the factors.
+TEST_CASE("A square root crack opens as a cracked beam", "[growth]") {
+    const auto pair = gears::MeshGeometry(test_pairs::external(31), test_pairs::internal(81));
+    const double width = 38.1e-3, force = 5000.0, tau = 0.7;
+    const RootCrack crack(pair, Profile::root_circle, 1, pi / 2, width);
+    const ToothProfile tooth(pair.gear(1), Profile::root_circle);
+    const double a = pair.contact_angle(1, tau);
+    const ToothSection contact = tooth.section(tooth.involute_angle(a));
+    const double h = tooth.root_half_thickness();
+    const double arm = contact.axial - tooth.root_axial();
+    const double moment = force * (arm * std::cos(a) - contact.half_thickness * std::sin(a));
+    const double bending = moment * h / (width * std::pow(2.0 * h, 3) / 12.0);
+    const double push = -force * std::sin(a) / (width * 2.0 * h);
+    CHECK(crack.width() == Approx(2.0 * h));
+    for (const double depth : {1e-4, 1e-3, 2e-3}) {
+        const double share = depth / (2.0 * h);
+        CHECK(crack.intensity(depth, force, tau) ==
+              Approx((bending * edge_crack_bending(share) + push * edge_crack_tension(share)) *
+                     std::sqrt(pi * depth)));
+    }
+    CHECK(crack.intensity(0.0, force, tau) == 0.0);
+}
+
+TEST_CASE("An inclined crack's plane has the equilibrium of the tooth above it", "[growth]") {
+    const auto pair = gears::MeshGeometry(test_pairs::external(31), test_pairs::internal(81));
+    const double width = 38.1e-3, v = pi / 4, tau = 0.7, depth = 1e-3;
+    const RootCrack crack(pair, Profile::root_circle, 1, v, width);
+    const ToothProfile tooth(pair.gear(1), Profile::root_circle);
+    const double a = pair.contact_angle(1, tau);
+    const ToothSection contact = tooth.section(tooth.involute_angle(a));
+    const double h = tooth.root_half_thickness(), w = 2.0 * h / std::sin(v);
+    // Vectors: the plane from the root at (0, h) along -(cos v, sin v), the force of 1 N.
+    const double middle[2] = {-0.5 * w * std::cos(v), h - 0.5 * w * std::sin(v)};
+    const double at[2] = {contact.axial - tooth.root_axial(), contact.half_thickness};
+    const double push[2] = {-std::sin(a), -std::cos(a)};
+    const double tension = (push[0] * std::sin(v) - push[1] * std::cos(v)) / (w * width);
+    const double moment =
+        -((at[0] - middle[0]) * push[1] - (at[1] - middle[1]) * push[0]);  // opens the crack
+    const double expected = (tension * edge_crack_tension(depth / w) +
+                             6.0 * moment / (width * w * w) * edge_crack_bending(depth / w)) *
+                            std::sqrt(pi * depth);
+    CHECK(crack.width() == Approx(w));
+    CHECK(crack.intensity(depth, 1.0, tau) == Approx(expected));
+}
+
+TEST_CASE("The largest intensity is where one pair bears all, and grows with depth", "[growth]") {
+    const auto pair = gears::MeshGeometry(test_pairs::external(19), test_pairs::external(31));
+    const RootCrack crack(pair, Profile::root_circle, 2, pi / 4, 38.1e-3);
+    const double ratio = pair.contact_ratio();
+    REQUIRE(ratio < 2.0);
+    double single = 0.0, before = 0.0;
+    for (double tau = ratio - 1.0; tau <= 1.0; tau += 1e-3) {
+        single = std::max(single, crack.intensity(1e-3, 1.0, tau));
+    }
+    CHECK(crack.largest_intensity(1e-3, 1.0) == Approx(single).epsilon(5e-3));
+    for (double depth = 1e-4; depth < 0.9 * crack.width(); depth += 1e-4) {
+        const double here = crack.largest_intensity(depth, 1.0);
+        CHECK(here > before);
+        before = here;
+    }
+    CHECK_THROWS_AS(RootCrack(pair, Profile::root_circle, 1, 0.0, 0.01), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gearpod::stiffness
