@@ -141,12 +141,40 @@ def failures(report, page):
 _LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
 
 
+def _watched(report):
+    """What a monitor says that sees the recordings one after another."""
+    data = report.data.get("monitoring")
+    if not data:
+        return ""
+    if data["refusal"]:
+        return paragraph("Not watched one after another: " + data["refusal"] + ".")
+    rows = []
+    for one in data["watched"]:
+        if one["threshold"] is None:
+            continue
+        for gearbox in one["gearboxes"]:
+            if gearbox["recordings"]:
+                first = gearbox["first"]
+                rows.append([one["feature"], one["detector"], number(one["threshold"]),
+                             f"{one['healthy']['alarms']} of {one['healthy']['recordings']}",
+                             f"{gearbox['alarms']} of {gearbox['recordings']}",
+                             f"{number(first['time'])} ({first['recording'].split('/')[-1]})"
+                             if first else "none"])
+    return (paragraph("One after another, against each gearbox's first "
+                      f"{data['baseline_records']} recordings; thresholds at a false-alarm rate of "
+                      f"{number(data['false_alarm_rate'])}; every alarm starts the detector anew.")
+            + table("Watched one after another",
+                    ["feature", "detector", "threshold", "healthy alarms", "later alarms",
+                     "first alarm"], rows))
+
+
 def over_time(report, page):
     """Of measured recordings whose times are known."""
     groups = report.data.get("over_time")
     if not groups:
         return ""
     body = detection_figures.over_time(report, page, groups)
+    body += _watched(report)
     return page.section("over-time", "Alarms over time", body)
 
 

@@ -48,9 +48,10 @@ double threshold_of(const Results& frame, std::size_t feature) {
                : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Features in order of rank, if there is one.
-std::vector<std::size_t> ranked(const Results& frame,
-                                const std::optional<analysis::Reliability>& reliability) {
+}  // namespace
+
+std::vector<std::size_t> ranked_features(const Results& frame,
+                                         const std::optional<analysis::Reliability>& reliability) {
     if (reliability && !reliability->rankings.empty()) {
         return in_rank_order(*reliability, 0);
     }
@@ -58,8 +59,6 @@ std::vector<std::size_t> ranked(const Results& frame,
     std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
 }
-
-}  // namespace
 
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows) {
     const auto time = time_column(frame);
@@ -115,7 +114,7 @@ std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& grou
     if (groups.empty() || frame.features.empty()) {
         return "";
     }
-    auto order = ranked(frame, reliability);
+    auto order = ranked_features(frame, reliability);
     order.resize(std::min(order.size(), (analysis::text_width() - kLabel) / kEach));
     const std::size_t time = *time_column(frame);
     const std::string unit = frame.parameters[time].unit;

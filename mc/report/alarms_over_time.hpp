@@ -23,6 +23,10 @@ struct TimeGroup {
 // the rows are no recordings.
 std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& rows);
 
+// Places of the features in order of rank, if there is one, else as they are.
+std::vector<std::size_t> ranked_features(const Results& frame,
+                                         const std::optional<analysis::Reliability>& reliability);
+
 // Of the best ranked features, as many as fit into a line. Ends with a newline; "" without groups.
 std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
                         const std::optional<analysis::Reliability>& reliability);

@@ -9,6 +9,7 @@
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/alarms_over_time.hpp"
 #include "mc/report/example_gearboxes.hpp"
+#include "mc/report/monitoring_over_time.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/layout.hpp"
 #include "mc/study/assumptions.hpp"
@@ -127,6 +128,8 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["noise"] = noise_json(frame, study);
     json["failures"] = failures_json(frame, rows);
     json["over_time"] = alarms_json(frame, alarms_over_time(frame, rows));
+    const auto monitoring = monitoring_over_time(frame, rows);
+    json["monitoring"] = monitoring ? monitoring_json(*monitoring) : Json(nullptr);
     json["gearboxes"] = json["failures"]["gearboxes"];
     json["failed"] = count_rows(rows).failed();
     json["provenance"] = Json::object();

@@ -8,6 +8,7 @@
 #include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/alarms_over_time.hpp"
+#include "mc/report/monitoring_over_time.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
@@ -73,6 +74,16 @@ std::string results_text(const Results& frame, const RowSource& rows,
             reliability_text(reliability, frame);
     const std::string times = alarms_text(frame, alarms_over_time(frame, rows), reliability);
     text += times.empty() ? "" : "\n" + times;
+    if (const auto monitoring = monitoring_over_time(frame, rows)) {
+        constexpr std::size_t kMostNamed = 3;
+        std::vector<std::string> best;
+        for (const std::size_t f : ranked_features(frame, reliability)) {
+            if (best.size() < kMostNamed) {
+                best.push_back(frame.features[f].name);
+            }
+        }
+        text += "\n" + monitoring_text(*monitoring, best);
+    }
     const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
     return numerical.empty() ? text : text + "\n" + numerical;
 }

@@ -267,6 +267,15 @@ struct Detection {
     bool operator==(const Detection&) const = default;
 };
 
+// How a gearbox that is measured again and again is watched (analysis/monitoring).
+struct Monitoring {
+    int baseline_records = 20;  // of each gearbox, its first, that say what is normal for it; or 0
+    bool torque_regression = false;      // normal depends on the records' torque, along a line
+    std::vector<std::string> detectors;  // as in the file; the usual ones by default
+
+    bool operator==(const Monitoring&) const = default;
+};
+
 struct Numerics {
     std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
     Precision precision = Precision::double_precision;
@@ -331,6 +340,7 @@ struct Study {
     Sensor sensor;
     Features features;
     Detection detection;
+    Monitoring monitoring;
     Numerics numerics;
     Ensemble ensemble;
     std::vector<RandomInput> random;  // in the order of the schema

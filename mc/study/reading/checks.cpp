@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/monitoring/detector.hpp"
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "machine/lanes.hpp"
@@ -152,6 +153,19 @@ void check_features(StudyDraft& draft) {
     }
 }
 
+void check_detectors(StudyDraft& draft) {
+    const std::vector<std::string> named = draft.study.monitoring.detectors;
+    for (auto text = named.begin(); text != named.end(); ++text) {
+        if (!analysis::parse_detector(*text)) {
+            draft.reject("monitoring.detectors", fmt::format("\"{}\" is no detector", *text),
+                         "use " + analysis::detector_forms());
+        } else if (std::find(named.begin(), text, *text) != text) {
+            draft.reject("monitoring.detectors", fmt::format("names \"{}\" twice", *text),
+                         "name it once");
+        }
+    }
+}
+
 void check_lanes(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
     const bool single = n.precision == Precision::single_precision;
@@ -185,6 +199,7 @@ void check_consistency(StudyDraft& draft) {
     check_fixed_shaft_motion(draft);
     check_sampling(draft);
     check_features(draft);
+    check_detectors(draft);
     check_lanes(draft);
     check_precision(draft);
 }

@@ -116,6 +116,12 @@ void fill_features(Study& study) {
     }
 }
 
+void fill_detectors(Study& study) {
+    if (study.monitoring.detectors.empty()) {
+        study.monitoring.detectors = {"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"};
+    }
+}
+
 // Of a held sun's gearbox the ring is driven and has the torque, else the sun.
 void fill_operation(StudyDraft& draft) {
     Operation& o = draft.study.operation;
@@ -160,6 +166,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     fill_horizon(draft);
     check_presence(draft);
     fill_features(draft.study);
+    fill_detectors(draft.study);
     fill_operation(draft);
     fill_path(draft);
     fill_lanes(draft);

@@ -1,4 +1,4 @@
-// Keys of [sensor], [features], [detection], [numerics] and [ensemble].
+// Keys of [sensor], [features], [detection], [monitoring], [numerics] and [ensemble].
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "mc/study/keys/access.hpp"
@@ -67,6 +67,10 @@ const Key kKeys[] = {
     {"detection", "confidence", number<&Detection::confidence>, kNone, kShare, may, kShared, "confidence of the intervals"},
     {"detection", "size_edges_mm", ascending<&Detection::size_edges_m>, kMm, kNotNegative, length_edges, kShared, "edges of the size groups of a continuous fault size that is a length"},
     {"detection", "size_edges", ascending<&Detection::size_edges>, kNone, kNotNegative, number_edges, kShared, "edges of the size groups of a continuous fault size that is a pure number"},
+
+    {"monitoring", "baseline_records", integer<&Monitoring::baseline_records>, kNone, from_to(0, 1e6), may, kShared, "a gearbox's first records, which say what is normal for it; 0: its features are judged as they are"},
+    {"monitoring", "torque_regression", boolean<&Monitoring::torque_regression>, kNone, kAny, may, kShared, "what is normal for a gearbox follows the torque of its records along a straight line"},
+    {"monitoring", "detectors", list<&Monitoring::detectors>, kNone, kAny, may, kShared, "what watches a gearbox's records: single, 2 of 3, ewma 0.1 (weight of the latest), cusum 0.5 (reference value), trend 100 (records it looks back); each with two-sided behind it or not"},
 
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},

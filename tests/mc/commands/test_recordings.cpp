@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include "mc/files/hdf5_data.hpp"
@@ -162,6 +163,52 @@ TEST_CASE("The report on recordings has thresholds, POD where sizes are known, a
     CHECK(program("report " + results).mentions("Alarms over time, day"));
 }
 
+TEST_CASE("The report watches a gearbox's recordings one after another") {
+    const Recorded recorded;
+    const std::string results = recorded.folder.file("f.h5");
+    recorded.features("--out " + results);
+    const Outcome outcome = program("report " + results + " --json -");
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto monitoring = nlohmann::json::parse(outcome.output)["monitoring"];
+    CHECK(monitoring["baseline_records"] == 20);
+    CHECK(monitoring["refusal"] == "");
+    std::set<std::string> detectors;
+    bool found = false;
+    for (const auto& one : monitoring["watched"]) {
+        // Ten healthy recordings behind the baseline: at a rate of 0.1 the largest sets the
+        // threshold.
+        CHECK(one["healthy"]["alarms"].get<int>() <= 1);
+        CHECK(one["healthy"]["recordings"] == 10);
+        REQUIRE(one["gearboxes"].size() == 1);  // the other has one recording only
+        CHECK(one["gearboxes"][0]["recordings"] == 30);
+        if (one["feature"] == "window_ratio") {
+            detectors.insert(one["detector"].get<std::string>());
+            const auto& first = one["gearboxes"][0]["first"];
+            REQUIRE(!first.is_null());
+            found = true;
+            CHECK(first["row"].get<int>() >= 30);
+            CHECK(first["time"].get<double>() >= 3.0);
+        }
+    }
+    CHECK(found);
+    CHECK(detectors ==
+          std::set<std::string>{"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"});
+    const Outcome text = program("report " + results);
+    CHECK(text.mentions("Watched over time"));
+    CHECK(text.mentions("fused"));
+
+    recorded.features("--set monitoring.baseline_records=25 --out " + results);
+    CHECK(program("report " + results).mentions("5 healthy recordings behind the first 25"));
+    recorded.features("--set monitoring.torque_regression=true --out " + results);
+    CHECK(program("report " + results).mentions("no column torque"));
+    const Outcome wrong =
+        recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -");
+    CHECK(wrong.code == 2);
+    CHECK(wrong.mentions("\"cusum\" is no detector"));
+    CHECK(wrong.mentions("names \"single\" twice"));
+}
+
 TEST_CASE("On the terminal recordings are recordings, and have a size only where one is known") {
     const Recorded recorded;
     const std::string results = recorded.folder.file("f.h5");
@@ -288,6 +335,20 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
         best = day_27 == 1.0 ? std::max(best, day_26) : best;
     }
     CHECK(best >= 0.6);
+    // Watched one after another, with the alarm set up to day 20: both later days alarm. The
+    // windowed teeth say so from the first half of day 26 on.
+    REQUIRE(json["monitoring"]["refusal"] == "");
+    for (const auto& one : json["monitoring"]["watched"]) {
+        CHECK(one["healthy"]["alarms"].get<long>() * 100 <=
+              one["healthy"]["recordings"].get<long>());
+        if (one["feature"] == "window_ratio" || one["feature"] == "fused") {
+            INFO(one.dump());
+            const auto& first = one["gearboxes"][0]["first"];
+            REQUIRE(!first.is_null());
+            CHECK(first["time"] == 26);
+            CHECK(first["row"].get<int>() < 282 + 45);
+        }
+    }
 }
 
 }  // namespace
