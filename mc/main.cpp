@@ -91,6 +91,19 @@ int run_program(int argc, char** argv) {
     run_app->add_flag("--quiet", run.quiet, "print nothing but problems");
     run_app->callback([&] { code = run_command(run); });
 
+    LivesOptions lives;
+    auto* lives_app = app.add_subcommand(
+        "lives",
+        "gearboxes measured again and again while a crack grows: how many are found in time, how "
+        "long before, and how many false alarms that costs");
+    add_study(*lives_app, lives.study);
+    add_shorthand(*lives_app, "--instances", "ensemble.instances", "gearboxes that crack",
+                  lives.study);
+    add_shorthand(*lives_app, "--seed", "ensemble.seed", "seed of all random numbers", lives.study);
+    needs_name(lives_app->add_option("--json", lives.json, "write JSON to a file, or to -"));
+    lives_app->add_flag("--quiet", lives.quiet, "no progress");
+    lives_app->callback([&] { code = lives_command(lives); });
+
     ReportOptions report;
     auto* report_app = app.add_subcommand("report", "detection rates from a results file");
     report_app->add_option("results", report.results, "results file (HDF5)")->required();

@@ -55,6 +55,13 @@ struct DescribeOptions {
 };
 int describe_command(const DescribeOptions& options);
 
+struct LivesOptions {
+    StudyOptions study;
+    std::string json;  // "": none; "-": standard output
+    bool quiet = false;
+};
+int lives_command(const LivesOptions& options);
+
 struct StiffnessOptions {
     StudyOptions study;
     std::string csv;  // "": a summary; "-": standard output

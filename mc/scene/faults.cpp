@@ -10,12 +10,6 @@
 namespace gearpod::mc {
 namespace {
 
-// A faulty tooth's side: the mesh in which it acts, and its gear there, 1 or 2.
-struct FaultPlace {
-    std::size_t mesh;
-    int gear;
-};
-
 std::vector<FaultPlace> places_on_planet(FaultSide side) {
     switch (side) {
         case FaultSide::sun:
@@ -24,23 +18,6 @@ std::vector<FaultPlace> places_on_planet(FaultSide side) {
             return {{1, 1}};
         case FaultSide::both:
             return {{0, 2}, {1, 1}};
-    }
-    return {};
-}
-
-std::vector<FaultPlace> places_of(const Fault& fault) {
-    switch (fault.member.value()) {
-        case Member::planet:
-            return places_on_planet(fault.side.value());
-        case Member::ring:
-            return {{1, 2}};
-        case Member::gear:
-            return {{0, 2}};
-        case Member::sun:
-        case Member::pinion:
-            return {{0, 1}};
-        case Member::carrier:
-            return {};
     }
     return {};
 }
@@ -84,12 +61,29 @@ lockstep::FaultPattern make_pattern(const Study& study, const lockstep::PairSet&
 
 }  // namespace
 
+std::vector<FaultPlace> fault_places(const Fault& fault) {
+    switch (fault.member.value()) {
+        case Member::planet:
+            return places_on_planet(fault.side.value());
+        case Member::ring:
+            return {{1, 2}};
+        case Member::gear:
+            return {{0, 2}};
+        case Member::sun:
+        case Member::pinion:
+            return {{0, 1}};
+        case Member::carrier:
+            return {};
+    }
+    return {};
+}
+
 SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
                        const lockstep::PairSet& pairs) {
     if (study.fault.kind == nullptr) {
         return;
     }
-    for (const FaultPlace& place : places_of(study.fault)) {
+    for (const FaultPlace& place : fault_places(study.fault)) {
         const SceneMesh& mesh = meshes[place.mesh];
         try {
             laws_.push_back({mesh.stiffness.get(),

@@ -9,6 +9,13 @@
 
 namespace gearpod::mc {
 
+// A faulty tooth's side: the mesh of meshes_of(kind) in which it acts, and its gear there, 1 or 2.
+struct FaultPlace {
+    std::size_t mesh;
+    int gear;
+};
+std::vector<FaultPlace> fault_places(const Fault& fault);
+
 class SceneFault {
   public:
     // The meshes must outlive the fault. Throws SceneError.

@@ -167,6 +167,8 @@ InstanceInputs resolve_inputs(const Study& study) {
     inputs.noise_m_s2 = study.sensor.noise_m_s2;
     inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
     inputs.fault_size = fault_size(study);
+    inputs.paris_factor = study.life.paris_factor.value_or(0.0);
+    inputs.paris_exponent = study.life.paris_exponent.value_or(0.0);
     return inputs;
 }
 

@@ -58,6 +58,8 @@ struct InstanceInputs {
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms
     double fault_size;         // 0 in the threshold group and without a fault
+    // Of the law by which its crack grows, as in Life; 0 without one.
+    double paris_factor, paris_exponent;
 };
 
 // Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.

@@ -270,10 +270,28 @@ struct Detection {
 // How a gearbox that is measured again and again is watched (analysis/monitoring).
 struct Monitoring {
     int baseline_records = 20;  // of each gearbox, its first, that say what is normal for it; or 0
-    bool torque_regression = false;      // normal depends on the records' torque, along a line
-    std::vector<std::string> detectors;  // as in the file; the usual ones by default
+    bool torque_regression = false;        // normal depends on the records' torque, along a line
+    std::vector<std::string> detectors;    // as in the file; the usual ones by default
+    double false_alarms_per_1000_h = 5.0;  // of lives
 
     bool operator==(const Monitoring&) const = default;
+};
+
+// Gearboxes that are measured again and again while a crack grows; none without an interval_h.
+struct Life {
+    std::optional<double> interval_h;  // between records
+    int records = 200;                 // the most a life has, the baseline's included
+    int healthy_lives = 100;           // that count false alarms, and set no threshold
+    // The crack is there, as deep as this, when the baseline is known; and where a life ends.
+    std::optional<double> first_depth_m, last_depth_m;
+    // Paris' law: C in mm a cycle at 1 MPa m^(1/2), and m.
+    std::optional<double> paris_factor, paris_exponent;
+    std::optional<double> fracture_toughness_Pa_m05;  // at which the ligament breaks
+    int depth_steps = 8;  // depths from none to the last that are marched; between, interpolated
+    // Of a record about its gearbox's value: rms of its logarithm.
+    double torque_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
+
+    bool operator==(const Life&) const = default;
 };
 
 struct Numerics {
@@ -341,6 +359,7 @@ struct Study {
     Features features;
     Detection detection;
     Monitoring monitoring;
+    Life life;
     Numerics numerics;
     Ensemble ensemble;
     std::vector<RandomInput> random;  // in the order of the schema

@@ -15,8 +15,8 @@ namespace gearpod::mc {
 template <class AnyStudy>
 auto parts(AnyStudy& s) {
     return std::tie(s.gearbox, s.fixed_shaft, s.errors, s.planets, s.operation, s.fluctuations,
-                    s.effects, s.fault, s.sensor, s.features, s.detection, s.monitoring, s.numerics,
-                    s.ensemble, s.ensemble.until);
+                    s.effects, s.fault, s.sensor, s.features, s.detection, s.monitoring, s.life,
+                    s.numerics, s.ensemble, s.ensemble.until);
 }
 template <class Part>
 Part& part_of(Study& s) {

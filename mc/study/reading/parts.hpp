@@ -27,6 +27,9 @@ void check_fluctuations(StudyDraft& draft);
 // fault_checks.cpp: the fault against the tooth that carries it, and the size groups.
 void check_fault(StudyDraft& draft);
 
+// life_checks.cpp: what grows, between which depths, over how many records.
+void check_life(StudyDraft& draft);
+
 // until_checks.cpp: whether the study has the rate that ensemble.until speaks of.
 void check_until(StudyDraft& draft);
 

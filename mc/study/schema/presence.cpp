@@ -42,6 +42,17 @@ Presence with_baseline(const Study& s) {
                                           "baseline record (change_...) or over its (own_...)",
                                           {"features.use"}};
 }
+Presence of_life(const Study& s, Need need) {
+    const Need there = s.life.interval_h ? need : Need::forbidden;
+    return {
+        there, there == Need::forbidden ? "only with life.interval_h" : "", {"life.interval_h"}};
+}
+Presence with_life(const Study& s) {
+    return of_life(s, Need::optional);
+}
+Presence life_needs(const Study& s) {
+    return of_life(s, Need::required);
+}
 Presence always(const Study&) {
     return {Need::required, "", {}};
 }

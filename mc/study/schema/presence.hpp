@@ -7,6 +7,8 @@ namespace gearpod::mc {
 
 Presence always(const Study&);
 Presence may(const Study&);
+Presence with_life(const Study&);   // only where gearboxes live on
+Presence life_needs(const Study&);  // there, and then required
 
 // A key of one kind of gearbox only; there Rule decides.
 Presence of_kind(const Study&, GearboxKind kind, Presence (*rule)(const Study&));

@@ -1,4 +1,4 @@
-// Keys of [sensor], [features], [detection], [monitoring], [numerics] and [ensemble].
+// Keys of [sensor], [features], [detection], [monitoring], [life], [numerics] and [ensemble].
 #include "features/feature.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "mc/study/keys/access.hpp"
@@ -71,6 +71,21 @@ const Key kKeys[] = {
     {"monitoring", "baseline_records", integer<&Monitoring::baseline_records>, kNone, from_to(0, 1e6), may, kShared, "a gearbox's first records, which say what is normal for it; 0: its features are judged as they are"},
     {"monitoring", "torque_regression", boolean<&Monitoring::torque_regression>, kNone, kAny, may, kShared, "what is normal for a gearbox follows the torque of its records along a straight line"},
     {"monitoring", "detectors", list<&Monitoring::detectors>, kNone, kAny, may, kShared, "what watches a gearbox's records: single, 2 of 3, ewma 0.1 (weight of the latest), cusum 0.5 (reference value), trend 100 (records it looks back); each with two-sided behind it or not"},
+
+    {"monitoring", "false_alarms_per_1000_h", number<&Monitoring::false_alarms_per_1000_h>, kNone, kPositive, with_life, kShared, "false alarms in 1000 machine hours of healthy gearboxes that lives' thresholds are set to"},
+
+    {"life", "interval_h", number<&Life::interval_h>, kHours, kPositive, may, kShared, "hours between two records of a gearbox; `lives` then follows gearboxes whose crack grows"},
+    {"life", "records", integer<&Life::records>, kNone, from_to(2, 1e5), with_life, kShared, "records of a life at most, the baseline's included"},
+    {"life", "healthy_lives", integer<&Life::healthy_lives>, kNone, from_to(1, 1e6), with_life, kShared, "healthy gearboxes that count false alarms, besides those that set the thresholds (ensemble.threshold_instances)"},
+    {"life", "first_depth_mm", number<&Life::first_depth_m>, kMm, kPositive, life_needs, kShared, "depth of the crack that is there when the baseline is known"},
+    {"life", "last_depth_mm", number<&Life::last_depth_m>, kMm, kPositive, life_needs, kShared, "depth of the crack at which a life ends"},
+    {"life", "paris_factor", number<&Life::paris_factor>, kNone, kPositive, life_needs, kRandom, "C of Paris' law da/dN = C (Delta K)^m: mm a cycle at 1 MPa m^(1/2)"},
+    {"life", "paris_exponent", number<&Life::paris_exponent>, kNone, from_to(1, 10), life_needs, kRandom, "m of Paris' law"},
+    {"life", "fracture_toughness_MPa_m05", number<&Life::fracture_toughness_Pa_m05>, kMPaRootM, kPositive, with_life, kShared, "stress intensity at which what is left of the tooth breaks; without it the last depth ends a life"},
+    {"life", "depth_steps", integer<&Life::depth_steps>, kNone, from_to(1, 100), with_life, kShared, "steps of depth, from none to the last, at which a gearbox is marched; signals between are interpolated"},
+    {"life", "torque_scatter", number<&Life::torque_scatter>, kNone, from_to(0, 1), with_life, kShared, "rms by which a record's torque differs from its gearbox's: of its logarithm, a share"},
+    {"life", "gain_scatter", number<&Life::gain_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same of the sensor's gain"},
+    {"life", "noise_scatter", number<&Life::noise_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same of both noises"},
 
     {"numerics", "tolerance", number<&Numerics::tolerance>, kNone, kTolerance, integration, kShared, "relative error of the features for which integrator, steps and settle_tolerance are chosen on a pilot, unless given; 0: none"},
     {"numerics", "verify", boolean<&Numerics::verify>, kNone, kAny, integration, kShared, "march eight gearboxes again by finer steps after a run and report what that changes; with a tolerance always"},

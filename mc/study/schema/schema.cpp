@@ -22,9 +22,9 @@ std::span<const Key> schema() {
 }
 
 std::span<const std::string_view> section_names() {
-    static constexpr std::array<std::string_view, 11> names{
-        "gearbox",  "operation", "effects",    "fault",    "sensor",  "random",
-        "features", "detection", "monitoring", "numerics", "ensemble"};
+    static constexpr std::array<std::string_view, 12> names{
+        "gearbox",  "operation", "effects",    "fault", "sensor",   "random",
+        "features", "detection", "monitoring", "life",  "numerics", "ensemble"};
     return names;
 }
 

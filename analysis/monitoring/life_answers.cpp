@@ -1,0 +1,88 @@
+#include "analysis/monitoring/life_answers.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+
+#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// The order statistic ceil(n q), NaN of none.
+double sample_quantile(std::vector<double> values, double quantile) {
+    if (values.empty()) {
+        return kNan;
+    }
+    const auto n = static_cast<double>(values.size());
+    const auto rank = std::max<long>(1, std::lround(std::ceil(n * quantile - 1e-9)));
+    const auto place = values.begin() + (rank - 1);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+// Of the first alarm on a record with the crack.
+std::optional<std::size_t> detection(const Detector& detector, const CrackedLife& life,
+                                     double threshold) {
+    for (const std::size_t record : watch(detector, life.values, threshold).alarms) {
+        if (record >= life.first) {
+            return record;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+double quantile_bound(std::vector<double> values, double quantile, double confidence) {
+    using Binomial = boost::math::binomial_distribution<double, QuietPolicy>;
+    std::sort(values.begin(), values.end());
+    // The r-th smallest lies below the quantile if r or more values do.
+    const Binomial below(static_cast<double>(values.size()), quantile);
+    for (std::size_t r = 1; r <= values.size(); ++r) {
+        if (boost::math::cdf(below, static_cast<double>(r - 1)) >= confidence) {
+            return values[r - 1];
+        }
+    }
+    return kNever;
+}
+
+LifeAnswers answer(const Detector& detector, std::span<const HealthyLife> setting,
+                   std::span<const HealthyLife> healthy, std::span<const CrackedLife> cracked,
+                   double per_1000_h, double confidence) {
+    LifeAnswers answers;
+    answers.threshold = monitor_threshold(detector, setting, per_1000_h);
+    const double threshold = answers.threshold.value;
+    answers.false_alarms = false_alarms(detector, healthy, threshold, confidence);
+    answers.expected_per_1000_h = expected_per_1000_h(answers.threshold, answers.false_alarms);
+    if (std::isnan(threshold)) {
+        return answers;
+    }
+    std::vector<double> sizes, warnings;
+    for (const CrackedLife& life : cracked) {
+        if (!life.end_hours) {
+            continue;
+        }
+        ++answers.ended;
+        const auto record = detection(detector, life, threshold);
+        sizes.push_back(record ? life.sizes[*record] : kNever);
+        if (record) {
+            ++answers.found;
+            warnings.push_back(*life.end_hours - life.hours[*record]);
+        }
+    }
+    if (answers.ended > 0) {
+        answers.share = static_cast<double>(answers.found) / static_cast<double>(answers.ended);
+        answers.share_bounds = wilson_interval(answers.found, answers.ended, confidence);
+    }
+    answers.size_50 = {sample_quantile(sizes, 0.5), quantile_bound(sizes, 0.5, confidence)};
+    answers.size_90 = {sample_quantile(sizes, 0.9), quantile_bound(sizes, 0.9, confidence)};
+    answers.warning_50 = sample_quantile(warnings, 0.5);
+    answers.warning_90 = sample_quantile(warnings, 0.1);
+    return answers;
+}
+
+}  // namespace gearpod::analysis
