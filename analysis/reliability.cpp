@@ -52,6 +52,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
                               double confidence) {
     LevelReliability level;
     level.noise_level = detection.noise_level;
+    level.has_threshold = !std::isnan(detection.threshold);
     const bool high = feature.alarm == Alarm::high;
     level.auc = auc(values.healthy, values.faulty, high, confidence);
     level.roc = roc_curve(values.healthy, values.faulty, high);
@@ -62,7 +63,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     level.hit_miss = pod_of_outcomes(data.graded_size, hit, detection, confidence);
     level.signal_response = signal_response_pod(data.graded_size, values.graded,
                                                 {detection.threshold, feature.alarm, confidence});
-    if (std::isnan(detection.threshold)) {
+    if (!level.has_threshold) {
         level.misses.refusal = "no threshold";
     } else {
         level.misses = miss_sensitivity(data.graded_size, hit, data.inputs, confidence);

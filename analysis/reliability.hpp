@@ -22,6 +22,7 @@ namespace gearpod::analysis {
 
 struct LevelReliability {
     double noise_level = 0.0;
+    bool has_threshold = true;  // without one nothing is known of what is found
     HitMissPod hit_miss;
     SignalResponsePod signal_response;
     Auc auc;  // all faulty gearboxes against all healthy ones

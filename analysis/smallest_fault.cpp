@@ -1,5 +1,6 @@
 #include "analysis/smallest_fault.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -56,6 +57,12 @@ std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std:
         }
     }
     return least;
+}
+
+bool without_threshold(const Reliability& reliability, std::size_t level) {
+    return std::none_of(
+        reliability.features.begin(), reliability.features.end(),
+        [&](const FeatureReliability& feature) { return feature.levels[level].has_threshold; });
 }
 
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level) {

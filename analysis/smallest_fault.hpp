@@ -32,6 +32,9 @@ struct SmallestFault {
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level,
                                             std::size_t feature);
 
+// No feature has a threshold at the noise level: that there is no smallest fault says nothing.
+bool without_threshold(const Reliability& reliability, std::size_t level);
+
 // Of all features, the least; of equal ones the one that finds most, then the better ranked.
 std::optional<SmallestFault> smallest_fault(const Reliability& reliability, std::size_t level);
 

@@ -160,11 +160,15 @@ std::string comparison_text(const ComparisonReport& report) {
         for (std::size_t n = 0; n < file.noise_levels.size(); ++n) {
             if (file.noise_levels[n] == report.noise_level && n < file.smallest.size()) {
                 const auto& found = file.smallest[n];
-                out += found ? fmt::format("   smallest fault found at noise x {:g}: {} by {}\n",
-                                           report.noise_level, with_unit(found->size, report.size),
-                                           found->feature)
-                             : fmt::format("   no tested fault found at noise x {:g}\n",
-                                           report.noise_level);
+                out += found
+                           ? fmt::format("   smallest fault found at noise x {:g}: {} by {}\n",
+                                         report.noise_level, with_unit(found->size, report.size),
+                                         found->feature)
+                           : fmt::format("   {} at noise x {:g}\n",
+                                         file.without_threshold[n]
+                                             ? "no threshold: nothing is known of the faults found"
+                                             : "no tested fault found",
+                                         report.noise_level);
             }
         }
     }
@@ -190,7 +194,9 @@ nlohmann::json comparison_json(const ComparisonReport& report) {
                          {"size", found->size},
                          {"from_curve", found->from_curve}};
             }
-            smallest.push_back({{"noise_level", file.noise_levels[n]}, {"fault", fault}});
+            smallest.push_back({{"noise_level", file.noise_levels[n]},
+                                {"fault", fault},
+                                {"without_threshold", bool{file.without_threshold[n]}}});
         }
         for (const ComparedFeature& feature : file.features) {
             Json sizes = Json::array();

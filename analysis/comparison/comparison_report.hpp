@@ -23,6 +23,7 @@ struct ComparedFile {
     long gearboxes = 0;
     std::vector<double> noise_levels;
     std::vector<std::optional<SmallestFault>> smallest;  // by noise level
+    std::vector<bool> without_threshold;                 // the same: then none says nothing
     // Against A; for A itself empty.
     long pairs = 0;                      // graded gearboxes that are the same ones
     std::string unpaired;                // why none are, else empty
@@ -41,7 +42,8 @@ struct ComparisonReport {
 std::string comparison_text(const ComparisonReport& report);
 
 // {"kind": "comparison", "size", "confidence", "noise_level",
-//  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...}}],
+//  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
+//    "without_threshold"}],
 //    "pairs", "unpaired", "differing_inputs", "left_out",
 //    "features": [{"name", "noise_level", "same",
 //      "sizes": [{"size_low", "size_high", "tested": [A, B], "pd": [A, B], "difference", "lower",

@@ -127,8 +127,8 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
     if (std::isnan(level.threshold)) {
         warnings.push_back(fmt::format(
             "noise level {:g}: no threshold, {} healthy ones are too few for a false-alarm "
-            "rate of {:g}; it takes {:.0f}",
-            level.noise_level, level.threshold_sample, rate, std::ceil(1.0 / rate - 1.0 - 1e-9)));
+            "rate of {:g}; it takes {}",
+            level.noise_level, level.threshold_sample, rate, sample_for_threshold(rate)));
     }
     const long without = static_cast<long>(healthy) - level.threshold_sample;
     if (without > 0) {

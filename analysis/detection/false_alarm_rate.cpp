@@ -77,6 +77,10 @@ Interval threshold_rate_interval(long sample, double false_alarm_rate, double co
                        confidence);
 }
 
+long sample_for_threshold(double false_alarm_rate) {
+    return static_cast<long>(std::ceil(1.0 / false_alarm_rate - 1.0 - kRounding));
+}
+
 long sample_for_rate(double false_alarm_rate, double confidence) {
     const auto enough = [&](long sample) {
         return threshold_rate_interval(sample, false_alarm_rate, confidence).upper <=

@@ -14,6 +14,9 @@ long threshold_rank(long sample, double false_alarm_rate);
 // Two-sided tolerance interval of the rate of this very threshold. NaN if there is no threshold.
 Interval threshold_rate_interval(long sample, double false_alarm_rate, double confidence);
 
+// The smallest healthy sample that has a threshold at the rate.
+long sample_for_threshold(double false_alarm_rate);
+
 // The smallest healthy sample from which on, at all larger ones too, the upper bound above is at
 // most twice the rate asked for: the rule by which a sample counts as large enough.
 long sample_for_rate(double false_alarm_rate, double confidence);

@@ -30,12 +30,18 @@ class Compared:
                 return at["fault"]
         return None
 
+    def nothing_found(self, file):
+        """What a file without a smallest fault says."""
+        unknown = any(at["noise_level"] == self.level and at["without_threshold"]
+                      for at in self.files[file]["smallest_faults"])
+        return "no threshold" if unknown else "no tested size"
+
     def sentence(self):
         parts = []
         for k in range(len(self.files)):
             found = self.smallest(k)
             parts.append(f"{letter(k)}: " + (f"{self.sizes.text(found['size'])} by "
-                                             f"{found['feature']}" if found else "no tested size"))
+                                             f"{found['feature']}" if found else self.nothing_found(k)))
         return (f"Smallest fault found with 90\u00a0% probability at "
                 f"{percent(self.data['confidence'])} confidence, {noise(self.level)}: "
                 + "; ".join(parts) + ".")

@@ -4,6 +4,7 @@
 
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/report/json_values.hpp"
+#include "analysis/report/sample_text.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -44,7 +45,7 @@ nlohmann::json level_json(const LevelDetection& level) {
 }
 
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
-                              const DetectionRequest& request) {
+                              const DetectionRequest& request, Subject subject) {
     nlohmann::json list = nlohmann::json::array();
     for (const FeatureDetection& feature : features) {
         nlohmann::json levels = nlohmann::json::array();
@@ -58,6 +59,7 @@ nlohmann::json detection_json(std::span<const FeatureDetection> features,
     }
     return {{"false_alarm_rate", request.false_alarm_rate},
             {"confidence", request.confidence},
+            {"shortage", text_or_null(sample_shortage(features, request, subject))},
             {"size", {{"name", request.size.name}, {"unit", request.size.unit}}},
             {"features", list}};
 }

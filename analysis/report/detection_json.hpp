@@ -6,17 +6,20 @@
 #include <span>
 
 #include "analysis/detection/detection.hpp"
+#include "analysis/report/subject.hpp"
 
 namespace gearpod::analysis {
 
 // {"false_alarm_rate", "confidence", "size": {"name", "unit"},
+//   "shortage": what sample_shortage() says or null,
 //   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
 //     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "healthy_rate",
 //     "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
 //     "sizes": [{"size_low", "size_high", "tested", "detected", "failed", "pd", "lower",
 //     "upper", "exact": [lower, upper]}]}]}]}; sizes in their unit.
 nlohmann::json detection_json(std::span<const FeatureDetection> features,
-                              const DetectionRequest& request);
+                              const DetectionRequest& request,
+                              Subject subject = Subject::gearboxes);
 
 // An entry of "levels" above.
 nlohmann::json level_json(const LevelDetection& level);

@@ -106,6 +106,9 @@ void add_reliable_sizes(std::string& out, Features features, const SizeUnit& uni
     for (std::size_t n = 0; n < features.front().levels.size(); ++n) {
         add_row(out, noise ? fmt::format("x {:g}", features.front().levels[n].noise_level) : "size",
                 features, [n, &unit](const FeatureDetection& f) {
+                    if (std::isnan(f.levels[n].threshold)) {
+                        return std::string("no threshold");
+                    }
                     const auto size = reliable_size(f.levels[n], kReliablePd);
                     if (!size) {
                         return std::string("not reached");

@@ -70,7 +70,9 @@ def _noise_limit(report):
             texts.append(f"{low} it is no smaller ({quiet})")
     last = sizes[-1]
     if last[0] > report.levels[report.reference]:
-        if last[1] is None:
+        if last[1] is None and report.without_threshold(len(report.levels) - 1):
+            texts.append(f"at {noise(last[0])} there is no threshold")
+        elif last[1] is None:
             texts.append(f"at {noise(last[0])} no tested size is found")
         elif here and last[1]["size"] > 1.1 * here["size"]:
             texts.append(f"at {noise(last[0])} it is {report.sizes.text(last[1]['size'])}")
@@ -176,7 +178,8 @@ def table(report):
         found = report.smallest_fault(n)
         mark = ' class="reference"' if n == report.reference else ""
         if found is None:
-            cells = '<td>none</td><td>–</td><td>–</td><td class="wide">–</td>'
+            none = "no threshold" if report.without_threshold(n) else "none"
+            cells = f'<td>{none}</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
             alarm, false = _threshold(report, found["feature"], n)
             basis = ("" if found["from_curve"] else TESTED_SIZE) + (
@@ -229,6 +232,9 @@ def facts(report):
 
 def html_of(report):
     parts = [f'<p class="answer">{escape(sentence(report))}</p>']
+    shortage = report.data["detection"]["shortage"]
+    if shortage and report.silence() is None:
+        parts.insert(0, f'<p class="answer">{escape(shortage)}</p>')
     if report.data.get("assumptions"):
         parts.append(f'<p class="answer">{escape(report.data.get("assumptions"))}</p>')
     texts = limits(report)

@@ -177,6 +177,8 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
                         "by {}{}",
                         percent, with_unit(least->size, unit), least->feature, basis_text(*least)),
             4);
+    } else if (without_threshold(reliability, n)) {
+        out += "no threshold: nothing is known of the faults found\n";
     } else {
         out += fmt::format("no tested fault is found with 90 % probability at {:g} % confidence\n",
                            percent);

@@ -42,6 +42,10 @@ class Report:
         size, _, name = min(tested)
         return {"feature": name, "size": size, "from_curve": False, "source": None}
 
+    def without_threshold(self, level):
+        """That no size is found then says nothing."""
+        return all(f["levels"][level]["threshold"] is None for f in self.detection)
+
     def unit(self, name):
         return self.data["features"][self.feature_number(name)]["unit"]
 
@@ -78,9 +82,8 @@ class Report:
         if healthy == 0:
             return ("No healthy gearbox has a value, so no alarm threshold can be set and nothing "
                     "can be said of detection.")
-        if all(level["threshold"] is None for f in self.detection for level in f["levels"]):
-            return ("No alarm threshold could be set for any feature at the false-alarm rate asked "
-                    "for, so nothing can be said of detection.")
+        if all(self.without_threshold(n) for n in range(len(self.levels))):
+            return self.data["detection"]["shortage"]
         if min(healthy, faulty) < FEWEST:
             return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; fewer than "
                     f"{FEWEST} of a kind say too little of detection to be judged.")

@@ -30,17 +30,19 @@ struct Side {
     Results frame;                               // with the columns
     std::vector<std::size_t> threshold, graded;  // rows
     std::vector<std::optional<analysis::SmallestFault>> smallest;
+    std::vector<bool> without_threshold;
     std::string title;
 };
 
 Side read_side(const std::string& path) {
-    Side side{path, read_results(path), {}, {}, {}, ""};
+    Side side{path, read_results(path), {}, {}, {}, {}, ""};
     const ColumnRows rows(side.frame);
     check_results(path, side.frame, rows);
     side.frame.detection = detect_all(side.frame, rows);
     const auto reliability = reliability_of(side.frame, rows, "", thread_count());
     for (std::size_t n = 0; reliability && n < side.frame.noise_levels.size(); ++n) {
         side.smallest.push_back(analysis::smallest_fault(*reliability, n));
+        side.without_threshold.push_back(analysis::without_threshold(*reliability, n));
     }
     for (std::size_t row = 0; row < side.frame.group.size(); ++row) {
         if (side.frame.group[row] != kUngraded) {
@@ -262,6 +264,7 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
         file.gearboxes = static_cast<long>(side.frame.status.size());
         file.noise_levels = side.frame.noise_levels;
         file.smallest = side.smallest;
+        file.without_threshold = side.without_threshold;
         if (&side != &first) {
             const Rows rows = rows_of(first, side);
             file.unpaired = rows.unpaired;

@@ -6,6 +6,9 @@
 #include <ctime>
 #include <numbers>
 
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/report/sample_text.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
@@ -176,6 +179,26 @@ void print_steps(const Scene& scene) {
                             since[since.size() / 2]));
 }
 
+// Whether the healthy gearboxes suffice for the false-alarm rate: known before anything is
+// computed.
+void print_false_alarms(const Study& study) {
+    const double rate = study.detection.false_alarm_rate, confidence = study.detection.confidence;
+    const long healthy = study.ensemble.threshold_instances;
+    print_heading("false alarms");
+    const std::string shortage =
+        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes);
+    if (!shortage.empty()) {
+        std::string text;
+        analysis::add_wrapped(text, shortage, 2);
+        fmt::print("{}", text);
+        return;
+    }
+    const analysis::Interval found = analysis::threshold_rate_interval(healthy, rate, confidence);
+    print_entry("rate", fmt::format("{:g}; {} healthy gearboxes fix it to between {:.2g} and "
+                                    "{:.2g} at {:g} % confidence",
+                                    rate, healthy, found.lower, found.upper, 100.0 * confidence));
+}
+
 // Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
 void print_effect_costs(const Study& study) {
     for (const EffectCost& cost : effect_costs(study)) {
@@ -280,6 +303,7 @@ int describe_command(const DescribeOptions& options) {
         fmt::print("\nno tooth numbers: only modes are defined\n");
         return kDone;
     }
+    print_false_alarms(*study);
     std::fflush(stdout);
     const Deadline deadline;
     const auto start = WallClock::now();

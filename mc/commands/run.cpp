@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/report/detection_text.hpp"
+#include "analysis/report/sample_text.hpp"
 #include "machine/stop.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
@@ -140,6 +141,12 @@ class Run {
           setup_s_(setup_s) {}
 
     int run(const Interruption& interruption) {
+        if (const std::string shortage = analysis::sample_shortage(
+                study_.ensemble.threshold_instances, study_.detection.false_alarm_rate,
+                study_.detection.confidence, analysis::Subject::gearboxes);
+            !shortage.empty()) {
+            fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
+        }
         if (!options_.quiet) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, study_.title);
             if (choice_) {

@@ -12,6 +12,7 @@
 #include "mc/report/monitoring_over_time.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/layout.hpp"
+#include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
 #include "mc/study/study.hpp"
 
@@ -120,7 +121,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     json["title"] = study ? study->title : "";
     json["assumptions"] = study ? assumptions(*study) : "";
-    json["detection"] = analysis::detection_json(frame.detection, frame.request);
+    json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
     json["numerical"] = numerical_json(frame, numerical_shares(frame, rows, reliability));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/report/detection_text.hpp"
+#include "analysis/report/sample_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/alarms_over_time.hpp"
@@ -66,6 +67,11 @@ std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability) {
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     std::string text;
+    if (const std::string shortage =
+            analysis::sample_shortage(frame.detection, frame.request, subject_of(frame));
+        !shortage.empty()) {
+        analysis::add_wrapped(text, shortage, 2);
+    }
     if (const std::string holds = study ? assumptions(*study) : ""; !holds.empty()) {
         analysis::add_wrapped(text, holds, 2);
         text += "\n";

@@ -1,0 +1,64 @@
+// What is said of healthy samples that are too small for their false-alarm rate.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/report/reliability_text.hpp"
+#include "analysis/report/sample_text.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+FeatureDetection with_samples(const DetectionRequest& request, const std::vector<long>& samples) {
+    FeatureDetection feature;
+    feature.feature = "te_rms";
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        LevelDetection level;
+        level.noise_level = request.noise_levels[n];
+        level.threshold_sample = samples[n];
+        level.threshold = sample_for_threshold(request.false_alarm_rate) <= samples[n] ? 1.0 : kNan;
+        feature.levels.push_back(level);
+    }
+    return feature;
+}
+
+std::string shortage(const DetectionRequest& request, const std::vector<long>& samples) {
+    const std::vector<FeatureDetection> features{with_samples(request, samples)};
+    return sample_shortage(features, request, Subject::gearboxes);
+}
+
+TEST_CASE("The smallest sample with a threshold has an expected rate of the one asked for") {
+    // The largest of n has 1 / (n + 1) beyond it.
+    CHECK(sample_for_threshold(0.05) == 19);
+    CHECK(sample_for_threshold(0.001) == 999);
+    CHECK(sample_for_threshold(1e-6) == 999'999);
+    CHECK(threshold_rank(999, 0.001) == 999);
+    CHECK(threshold_rank(998, 0.001) > 998);
+}
+
+TEST_CASE("A sample without a threshold says how many it takes") {
+    const std::string none = sample_shortage(200, 0.001, 0.95, Subject::gearboxes);
+    CHECK_THAT(none,
+               Catch::Contains("Too few healthy gearboxes") && Catch::Contains("It takes 999"));
+    const long enough = sample_for_rate(0.001, 0.95);
+    CHECK_THAT(none, Catch::Contains("and " + std::to_string(enough)));
+    CHECK_THAT(sample_shortage(999, 0.001, 0.95, Subject::recordings),
+               Catch::StartsWith("Few healthy recordings"));
+    CHECK_THAT(sample_shortage(enough - 1, 0.001, 0.95, Subject::gearboxes),
+               Catch::StartsWith("Few"));
+    CHECK(sample_shortage(enough, 0.001, 0.95, Subject::gearboxes).empty());
+}
+
+TEST_CASE("A report names the noise levels without a threshold") {
+    DetectionRequest request;
+    request.false_alarm_rate = 0.01;
+    request.noise_levels = {0.0, 1.0};
+    CHECK_THAT(shortage(request, {90, 90}), Catch::StartsWith("Too few"));
+    CHECK_THAT(shortage(request, {5000, 90}), Catch::StartsWith("At noise x 1: Too few"));
+    CHECK_THAT(shortage(request, {5000, 120}), Catch::StartsWith("Few"));
+    CHECK(shortage(request, {5000, 5000}).empty());
+    CHECK(sample_shortage({}, request, Subject::gearboxes).empty());
+}
+
+}  // namespace
+}  // namespace gearpod::analysis
