@@ -23,6 +23,7 @@ std::vector<double> column(std::span<const double> values, std::size_t level, st
 // The values of one feature at one noise level.
 struct LevelValues {
     std::vector<double> healthy, faulty;       // for areas and ranking
+    std::vector<double> thresholds;            // of the threshold sample
     std::vector<double> graded;                // all graded gearboxes in order
     std::vector<std::vector<double>> by_size;  // faulty ones by size group
 };
@@ -31,7 +32,7 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
                          const std::vector<std::size_t>& group, std::size_t groups,
                          std::size_t level, std::size_t levels) {
     LevelValues values;
-    values.healthy = column(feature.healthy, level, levels);
+    values.healthy = values.thresholds = column(feature.healthy, level, levels);
     values.graded = column(feature.graded, level, levels);
     values.by_size.resize(groups);
     for (std::size_t i = 0; i < values.graded.size(); ++i) {
@@ -74,6 +75,14 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
         if (cell.size.high > 0.0) {
             level.pd.push_back(cell.pd);
         }
+    }
+    // Thresholds are set by the threshold sample alone.
+    const GradedValues graded{feature.alarm, values.thresholds, data.graded_size, values.graded};
+    level.by_rate = level.hit_miss.refusal.empty()
+                        ? false_alarm_curve(graded, level.hit_miss.chosen.curve.form, confidence)
+                        : FalseAlarmCurve{{}, level.hit_miss.refusal};
+    if (data.costs) {
+        level.least_cost = least_cost(graded, *data.costs, confidence);
     }
     level.tested_size = tested_size(detection, data.graded_size, hit, kReliablePd, confidence);
     return level;

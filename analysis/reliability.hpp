@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/detection/condition_detection.hpp"
+#include "analysis/false_alarm_curve.hpp"
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/inputs/level_sensitivity.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
@@ -31,7 +32,9 @@ struct LevelReliability {
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
-    std::vector<double> pd;  // of the size groups above 0, ascending; NaN where none was tested
+    std::vector<double> pd;   // of the size groups above 0, ascending; NaN where none was tested
+    FalseAlarmCurve by_rate;  // a90 at other false-alarm rates
+    std::optional<LeastCost> least_cost;  // if costs are asked for
     // The size that the rates alone vouch for, without a curve; NaN: none.
     double tested_size = kNan;
 };
@@ -68,6 +71,7 @@ struct ReliabilityData {
     std::vector<FeatureColumns> features;
     std::vector<InputColumn> inputs;         // of the graded gearboxes
     std::vector<ConditionColumn> condition;  // at most one
+    std::optional<Costs> costs = {};
 };
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the

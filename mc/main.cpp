@@ -105,19 +105,7 @@ int run_program(int argc, char** argv) {
     lives_app->callback([&] { code = lives_command(lives); });
 
     ReportOptions report;
-    auto* report_app = app.add_subcommand("report", "detection rates from a results file");
-    report_app->add_option("results", report.results, "results file (HDF5)")->required();
-    needs_name(report_app->add_option("--json", report.json,
-                                      "write JSON to a file, or to - for the terminal"));
-    needs_name(
-        report_app->add_option("--html", report.html, "write a page with figures to a file"));
-    needs_name(report_app->add_option("--csv", report.csv, "write every table into a folder"));
-    needs_name(report_app->add_option("--figures", report.figures,
-                                      "write the page's figures into a folder, as SVG and PNG"));
-    report_app->add_option(
-        "--by", report.condition,
-        "random input, e.g. torque_N_m, whose values get thresholds of their own");
-    report_app->callback([&] { code = report_command(report); });
+    add_report(app, report, code);
 
     CompareOptions compare;
     add_compare(app, compare, code);

@@ -6,6 +6,7 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/size_groups.hpp"
+#include "analysis/detection/tail.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 
 namespace gearpod::analysis {
@@ -78,7 +79,19 @@ double Resampling::threshold(const std::vector<int>& times) const {
             return value;
         }
     }
-    return kNan;
+    return tail_reaches(sample, false_alarm_rate_) ? beyond(times, sample) : kNan;
+}
+
+double Resampling::beyond(const std::vector<int>& times, long sample) const {
+    const auto wanted = static_cast<std::size_t>(exceedances_of(sample)) + 1;
+    std::vector<double> largest;
+    for (auto at = healthy_.rbegin(); at != healthy_.rend() && largest.size() < wanted; ++at) {
+        const auto left = wanted - largest.size();
+        largest.insert(largest.end(), std::min<std::size_t>(left, times[at->second]), at->first);
+    }
+    std::reverse(largest.begin(), largest.end());
+    const TailFit tail(largest, sample);
+    return tail.refusal().empty() ? tail.threshold(false_alarm_rate_) : kNan;
 }
 
 ResampledDetection Resampling::detect(const std::vector<int>& healthy,

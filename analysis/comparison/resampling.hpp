@@ -38,6 +38,7 @@ class Resampling {
         std::size_t gearbox, group;
     };
     double threshold(const std::vector<int>& times) const;
+    double beyond(const std::vector<int>& times, long sample) const;
 
     double sign_;  // values times it alarm where they are large
     double false_alarm_rate_;

@@ -27,9 +27,8 @@ ConditionThreshold threshold_of(double condition, const FeatureSample& healthy,
         }
     }
     const Threshold threshold = alarm_threshold(values, alarm, request.false_alarm_rate);
-    return {
-        condition, threshold.value, threshold.sample, threshold.alarms,
-        threshold_rate_interval(threshold.sample, request.false_alarm_rate, request.confidence)};
+    return {condition, threshold.value, threshold.sample, threshold.alarms,
+            rate_of(threshold, alarm, request.false_alarm_rate, 0, 0, request.confidence).bounds};
 }
 
 void warn(const ConditionLevel& level, const ConditionColumn& column,

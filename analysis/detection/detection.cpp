@@ -57,10 +57,42 @@ bool tied(const LevelDetection& level, const DetectionRequest& request) {
     return level.threshold_alarms < level.threshold_sample - rank;
 }
 
-void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
+// What fewer of the largest values would have said.
+TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
+                             const Threshold& threshold, const DetectionRequest& request) {
+    const double sign = alarm == Alarm::high ? 1.0 : -1.0;
+    const auto choice = [&](const TailFit& fit) {
+        return TailChoice{fit.exceedances(),
+                          sign * fit.above(),
+                          fit.shape(),
+                          fit.scale(),
+                          sign * fit.threshold(request.false_alarm_rate),
+                          fit.rate(sign * threshold.value)};
+    };
+    const Interval bounds =
+        rate_of(threshold, alarm, request.false_alarm_rate, 0, 0, request.confidence).bounds;
+    TailThreshold tail;
+    tail.extrapolation = 1.0 / (request.false_alarm_rate * static_cast<double>(threshold.sample));
+    tail.choices.push_back(choice(*threshold.tail));
+    for (const long part : {2, 4}) {
+        const TailFit fit(largest_values(healthy, alarm, threshold.tail->exceedances() / part),
+                          threshold.sample);
+        if (fit.refusal().empty()) {
+            tail.choices.push_back(choice(fit));
+            const double rate = tail.choices.back().rate;
+            tail.steady = tail.steady && rate >= bounds.lower && rate <= bounds.upper;
+        }
+    }
+    return tail;
+}
+
+void rate_healthy(LevelDetection& level, const Threshold& threshold, Alarm alarm,
+                  const DetectionRequest& request) {
     const double confidence = request.confidence;
-    level.threshold_rate =
-        threshold_rate_interval(level.threshold_sample, request.false_alarm_rate, confidence);
+    const auto known = [&](long alarms, long tested) {
+        return rate_of(threshold, alarm, request.false_alarm_rate, alarms, tested, confidence);
+    };
+    level.threshold_rate = known(0, 0).bounds;
     level.healthy_rate = kNan;
     level.healthy_rate_bounds = level.expected_rate = {kNan, kNan};
     if (std::isnan(level.threshold)) {
@@ -77,17 +109,41 @@ void rate_healthy(LevelDetection& level, const DetectionRequest& request) {
         level.healthy_rate_bounds = clopper_pearson_interval(k, n, confidence);
         return;
     }
-    const HealthyRate rate =
-        healthy_rate(level.threshold_sample, request.false_alarm_rate, alarms, tested, confidence);
+    const HealthyRate rate = known(alarms, tested);
     level.healthy_rate = rate.rate;
     level.healthy_rate_bounds = rate.bounds;
-    level.expected_rate =
-        expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
+    if (!level.tail) {
+        level.expected_rate =
+            expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
+    }
+}
+
+// Of a threshold beyond its sample; how far it lies stands with it.
+void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
+                  std::vector<std::string>& warnings) {
+    if (!level.tail->steady) {
+        warnings.push_back(fmt::format(
+            "noise level {:g}: fewer of the most extreme healthy ones give the threshold a rate "
+            "outside its interval: the law does not hold, do not trust the threshold",
+            level.noise_level));
+    }
+    const DetectionCell* healthy = healthy_cell(level);
+    if (healthy != nullptr && healthy->tested > 0 &&
+        !(clopper_pearson_interval(healthy->detected, healthy->tested, request.confidence).lower <=
+          level.threshold_rate.upper)) {
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} graded healthy ones alarm, more than its "
+                        "interval explains",
+                        level.noise_level, healthy->detected, healthy->tested));
+    }
 }
 
 void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     const double rate = request.false_alarm_rate;
+    if (level.tail) {
+        return warn_of_tail(level, request, warnings);
+    }
     if (level.threshold_rate.upper > 2.0 * rate) {
         warnings.push_back(
             fmt::format("noise level {:g}: {} healthy ones fix the false-alarm rate of {:g} "
@@ -125,10 +181,14 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
 void warn(const LevelDetection& level, std::size_t healthy, double rate,
           std::vector<std::string>& warnings) {
     if (std::isnan(level.threshold)) {
+        const bool tied_tail = tail_reaches(level.threshold_sample, rate);
         warnings.push_back(fmt::format(
             "noise level {:g}: no threshold, {} healthy ones are too few for a false-alarm "
-            "rate of {:g}; it takes {}",
-            level.noise_level, level.threshold_sample, rate, sample_for_threshold(rate)));
+            "rate of {:g}{}; it takes {}",
+            level.noise_level, level.threshold_sample, rate,
+            tied_tail ? ", and the most extreme are equal" : "",
+            tied_tail ? sample_for_threshold(rate)
+                      : std::min(sample_for_threshold(rate), sample_for_tail(rate))));
     }
     const long without = static_cast<long>(healthy) - level.threshold_sample;
     if (without > 0) {
@@ -154,11 +214,14 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     for (std::size_t n = 0; n < levels; ++n) {
         LevelDetection level;
         level.noise_level = request.noise_levels[n];
-        const Threshold threshold =
-            alarm_threshold(column(healthy, n, levels), alarm, request.false_alarm_rate);
+        const std::vector<double> sample = column(healthy, n, levels);
+        const Threshold threshold = alarm_threshold(sample, alarm, request.false_alarm_rate);
         level.threshold = threshold.value;
         level.threshold_sample = threshold.sample;
         level.threshold_alarms = threshold.alarms;
+        if (threshold.tail) {
+            level.tail = tail_threshold(sample, alarm, threshold, request);
+        }
         level.cells.resize(request.groups.size());
         for (std::size_t g = 0; g < request.groups.size(); ++g) {
             level.cells[g].size = request.groups[g];
@@ -171,7 +234,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
         for (DetectionCell& cell : level.cells) {
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
-        rate_healthy(level, request);
+        rate_healthy(level, threshold, alarm, request);
         warn(level, healthy.fault_size.size(), request.false_alarm_rate, result.warnings);
         warn_of_rate(level, request, result.warnings);
         result.levels.push_back(std::move(level));

@@ -2,6 +2,7 @@
 // level and fault size.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,18 +32,36 @@ struct DetectionCell {
     Interval exact = {};  // Clopper-Pearson bounds, wider
 };
 
+// One fit of a generalised Pareto law to the largest healthy values (of a low alarm: the smallest).
+struct TailChoice {
+    long exceedances = 0;  // values that it is fitted to
+    double above = 0.0;    // the value that they lie beyond, in the feature's unit
+    double shape = 0.0, scale = 0.0;
+    double threshold = 0.0;  // that this fit would set
+    double rate = 0.0;       // that it expects beyond the threshold that was set
+};
+
+// A threshold beyond its healthy sample (tail.hpp).
+struct TailThreshold {
+    double extrapolation = 1.0;       // so many times rarer than one in the sample is the rate
+    std::vector<TailChoice> choices;  // the first set the threshold; the others fit fewer values
+    bool steady = true;  // the others' rates lie in the interval of the threshold's rate
+};
+
 // One feature at one noise level.
 struct LevelDetection {
-    double noise_level = 0.0;          // factor on the sensor and encoder noise
-    double threshold = 0.0;            // in the feature's unit; NaN if the sample was too small
-    long threshold_sample = 0;         // healthy gearboxes that set it
-    long threshold_alarms = 0;         // of these, how many lie beyond it
-    std::vector<DetectionCell> cells;  // ascending size
+    double noise_level = 0.0;           // factor on the sensor and encoder noise
+    double threshold = 0.0;             // in the feature's unit; NaN if the sample was too small
+    long threshold_sample = 0;          // healthy gearboxes that set it
+    long threshold_alarms = 0;          // of these, how many lie beyond it
+    std::optional<TailThreshold> tail;  // else the threshold is an order statistic of the sample
+    std::vector<DetectionCell> cells;   // ascending size
     // What the healthy sample alone says of this threshold's false-alarm rate, whatever the
-    // feature's distribution (false_alarm_rate.hpp).
+    // feature's distribution (false_alarm_rate.hpp, tail.hpp).
     Interval threshold_rate = {};
     // The same with the graded healthy gearboxes, and the expected rate over repeated studies that
-    // they speak for, with the threshold's own scatter; NaN without graded healthy gearboxes. Where
+    // they speak for, with the threshold's own scatter; NaN without graded healthy gearboxes and
+    // beyond the sample. Where
     // healthy values tie with the threshold, only the upper end of the first holds, the second is
     // the graded ones' Clopper-Pearson interval and the third is NaN.
     double healthy_rate = 0.0;

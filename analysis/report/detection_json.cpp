@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/detection/reliable_size.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/json_values.hpp"
-#include "analysis/report/sample_text.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -23,6 +23,23 @@ nlohmann::json to_json(const DetectionCell& cell) {
 
 }  // namespace
 
+namespace {
+
+nlohmann::json to_json(const TailThreshold& tail) {
+    nlohmann::json choices = nlohmann::json::array();
+    for (const TailChoice& choice : tail.choices) {
+        choices.push_back({{"exceedances", choice.exceedances},
+                           {"above", number(choice.above)},
+                           {"shape", number(choice.shape)},
+                           {"scale", number(choice.scale)},
+                           {"threshold", number(choice.threshold)},
+                           {"rate", number(choice.rate)}});
+    }
+    return {{"extrapolation", tail.extrapolation}, {"steady", tail.steady}, {"choices", choices}};
+}
+
+}  // namespace
+
 nlohmann::json level_json(const LevelDetection& level) {
     nlohmann::json sizes = nlohmann::json::array();
     for (const DetectionCell& cell : level.cells) {
@@ -37,6 +54,7 @@ nlohmann::json level_json(const LevelDetection& level) {
             {"threshold_sample", level.threshold_sample},
             {"threshold_alarms", level.threshold_alarms},
             {"threshold_rate", to_json(level.threshold_rate)},
+            {"tail", level.tail ? to_json(*level.tail) : nlohmann::json(nullptr)},
             {"healthy_rate", number(level.healthy_rate)},
             {"healthy_rate_bounds", to_json(level.healthy_rate_bounds)},
             {"expected_rate", to_json(level.expected_rate)},

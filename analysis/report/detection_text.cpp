@@ -19,6 +19,7 @@ constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
 constexpr std::size_t kCountWidth = 8;  // gearboxes or recordings, failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
 constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
+constexpr double kSmallRate = 0.01;     // below it three decimals say too little
 
 std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
     const double low = size.low / unit.per_unit(), high = size.high / unit.per_unit();
@@ -84,9 +85,18 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
             });
     add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
         const Interval& rate = f.levels[n].threshold_rate;
-        return std::isnan(rate.lower) ? std::string("-")
-                                      : fmt::format("[{:.3f}, {:.3f}]", rate.lower, rate.upper);
+        return std::isnan(rate.lower)    ? std::string("-")
+               : rate.upper < kSmallRate ? fmt::format("[{:.1e}, {:.1e}]", rate.lower, rate.upper)
+                                         : fmt::format("[{:.3f}, {:.3f}]", rate.lower, rate.upper);
     });
+    const auto beyond = [n](const FeatureDetection& f) { return f.levels[n].tail.has_value(); };
+    if (std::any_of(features.begin(), features.end(), beyond)) {
+        add_row(out, "extrapolated, from most extreme", features, [&](const FeatureDetection& f) {
+            return beyond(f) ? fmt::format("{:.2g}-fold, {}", f.levels[n].tail->extrapolation,
+                                           f.levels[n].tail->choices.front().exceedances)
+                             : std::string("no");
+        });
+    }
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const std::string label = fmt::format(

@@ -1,7 +1,9 @@
 """Which random inputs decide what is missed, and numerical against statistical error."""
 
+import math
+
 from blocks import note, paragraph, table
-from charts import MUTED, colour, panel, to_svg
+from charts import MUTED, colour, dash, legend_below, marker, panel, to_svg
 from headline import influences
 from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
 
@@ -92,3 +94,52 @@ def conditions(report):
                        for warning in detection["warnings"])
     return paragraph(f"Every value of {name} has a threshold of its own, from healthy gearboxes with "
                      "that value.") + out
+
+
+def _sizes(points, report, which):
+    """Open bounds are gaps."""
+    return [report.sizes.shown(p["a90"][which]["size"])
+            if p["a90"][which]["where"] == "reached" else math.nan for p in points]
+
+
+def _size_text(report, estimate):
+    texts = {"below_tested": "below the sizes tested", "not_reached": "beyond the sizes tested"}
+    return texts.get(estimate["where"]) or report.sizes.text(estimate["size"])
+
+
+def false_alarm_curves(report, page):
+    """a90 over the false-alarm rate, of the best ranked features that have one."""
+    n = report.reference
+    shown = [f for f in report.order(n)
+             if any(p["a90"]["estimate"]["where"] == "reached"
+                    for p in report.reliable(f, n)["by_false_alarm_rate"]["points"])][:3]
+    if not shown:
+        return ""
+    figure, axes = panel(3.5)
+    rows = []
+    for f in shown:
+        points = report.reliable(f, n)["by_false_alarm_rate"]["points"]
+        rates = [p["false_alarm_rate"] for p in points]
+        axes.fill_between(rates, _sizes(points, report, "lower"), _sizes(points, report, "upper"),
+                          color=colour(f), alpha=0.16, linewidth=0)
+        axes.plot(rates, _sizes(points, report, "estimate"), color=colour(f), linestyle=dash(f),
+                  marker=marker(f), markersize=4, label=report.names[f])
+        rows += [[report.names[f], number(p["false_alarm_rate"]), number(p["threshold"], 4),
+                  "" if p["extrapolation"] is None else f"{number(p['extrapolation'], 2)}-fold",
+                  *(_size_text(report, p["a90"][which]) for which in ("estimate", "lower", "upper"))]
+                 for p in points]
+    axes.set_xscale("log")
+    axes.invert_xaxis()
+    axes.set_xlabel("False-alarm rate")
+    axes.set_ylabel("a90, " + report.sizes.axis().lower())
+    legend_below(axes, 1, handlelength=2.8)
+    svg = to_svg(figure, f"Size found with 90 % probability over the false-alarm rate at "
+                 f"{noise(report.levels[n])}",
+                 "; ".join(f"{report.names[f]}" for f in shown), page.names)
+    how = (f"Shaded: bounds at {percent(report.confidence)} that also hold the threshold's own "
+           "scatter; where a bound or the size itself leaves the sizes tested, it is not drawn. "
+           "Rarer alarms than shown are not carried by the healthy sample.")
+    return page.figure(f"What rarer false alarms cost, at {noise(report.levels[n])}", [svg], how,
+                       table("a90 by false-alarm rate",
+                             ["feature", "false-alarm rate", "alarm beyond", "beyond the sample",
+                              "a90", "lower bound", "upper bound"], rows))

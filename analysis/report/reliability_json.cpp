@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/detector_json.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/pod_json.hpp"
 #include "analysis/report/robustness_json.hpp"
@@ -50,7 +51,9 @@ Json to_json(const LevelReliability& level) {
             {"auc", auc_json(level.auc)},
             {"auc_by_size", by_size},
             {"roc", to_json(level.roc)},
-            {"misses", to_json(level.misses)}};
+            {"misses", to_json(level.misses)},
+            {"by_false_alarm_rate", false_alarm_json(level.by_rate)},
+            {"least_cost", level.least_cost ? least_cost_json(*level.least_cost) : Json(nullptr)}};
 }
 
 Json to_json(const std::optional<SmallestFault>& smallest) {

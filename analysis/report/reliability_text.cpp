@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/robustness_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "analysis/smallest_fault.hpp"
@@ -110,6 +111,34 @@ void add_ranking(std::string& out, const FeatureRanking& ranking) {
     }
 }
 
+// Of the best ranked feature that has one, and of the feature whose alarms cost least.
+void add_false_alarms(std::string& out, const std::vector<const FeatureReliability*>& features,
+                      std::size_t n, const DetectionRequest& request) {
+    for (const FeatureReliability* feature : features) {
+        const LevelReliability& level = feature->levels[n];
+        const std::string text = false_alarm_text(feature->feature, level.by_rate,
+                                                  {level.hit_miss.smallest, level.hit_miss.largest},
+                                                  request.size, request.confidence);
+        if (!text.empty()) {
+            add_wrapped(out, text, 4);
+            break;
+        }
+    }
+    const FeatureReliability* cheapest = nullptr;
+    for (const FeatureReliability* feature : features) {
+        const auto& own = feature->levels[n].least_cost;
+        if (own && (cheapest == nullptr || own->cost < cheapest->levels[n].least_cost->cost)) {
+            cheapest = feature;
+        }
+    }
+    if (cheapest != nullptr) {
+        add_wrapped(
+            out,
+            least_cost_text(cheapest->feature, *cheapest->levels[n].least_cost, request.confidence),
+            4);
+    }
+}
+
 void add_misses(std::string& out, const FeatureReliability& feature, std::size_t n,
                 const SizeUnit& unit) {
     const MissSensitivity& misses = feature.levels[n].misses;
@@ -195,6 +224,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     }
     add_ranking(out, reliability.rankings[n]);
     add_signal_response(out, features, n, unit);
+    add_false_alarms(out, features, n, request);
     for (const FeatureReliability* feature : features) {
         add_misses(out, *feature, n, unit);
     }

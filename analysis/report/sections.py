@@ -75,8 +75,35 @@ def stiffness(report, page):
     return page.section("stiffness", "Mesh stiffness", body)
 
 
-def thresholds(report, page):
+def _tail_row(feature, level, choice):
+    first = choice is level["tail"]["choices"][0]
+    return [feature["name"], f"× {number(level['noise_level'])}",
+            f"{number(level['tail']['extrapolation'], 2)}-fold" if first else "",
+            count(choice["exceedances"]), number(choice["above"], 4), number(choice["shape"], 2),
+            number(choice["threshold"], 4), number(choice["rate"], 2)]
+
+
+def _costs(report):
+    """The threshold of least expected cost at the noise shown, if costs were given."""
+    n = report.reference
     rows = []
+    for f in report.order(n):
+        least = report.reliable(f, n)["least_cost"]
+        if least:
+            rows.append([report.names[f], number(least["threshold"], 4),
+                         number(least["false_alarm_rate"], 2),
+                         rate_with_bounds(least["pd"], *least["pd_bounds"]),
+                         f"{number(least['cost'])} [{number(least['bounds'][0])}, "
+                         f"{number(least['bounds'][1])}]", number(least["without"])])
+    if not rows:
+        return ""
+    return table(f"Thresholds of least expected cost a record, at {noise(report.levels[n])}",
+                 ["feature", "alarm beyond", "false-alarm rate", "Pd of the study's faults", "cost",
+                  "without any alarm"], rows)
+
+
+def thresholds(report, page):
+    rows, extrapolated = [], []
     for f, feature in enumerate(report.detection):
         sign = ">" if feature["alarm"] == "high" else "<"
         for level in feature["levels"]:
@@ -86,6 +113,9 @@ def thresholds(report, page):
                          f"{count(level['threshold_alarms'])} of {count(level['threshold_sample'])}",
                          _bounds(level["threshold_rate"]),
                          rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])])
+            if level["tail"]:
+                extrapolated += [_tail_row(feature, level, choice)
+                                 for choice in level["tail"]["choices"]]
     units = ", ".join(f"{f['name']} in {f['unit']}" for f in report.data["features"]
                       if f["unit"] not in ("", "1"))
     body = paragraph(
@@ -96,6 +126,16 @@ def thresholds(report, page):
              + table("Alarm thresholds", ["feature", "noise", "alarm if", "alarms in the sample",
                                           "its false-alarm rate", "with graded healthy gearboxes"], rows)
              + "</details>")
+    if report.reliability and report.silence() is None:
+        body += influence_figures.false_alarm_curves(report, page) + _costs(report)
+    if extrapolated:
+        body += (note("Thresholds beyond the healthy sample are extrapolated by a generalised Pareto law "
+                      "of its most extreme values.")
+                 + "<details><summary>How far, and what fewer values would have said</summary>"
+                 + table("Extrapolated thresholds",
+                         ["feature", "noise", "beyond the sample", "values fitted", "that lie beyond",
+                          "shape", "threshold", "rate expected of the threshold set"], extrapolated)
+                 + "</details>")
     body += '<details><summary>What the features are</summary>' + table(
         "Features", ["feature", "unit", "alarms when", "definition"],
         [[f["name"], f["unit"], f["alarm"], f["doc"]] for f in report.data["features"]]) + "</details>"
@@ -103,7 +143,10 @@ def thresholds(report, page):
 
 
 def _bounds(pair):
-    return "–" if pair[0] is None or pair[1] is None else f"[{rate(pair[0])}, {rate(pair[1])}]"
+    if pair[0] is None or pair[1] is None:
+        return "–"
+    text = rate if pair[1] >= 0.005 else lambda value: number(value, 2)
+    return f"[{text(pair[0])}, {text(pair[1])}]"
 
 
 def errors(report, page):

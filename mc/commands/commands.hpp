@@ -40,6 +40,8 @@ struct ReportOptions {
     std::string csv;        // folder for every table; "": none
     std::string figures;    // folder for the page's figures as SVG and PNG; "": none
     std::string condition;  // random input whose values get thresholds of their own; "": none
+    // Of a false alarm and of a missed fault, and the share of records with a fault; all or none.
+    std::optional<double> alarm_cost, miss_cost, fault_share;
 };
 int report_command(const ReportOptions& options);
 

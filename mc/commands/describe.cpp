@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "analysis/detection/false_alarm_rate.hpp"
-#include "analysis/report/sample_text.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "machine/stop.hpp"

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/results_check.hpp"
@@ -42,12 +43,31 @@ bool write_files(const ReportOptions& options, const Results& results, const Row
     return true;
 }
 
+// All three or none; false after a message.
+bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& costs) {
+    const auto& [alarm, miss, share] =
+        std::tie(options.alarm_cost, options.miss_cost, options.fault_share);
+    if (!alarm && !miss && !share) {
+        return true;
+    }
+    if (!alarm || !miss || !share) {
+        fmt::print(stderr,
+                   "--alarm-cost, --miss-cost, --fault-share: expected costs need all "
+                   "three\n");
+        return false;
+    }
+    costs = analysis::Costs{*alarm, *miss, *share};
+    return true;
+}
+
 }  // namespace
 
 int report_command(const ReportOptions& options) {
     const FileRole read{"the results file", options.results}, json{"--json", options.json};
     const bool json_good = can_write(json, {read});
-    if (!can_write({"--html", options.html}, {read, json}) || !json_good) {
+    std::optional<analysis::Costs> costs;
+    const bool costs_good = read_costs(options, costs);
+    if (!can_write({"--html", options.html}, {read, json}) || !json_good || !costs_good) {
         return kBadInput;
     }
     try {
@@ -55,7 +75,8 @@ int report_command(const ReportOptions& options) {
         const FileRows rows(options.results, results);
         check_results(options.results, results, rows);
         results.detection = detect_all(results, rows);
-        const auto reliability = reliability_of(results, rows, options.condition, thread_count());
+        const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
+                                                kMostAssessedValues, costs);
         if (!options.json.empty() || !options.html.empty() || !options.csv.empty() ||
             !options.figures.empty()) {
             if (!write_files(options, results, rows, reliability)) {

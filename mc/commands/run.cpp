@@ -7,7 +7,7 @@
 #include <set>
 
 #include "analysis/report/detection_text.hpp"
-#include "analysis/report/sample_text.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "machine/stop.hpp"
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"

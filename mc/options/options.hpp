@@ -22,6 +22,7 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
 void add_features(CLI::App& app, FeaturesOptions& features, int& code);
 void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
 void add_pod(CLI::App& app, PodOptions& pod, int& code);
+void add_report(CLI::App& app, ReportOptions& report, int& code);
 void add_compare(CLI::App& app, CompareOptions& compare, int& code);
 
 }  // namespace gearpod::mc

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analysis/report/detection_text.hpp"
-#include "analysis/report/sample_text.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/alarms_over_time.hpp"

@@ -52,7 +52,8 @@ void check_condition(const Results& frame, const std::string& condition) {
 
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
-                                                    std::size_t most_values) {
+                                                    std::size_t most_values,
+                                                    std::optional<analysis::Costs> costs) {
     check_condition(frame, condition);
     const RowShape shape = row_shape(frame);
     if (rows.rows() * shape.features * shape.levels > most_values) {
@@ -71,6 +72,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     });
     const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
     analysis::ReliabilityData data;
+    data.costs = costs;
     data.healthy_size = {no_fault.data(), healthy.rows};
     data.graded_size = {no_fault.data(), graded.rows};
     for (std::size_t p = 0; p < shape.parameters; ++p) {

@@ -16,10 +16,11 @@ inline constexpr std::size_t kMostAssessedValues = std::size_t{1} << 24;
 
 // `frame.detection` must be up to date (detect_all). `condition`: name of a parameter whose values
 // get thresholds of their own, "" for none; std::runtime_error names the parameters if it is
-// unknown. None beyond `most_values`.
+// unknown. None beyond `most_values`. With `costs` also the threshold of least expected cost.
 std::optional<analysis::Reliability> reliability_of(const Results& frame, const RowSource& rows,
                                                     const std::string& condition, int threads,
-                                                    std::size_t most_values = kMostAssessedValues);
+                                                    std::size_t most_values = kMostAssessedValues,
+                                                    std::optional<analysis::Costs> costs = {});
 
 // What a results file's rows are.
 analysis::Subject subject_of(const Results& frame);

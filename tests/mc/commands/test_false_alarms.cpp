@@ -46,3 +46,22 @@ TEST_CASE("A sample that does not fix its rate is told, one that does is not") {
     CHECK(!enough.mentions("ew healthy"));
     CHECK(enough.mentions("100 healthy gearboxes fix it to between"));
 }
+
+TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none") {
+    const Folder folder;
+    const std::string results = folder.file("r.h5");
+    REQUIRE(program("run " + kSmall + " --quiet --out " + results).code == 0);
+    const std::string costs = " --alarm-cost 10 --miss-cost 500";
+    const Outcome two = program("report " + results + costs);
+    CHECK(two.code == 2);
+    CHECK(two.mentions("need all three"));
+    const Outcome all = program("report " + results + costs + " --fault-share 0.01");
+    CHECK(all.code == 0);
+    CHECK(all.mentions("least expected cost by"));
+    CHECK(all.mentions("without any alarm 5"));  // a hundredth of 500
+    CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
+    CHECK(program("report " + results + costs + " --fault-share 2").code == 2);
+    const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
+    CHECK(json.mentions("\"least_cost\""));
+    CHECK(json.mentions("\"by_false_alarm_rate\""));
+}

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/reliability_text.hpp"
-#include "analysis/report/sample_text.hpp"
 
 namespace gearpod::analysis {
 namespace {

@@ -1,0 +1,160 @@
+#include "analysis/false_alarm_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/detection/threshold.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+#include "analysis/pod/pod_bounds.hpp"
+#include "analysis/statistics/wilson.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+constexpr double kPod = 0.9;
+
+SizeBounds everywhere(SizeEstimate::Where where) {
+    const SizeEstimate estimate{where, kNan};
+    return {estimate, estimate, estimate};
+}
+
+// At one threshold; empty where no curve fits.
+std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, const PodForm& form,
+                                 double confidence) {
+    std::vector<double> size;
+    std::vector<char> hit;
+    for (std::size_t i = 0; i < values.value.size(); ++i) {
+        if (std::isfinite(values.value[i])) {
+            size.push_back(values.size[i]);
+            hit.push_back(is_alarm(values.value[i], threshold, values.alarm) ? 1 : 0);
+        }
+    }
+    const HitMissTable table = hit_miss_table(size, hit);
+    if (table.empty() || total_hits(table) == 0.0) {
+        return everywhere(SizeEstimate::Where::not_reached);
+    }
+    if (total_hits(table) == total_tests(table)) {
+        return everywhere(SizeEstimate::Where::below_tested);
+    }
+    const HitMissFit fit = fit_hit_miss(table, form);
+    if (!fit.refusal.empty()) {
+        return std::nullopt;
+    }
+    const PodLikelihood likelihood(table, form);
+    return size_bounds(table, likelihood, likelihood.maximise(), kPod, one_sided_bound(confidence));
+}
+
+RatePoint point_of(const GradedValues& values, const std::vector<double>& healthy, double rate,
+                   const Threshold& threshold, double confidence) {
+    RatePoint point;
+    point.false_alarm_rate = rate;
+    point.threshold = threshold.value;
+    point.extrapolation =
+        threshold.tail ? 1.0 / (rate * static_cast<double>(threshold.sample)) : 0.0;
+    point.threshold_bounds = threshold_interval(healthy, values.alarm, rate, confidence);
+    return point;
+}
+
+double share_beyond(std::span<const double> ascending, double threshold) {
+    const auto beyond =
+        ascending.end() - std::upper_bound(ascending.begin(), ascending.end(), threshold);
+    return static_cast<double>(beyond) / static_cast<double>(ascending.size());
+}
+
+}  // namespace
+
+FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& form,
+                                  double confidence) {
+    FalseAlarmCurve curve;
+    const std::vector<double> healthy(values.healthy.begin(), values.healthy.end());
+    // Both one-sided bounds of either kind: half the chance of error each.
+    const double half = 1.0 - 0.5 * (1.0 - confidence), two_sided = confidence;
+    for (const double rate : kCurveRates) {
+        const Threshold threshold = alarm_threshold(healthy, values.alarm, rate);
+        if (std::isnan(threshold.value)) {
+            break;
+        }
+        RatePoint point = point_of(values, healthy, rate, threshold, two_sided);
+        PodForm at = form;
+        at.floor = form.floor > 0.0 ? rate : 0.0;
+        // The side towards the healthy ones finds more.
+        const bool high = values.alarm == Alarm::high;
+        const Interval& bounds = point.threshold_bounds;
+        const double near = high ? bounds.lower : bounds.upper,
+                     far = high ? bounds.upper : bounds.lower;
+        const auto middle = a90_at(values, threshold.value, at, half),
+                   least = a90_at(values, near, at, half), most = a90_at(values, far, at, half);
+        if (!middle || !least || !most) {
+            curve.refusal = "the curve does not fit at all of the rates";
+            continue;
+        }
+        point.a90 = {middle->estimate, least->lower, most->upper};
+        curve.points.push_back(point);
+    }
+    if (!curve.points.empty()) {
+        curve.refusal.clear();
+    } else if (curve.refusal.empty()) {
+        curve.refusal = "too few healthy ones for a threshold";
+    }
+    return curve;
+}
+
+std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
+                                    double confidence) {
+    const double sign = values.alarm == Alarm::high ? 1.0 : -1.0;
+    const std::vector<double> all(values.healthy.begin(), values.healthy.end());
+    const std::vector<double> healthy =
+        largest_values(all, values.alarm, static_cast<long>(all.size()));
+    std::vector<double> faulty;
+    for (std::size_t i = 0; i < values.value.size(); ++i) {
+        if (values.size[i] > 0.0 && std::isfinite(values.value[i])) {
+            faulty.push_back(sign * values.value[i]);
+        }
+    }
+    if (healthy.empty() || faulty.empty()) {
+        return std::nullopt;
+    }
+    std::sort(faulty.begin(), faulty.end());
+    const auto cost = [&](double rate, double pd) {
+        return (1.0 - costs.fault_share) * rate * costs.alarm +
+               costs.fault_share * (1.0 - pd) * costs.miss;
+    };
+    const auto sample = static_cast<double>(healthy.size());
+    LeastCost least;
+    least.cost = std::numeric_limits<double>::infinity();
+    least.without = cost(0.0, 0.0);
+    double rarest = 1.0;
+    const auto consider = [&](double value, double rate) {
+        const double pd = share_beyond(faulty, value), expected = cost(rate, pd);
+        rarest = std::min(rarest, rate);
+        if (expected < least.cost) {
+            least.threshold = sign * value;
+            least.false_alarm_rate = rate;
+            least.pd = pd;
+            least.cost = expected;
+        }
+    };
+    for (std::size_t i = 0; i < healthy.size(); ++i) {
+        consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0));
+    }
+    for (const double rate : kCurveRates) {
+        if (const Threshold beyond = alarm_threshold(all, values.alarm, rate); beyond.tail) {
+            consider(sign * beyond.value, rate);
+        }
+    }
+    // At a rate between two whole ranks the order statistic is the same one.
+    const Threshold chosen = alarm_threshold(all, values.alarm, least.false_alarm_rate);
+    const double half = 1.0 - 0.5 * (1.0 - confidence);
+    least.extrapolation =
+        chosen.tail ? 1.0 / (least.false_alarm_rate * static_cast<double>(chosen.sample)) : 0.0;
+    least.rate_bounds = rate_of(chosen, values.alarm, least.false_alarm_rate, 0, 0, half).bounds;
+    least.pd_bounds = wilson_interval(std::lround(least.pd * static_cast<double>(faulty.size())),
+                                      static_cast<long>(faulty.size()), half);
+    least.bounds = {cost(least.rate_bounds.lower, least.pd_bounds.upper),
+                    cost(least.rate_bounds.upper, least.pd_bounds.lower)};
+    least.rarest = least.false_alarm_rate <= rarest;
+    return least;
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,162 @@
+#include "analysis/report/false_alarm_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/tail.hpp"
+#include "analysis/report/json_values.hpp"
+#include "analysis/report/text_lines.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+long largest_sample(std::span<const FeatureDetection> features, std::size_t level) {
+    long largest = 0;
+    for (const FeatureDetection& feature : features) {
+        largest = std::max(largest, feature.levels[level].threshold_sample);
+    }
+    return largest;
+}
+
+Json pair_json(const Interval& bounds) {
+    return Json::array({number(bounds.lower), number(bounds.upper)});
+}
+
+std::string beyond_text(double extrapolation) {
+    return extrapolation > 0.0 ? fmt::format(" ({:.2g}-fold beyond the sample)", extrapolation)
+                               : "";
+}
+
+}  // namespace
+
+std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
+                            Subject subject) {
+    const long without_law = sample_for_threshold(false_alarm_rate),
+               by_law = sample_for_tail(false_alarm_rate);
+    const std::string enough =
+        fmt::format("{} for a rate of at most twice that at {:g} % confidence",
+                    sample_for_rate(false_alarm_rate, confidence), 100.0 * confidence);
+    if (healthy < std::min(without_law, by_law)) {
+        return fmt::format(
+            "Too few healthy {} for a false-alarm rate of {:g}: {} give no threshold, so nothing "
+            "can be said of faults. It takes {}, and {}.",
+            many(subject), false_alarm_rate, healthy,
+            by_law < without_law
+                ? fmt::format("{} to extrapolate to it, {} without", by_law, without_law)
+                : fmt::format("{}", without_law),
+            enough);
+    }
+    if (healthy < without_law) {
+        return fmt::format(
+            "A false-alarm rate of {:g} lies {:.2g}-fold beyond {} healthy {}: thresholds are "
+            "extrapolated by a generalised Pareto law of their {} most extreme values, and the "
+            "rate may be several times that. It takes {} without, and {}.",
+            false_alarm_rate, 1.0 / (false_alarm_rate * static_cast<double>(healthy)), healthy,
+            many(subject), exceedances_of(healthy), without_law, enough);
+    }
+    const Interval rate = threshold_rate_interval(healthy, false_alarm_rate, confidence);
+    if (rate.upper <= 2.0 * false_alarm_rate) {
+        return "";
+    }
+    return fmt::format(
+        "Few healthy {} for a false-alarm rate of {:g}: {} fix it to between {:.2g} and {:.2g} at "
+        "{:g} % confidence. It takes {} for a rate of at most twice that.",
+        many(subject), false_alarm_rate, healthy, rate.lower, rate.upper, 100.0 * confidence,
+        sample_for_rate(false_alarm_rate, confidence));
+}
+
+std::string sample_shortage(std::span<const FeatureDetection> features,
+                            const DetectionRequest& request, Subject subject) {
+    if (features.empty() || features.front().levels.empty()) {
+        return "";
+    }
+    const std::size_t levels = features.front().levels.size();
+    std::vector<std::string> without;
+    long fewest = largest_sample(features, 0);
+    for (std::size_t n = 0; n < levels; ++n) {
+        fewest = std::min(fewest, largest_sample(features, n));
+        if (without_threshold(features, n)) {
+            without.push_back(fmt::format("x {:g}", request.noise_levels[n]));
+        }
+    }
+    const std::string text =
+        sample_shortage(fewest, request.false_alarm_rate, request.confidence, subject);
+    return without.empty() || without.size() == levels || text.empty()
+               ? text
+               : fmt::format("At noise {}: {}", fmt::join(without, ", "), text);
+}
+
+bool without_threshold(std::span<const FeatureDetection> features, std::size_t level) {
+    return std::all_of(features.begin(), features.end(), [&](const FeatureDetection& feature) {
+        return std::isnan(feature.levels[level].threshold);
+    });
+}
+
+std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
+                             const SizeGroup& tested, const SizeUnit& unit, double confidence) {
+    if (!curve.refusal.empty()) {
+        return "";
+    }
+    const std::string shown = unit.shown_unit();
+    std::string text = fmt::format(
+        "a90 of {}{} by false-alarm rate, with bounds at {:g} % that hold the "
+        "threshold's scatter:",
+        feature, shown.empty() ? "" : " in " + shown, 100.0 * confidence);
+    const auto size = [&](const SizeEstimate& estimate) {
+        return size_estimate_text(estimate, tested.low, tested.high, unit);
+    };
+    for (const RatePoint& point : curve.points) {
+        text += fmt::format(" {:g}{}: {} [{}, {}];", point.false_alarm_rate,
+                            beyond_text(point.extrapolation), size(point.a90.estimate),
+                            size(point.a90.lower), size(point.a90.upper));
+    }
+    return curve.points.back().false_alarm_rate > kCurveRates.back()
+               ? text + " rarer ones: too few healthy ones"
+               : text.substr(0, text.size() - 1);
+}
+
+std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence) {
+    return fmt::format(
+        "least expected cost by {}: {:.3g} [{:.3g}, {:.3g}] a record, alarm at {:.5g}{}: "
+        "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] of the study's "
+        "faults, bounds together at {:g} %; without any alarm {:.3g}{}",
+        feature, least.cost, least.bounds.lower, least.bounds.upper, least.threshold,
+        beyond_text(least.extrapolation), least.false_alarm_rate, least.rate_bounds.lower,
+        least.rate_bounds.upper, least.pd, least.pd_bounds.lower, least.pd_bounds.upper,
+        100.0 * confidence, least.without,
+        least.rarest ? "; rarer alarms may cost less still, the healthy sample does not carry them"
+                     : "");
+}
+
+nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
+    Json points = Json::array();
+    for (const RatePoint& point : curve.points) {
+        points.push_back(
+            {{"false_alarm_rate", point.false_alarm_rate},
+             {"threshold", number(point.threshold)},
+             {"extrapolation", point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr},
+             {"threshold_bounds", pair_json(point.threshold_bounds)},
+             {"a90", to_json(point.a90)}});
+    }
+    return {{"refusal", text_or_null(curve.refusal)}, {"points", points}};
+}
+
+nlohmann::json least_cost_json(const LeastCost& least) {
+    return {{"threshold", number(least.threshold)},
+            {"extrapolation", least.extrapolation > 0.0 ? Json(least.extrapolation) : nullptr},
+            {"false_alarm_rate", least.false_alarm_rate},
+            {"rate_bounds", pair_json(least.rate_bounds)},
+            {"pd", least.pd},
+            {"pd_bounds", pair_json(least.pd_bounds)},
+            {"cost", least.cost},
+            {"bounds", pair_json(least.bounds)},
+            {"without", least.without},
+            {"rarest", least.rarest}};
+}
+
+}  // namespace gearpod::analysis

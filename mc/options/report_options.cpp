@@ -1,0 +1,28 @@
+// What `report` is asked for.
+#include "mc/options/options.hpp"
+
+namespace gearpod::mc {
+
+void add_report(CLI::App& app, ReportOptions& report, int& code) {
+    auto* command = app.add_subcommand("report", "detection rates from a results file");
+    command->add_option("results", report.results, "results file (HDF5)")->required();
+    needs_name(command->add_option("--json", report.json,
+                                   "write JSON to a file, or to - for the terminal"));
+    needs_name(command->add_option("--html", report.html, "write a page with figures to a file"));
+    needs_name(command->add_option("--csv", report.csv, "write every table into a folder"));
+    needs_name(command->add_option("--figures", report.figures,
+                                   "write the page's figures into a folder, as SVG and PNG"));
+    command->add_option("--by", report.condition,
+                        "random input, e.g. torque_N_m, whose values get thresholds of their own");
+    command
+        ->add_option("--alarm-cost", report.alarm_cost,
+                     "of a false alarm; with the next two, the threshold of least expected cost")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--miss-cost", report.miss_cost, "of a record with a fault that is missed")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--fault-share", report.fault_share, "share of records that have a fault")
+        ->check(CLI::Range(0.0, 1.0));
+    command->callback([&report, &code] { code = report_command(report); });
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,124 @@
+// a90 and cost over the false-alarm rate, where both are known: a normal feature whose mean grows
+// with the size.
+#include <boost/math/distributions/normal.hpp>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "analysis/detection/threshold.hpp"
+#include "analysis/false_alarm_curve.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+const boost::math::normal kNormal;
+
+// Features of 1 + size / mm +- 1, healthy ones around 0: POD is a probit of the size exactly.
+struct Study {
+    std::vector<double> healthy, size, value;
+
+    Study(int healthy_ones, int faulty, std::uint64_t seed, double sign = 1.0) {
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise;
+        std::uniform_real_distribution<double> sizes(0.0, 8.0);
+        for (int i = 0; i < healthy_ones; ++i) {
+            healthy.push_back(sign * noise(engine));
+        }
+        for (int i = 0; i < faulty; ++i) {
+            size.push_back(sizes(engine));
+            value.push_back(sign * (size.back() + noise(engine)));
+        }
+    }
+    GradedValues values(Alarm alarm = Alarm::high) const { return {alarm, healthy, size, value}; }
+};
+
+double true_a90(double rate) {
+    return quantile(complement(kNormal, rate)) + quantile(kNormal, 0.9);
+}
+
+const PodForm kProbit{Link::probit, false, 0.0, false};
+
+TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the sample carries") {
+    const Study study(2000, 3000, 4);
+    const FalseAlarmCurve curve = false_alarm_curve(study.values(), kProbit, 0.95);
+    REQUIRE(curve.refusal.empty());
+    CHECK(curve.points.size() == 10);
+    CHECK(curve.points.back().false_alarm_rate == 1e-4);
+    CHECK(curve.points.back().extrapolation == Approx(5.0));
+    CHECK(curve.points[6].extrapolation == 0.0);
+    double before = 0.0;
+    for (const RatePoint& point : curve.points) {
+        const double truth = true_a90(point.false_alarm_rate);
+        INFO(point.false_alarm_rate << " " << truth);
+        REQUIRE(point.a90.estimate.where == SizeEstimate::Where::reached);
+        // But where the tail takes over from the sample's largest value.
+        CHECK((point.a90.estimate.size > before || point.false_alarm_rate == 2e-4));
+        before = point.a90.estimate.size;
+        CHECK(point.a90.estimate.size == Approx(truth).margin(0.6));
+        CHECK(point.threshold_bounds.lower < point.threshold);
+        CHECK(point.threshold_bounds.upper > point.threshold);
+    }
+    // The other side of zero is the same.
+    const FalseAlarmCurve low =
+        false_alarm_curve(Study(2000, 3000, 4, -1.0).values(Alarm::low), kProbit, 0.95);
+    REQUIRE(low.points.size() == curve.points.size());
+    CHECK(low.points[9].a90.upper.size == Approx(curve.points[9].a90.upper.size));
+    CHECK(low.points[9].threshold == Approx(-curve.points[9].threshold));
+}
+
+TEST_CASE("Bounds of a90 hold the threshold's scatter over 200 studies") {
+    int covered[3] = {}, narrow = 0;
+    constexpr int kStudies = 200;
+    for (int s = 0; s < kStudies; ++s) {
+        const Study study(1000, 200, 100 + s);
+        const FalseAlarmCurve curve = false_alarm_curve(study.values(), kProbit, 0.95);
+        REQUIRE(curve.points.size() == 9);
+        int k = 0;
+        for (const std::size_t at : {1, 6, 8}) {  // 0.05, 0.001 and twice beyond the sample
+            const RatePoint& point = curve.points[at];
+            const double truth = true_a90(point.false_alarm_rate);
+            const bool above = point.a90.lower.where != SizeEstimate::Where::reached ||
+                               point.a90.lower.size <= truth;
+            const bool below = point.a90.upper.where != SizeEstimate::Where::reached ||
+                               truth <= point.a90.upper.size;
+            covered[k++] += above && below ? 1 : 0;
+        }
+        narrow += curve.points[8].a90.upper.where == SizeEstimate::Where::reached ? 1 : 0;
+    }
+    // Two halves of the error: no less than what is promised, whatever they have in common.
+    for (const int count : covered) {
+        CHECK(count >= 0.95 * kStudies - 2.0 * std::sqrt(0.05 * 0.95 * kStudies));
+    }
+    CHECK(narrow > kStudies / 2);  // and not by being open
+}
+
+TEST_CASE("The threshold of least cost is where the laws' likelihoods are as the costs ask") {
+    // Faults of one size, 3: the optimum of a normal pair is at 1.5 + log(odds) / 3 with odds of
+    // (1 - share) alarm to share miss.
+    Study study(20000, 20000, 9);
+    std::mt19937_64 engine(10);
+    std::normal_distribution<double> noise(3.0, 1.0);
+    for (std::size_t i = 0; i < study.size.size(); ++i) {
+        study.size[i] = 3.0;
+        study.value[i] = noise(engine);
+    }
+    const Costs costs{10.0, 500.0, 0.005};
+    const auto least = least_cost(study.values(), costs, 0.95);
+    REQUIRE(least);
+    const double best = 1.5 + std::log(0.995 * 10.0 / (0.005 * 500.0)) / 3.0;
+    const auto cost_at = [&](double t) {
+        return 0.995 * 10.0 * cdf(complement(kNormal, t)) + 0.005 * 500.0 * cdf(kNormal, t - 3.0);
+    };
+    CHECK(least->threshold == Approx(best).margin(0.15));
+    CHECK(least->cost == Approx(cost_at(best)).epsilon(0.03));
+    CHECK(least->bounds.lower <= cost_at(least->threshold));
+    CHECK(least->bounds.upper >= cost_at(least->threshold));
+    CHECK(least->without == Approx(2.5));
+    CHECK(!least->rarest);
+    // Alarms that cost everything are never worth it.
+    CHECK(least_cost(study.values(), {1e12, 1.0, 0.005}, 0.95)->rarest);
+    CHECK(!least_cost({Alarm::high, {}, study.size, study.value}, costs, 0.95));
+}
+
+}  // namespace
+}  // namespace gearpod::analysis
