@@ -81,6 +81,12 @@ int run_program(int argc, char** argv) {
         ->add_option("--time-limit", run.time_limit,
                      "finish, save and exit with 4 before this time is over")
         ->type_name("HH:MM:SS");
+    run_app
+        ->add_option("--part", run.part,
+                     "compute one part of the gearboxes, e.g. 2/4; merge makes the whole of all")
+        ->type_name("K/N");
+    run_app->add_option("--progress", run.progress, "json: progress as an object a line on stderr")
+        ->type_name("json");
     run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
     run_app
         ->add_option("--signals", run.signals,
@@ -103,6 +109,17 @@ int run_program(int argc, char** argv) {
     needs_name(lives_app->add_option("--json", lives.json, "write JSON to a file, or to -"));
     lives_app->add_flag("--quiet", lives.quiet, "no progress");
     lives_app->callback([&] { code = lives_command(lives); });
+
+    MergeOptions merge;
+    auto* merge_app = app.add_subcommand(
+        "merge", "one results file from those of a study's parts, as one run writes it");
+    merge_app->add_option("results", merge.results, "results files of run --part 1/N to N/N")
+        ->required();
+    needs_name(merge_app->add_option("--out", merge.out, "results file")->required());
+    merge_app->add_flag("--force", merge.force,
+                        "overwrite the results of another study, or a file that is none");
+    merge_app->add_flag("--quiet", merge.quiet, "print nothing but problems");
+    merge_app->callback([&] { code = merge_command(merge); });
 
     ReportOptions report;
     add_report(app, report, code);

@@ -29,9 +29,19 @@ struct RunOptions {
     std::string time_limit;     // "hh:mm:ss", "": none
     std::string watch;          // feature whose Pd the progress shows, "": the study's first
     std::vector<long> signals;  // rows whose signals the results hold as well
+    std::string part;           // "2/4": every fourth tile, the second; "": all
+    std::string progress;       // "json": one object a line; "": for people
     bool quiet = false;
 };
 int run_command(const RunOptions& options);
+
+struct MergeOptions {
+    std::vector<std::string> results;  // of the parts of a study
+    std::string out;
+    bool force = false;  // overwrite what a run with other numbers has written
+    bool quiet = false;
+};
+int merge_command(const MergeOptions& options);
 
 struct ReportOptions {
     std::string results;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <filesystem>
 #include <set>
 
 #include "analysis/report/detection_text.hpp"
@@ -12,16 +11,14 @@
 #include "machine/team.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/commands/run_agreement.hpp"
+#include "mc/commands/run_checks.hpp"
+#include "mc/commands/run_to_end.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
-#include "mc/files/atomic_file.hpp"
-#include "mc/forecast/forecast.hpp"
-#include "mc/forecast/memory.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/run_report.hpp"
 #include "mc/results/provenance.hpp"
@@ -30,85 +27,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-std::string results_path(const RunOptions& options) {
-    return options.out.empty() ? std::filesystem::path(options.study.path).stem().string() + ".h5"
-                               : options.out;
-}
-
-bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
-    if (options.time_limit.empty()) {
-        return true;
-    }
-    limit = parse_time_limit(options.time_limit);
-    if (!limit) {
-        fmt::print(stderr,
-                   "--time-limit {}: is not a time; write hours:minutes:seconds as 01:30:00\n",
-                   options.time_limit);
-    }
-    return limit.has_value();
-}
-
-bool check_watch(const RunOptions& options, const Study& study) {
-    const auto& use = study.features.use;
-    if (options.watch.empty() || std::find(use.begin(), use.end(), options.watch) != use.end()) {
-        return true;
-    }
-    fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
-    return false;
-}
-
-bool check_signals(const RunOptions& options, const Study& study) {
-    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
-    const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
-                                      [&](long row) { return row < 0 || row >= rows; });
-    if (outside == options.signals.end()) {
-        return true;
-    }
-    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
-    return false;
-}
-
-// The results are written under another name first, and batches go into the checkpoint.
-bool check_output(const RunOptions& options) {
-    const std::vector<FileRole> study{{"the study", options.study.path}};
-    const std::string out = results_path(options);
-    if (!can_write({"--out", out}, study)) {
-        return false;
-    }
-    if (const std::string kind = why_no_results_name(out); !kind.empty()) {
-        fmt::print(stderr, "--out {}: {}\n", printable(out), kind);
-        return false;
-    }
-    std::string why = why_not_pending(out);
-    for (const std::string& name : {behind_links(out) + ".new", checkpoint_path(out)}) {
-        if (same_file(name, options.study.path)) {
-            why = "the study has the name " + name + " that the run needs";
-        }
-    }
-    if (!why.empty()) {
-        fmt::print(stderr, "{}: cannot be written: {}\n", out, why);
-    }
-    return why.empty();
-}
-
-// What the run holds at least, on this machine.
-bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
-    const Ensemble& ensemble = scene.study().ensemble;
-    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances);
-    const int here = ranks.on_this_machine();
-    const double needed = least_memory_bytes(scene, plan, here * thread_count(scene.study(), here));
-    const double at_hand = memory_at_hand_bytes();
-    if (options.force || needed <= at_hand) {
-        return true;
-    }
-    fmt::print(
-        stderr,
-        "{}: numerics.threads: the run needs {:.2g} GB of memory at least, and {:.2g} GB are "
-        "at hand; take fewer threads or lower sensor.sampling_Hz, or try it with --force\n",
-        options.study.path, 1e-9 * needed, 1e-9 * at_hand);
-    return false;
-}
 
 // The signals of the rows asked for, over a planet turn. A gearbox that failed has none.
 std::vector<RowSignals> chosen_signals(const RunOptions& options, const Scene& scene) {
@@ -135,7 +53,8 @@ class Run {
           choice_(made.choice),
           ranks_(ranks),
           study_(scene_.study()),
-          plan_(study_.ensemble.threshold_instances, study_.ensemble.instances),
+          part_(read_part(options.part).value().text()),
+          plan_(plan_of(options, study_)),
           checkpoint_(std::move(checkpoint)),
           watch_(study_, plan_, options.watch),
           setup_s_(setup_s) {}
@@ -154,7 +73,9 @@ class Run {
                            choice_->text());
             }
         }
-        Progress progress(static_cast<long>(plan_.rows()), options_.quiet, rows_done());
+        Progress progress(
+            static_cast<long>(plan_.rows()), options_.quiet, rows_done(),
+            options_.progress == "json" ? Progress::Form::json : Progress::Form::text);
         const EnsembleOutcome outcome = run_batches(scene_, plan_,
                                                     {.ranks = ranks_,
                                                      .store = *checkpoint_,
@@ -183,6 +104,9 @@ class Run {
         results.provenance = provenance(study_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
         results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
+        if (!part_.empty()) {
+            results.provenance.emplace_back("part", part_);
+        }
         if (choice_) {
             results.provenance.emplace_back("numerics_choice", choice_->text());
         }
@@ -211,7 +135,9 @@ class Run {
                       EnsembleOutcome& outcome) const {
         try {
             all.signals = chosen_signals(options_, scene_);
-            all.numerical = find_numerical_error(scene_);
+            if (part_.empty()) {  // of a part, what merges it finds
+                all.numerical = find_numerical_error(scene_);
+            }
         } catch (const machine::Stopped&) {
             const std::string reason = interruption.reason({});
             outcome.interruption = reason.empty() ? "the time limit" : reason;
@@ -322,6 +248,7 @@ class Run {
     const std::optional<NumericsChoice>& choice_;
     const Ranks& ranks_;
     const Study& study_;
+    const std::string part_;  // "" of the whole ensemble
     const BatchPlan plan_;
     std::unique_ptr<Checkpoint> checkpoint_;
     PdWatch watch_;
@@ -333,9 +260,9 @@ class Run {
 };
 
 // The other ranks' run: computing batches.
-void help(const Scene& scene, const Ranks& ranks, const Interruption& interruption) {
-    const Ensemble& ensemble = scene.study().ensemble;
-    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances);
+void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
+          const Interruption& interruption) {
+    const BatchPlan plan = plan_of(options, scene.study());
     MemoryRows nothing(0);
     Progress silent(1, true);
     run_batches(
@@ -344,6 +271,12 @@ void help(const Scene& scene, const Ranks& ranks, const Interruption& interrupti
 }
 
 }  // namespace
+
+int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
+               std::unique_ptr<Checkpoint> checkpoint, double setup_s,
+               const Interruption& interruption) {
+    return Run(options, made, ranks, std::move(checkpoint), setup_s).run(interruption);
+}
 
 int run_command(const RunOptions& options) {
     const auto start = WallClock::now();
@@ -357,14 +290,17 @@ int run_command(const RunOptions& options) {
     std::unique_ptr<Checkpoint> checkpoint;
     if (ranks.leads()) {
         const bool writable = check_output(options);
-        if (scene && writable && good_limit && check_watch(options, scene->study()) &&
+        const bool good_progress = check_progress(options);
+        if (scene && writable && good_limit && good_progress &&
+            check_part(options, scene->study()) && check_watch(options, scene->study()) &&
             check_signals(options, scene->study()) && check_memory(options, *scene, ranks)) {
-            const Ensemble& ensemble = scene->study().ensemble;
             try {
-                checkpoint = open_checkpoint(
-                    *scene, BatchPlan(ensemble.threshold_instances, ensemble.instances),
-                    results_path(options),
-                    {.resume = options.resume, .force = options.force, .quiet = options.quiet});
+                checkpoint =
+                    open_checkpoint(*scene, plan_of(options, scene->study()), results_path(options),
+                                    {.resume = options.resume,
+                                     .force = options.force,
+                                     .quiet = options.quiet,
+                                     .part = *read_part(options.part)});
             } catch (const std::exception& error) {
                 fmt::print(stderr, "{}\n", error.what());
             }
@@ -376,11 +312,11 @@ int run_command(const RunOptions& options) {
         return std::stoi(order);
     }
     if (!ranks.leads()) {
-        help(*scene, ranks, interruption);
+        help(options, *scene, ranks, interruption);
         return std::stoi(ranks.from_leader(""));
     }
     const int code =
-        Run(options, made, ranks, std::move(checkpoint), seconds_since(start)).run(interruption);
+        run_to_end(options, made, ranks, std::move(checkpoint), seconds_since(start), interruption);
     ranks.from_leader(std::to_string(code));
     return code;
 }

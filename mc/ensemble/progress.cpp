@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 namespace gearpod::mc {
 namespace {
@@ -22,10 +23,11 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(long total, bool quiet, long done)
+Progress::Progress(long total, bool quiet, long done, Form form)
     : total_(total),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      form_(form),
+      quiet_(quiet && form == Form::text),
+      terminal_(form == Form::text && isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
       shown_(start_),
       before_(done),
@@ -52,6 +54,9 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     // What the wanted interval still needs, if that is less.
     const long missing = total_ - done_;
     const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
+    if (form_ == Form::json) {
+        return show_json(elapsed, rate, left, false);
+    }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
     std::string numbers = fmt::format("{} of {}{} gearboxes, {:.0f} a second, {} left", done_,
                                       left < missing ? "at most " : "", total_, rate,
@@ -70,7 +75,25 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     std::fflush(stderr);
 }
 
+void Progress::show_json(double elapsed, double rate, long left, bool finished) const {
+    const nlohmann::json line{
+        {"done", done_},
+        {"of", total_},
+        {"seconds", elapsed},
+        {"per_second", rate},
+        {"left_s", rate > 0.0 ? nlohmann::json(static_cast<double>(left) / rate) : nullptr},
+        {"watched", rate_.empty() ? nlohmann::json(nullptr) : nlohmann::json(rate_)},
+        {"finished", finished}};
+    fmt::print(stderr, "{}\n", line.dump());
+    std::fflush(stderr);
+}
+
 void Progress::finish() {
+    if (form_ == Form::json) {
+        const double elapsed =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        show_json(elapsed, static_cast<double>(done_ - before_) / std::max(1e-9, elapsed), 0, true);
+    }
     if (!quiet_ && terminal_) {
         fmt::print(stderr, "\n");
     }

@@ -1,4 +1,7 @@
-// Progress of a run on stderr: a bar on a terminal, plain lines with the date and time elsewhere.
+// Progress of a run on stderr: a bar on a terminal, plain lines with the date and time elsewhere;
+// or JSON for programs, one object a line every five seconds and at the end:
+//   {"done": gearboxes, "of": all, "seconds": since the start, "per_second": gearboxes,
+//    "left_s": forecast or null, "watched": text or null, "finished": whether it is the last line}
 #pragma once
 
 #include <chrono>
@@ -11,8 +14,10 @@ namespace gearpod::mc {
 // One thread's.
 class Progress {
   public:
-    // Of `total` gearboxes, `done` of which are there already. Silent if `quiet`.
-    Progress(long total, bool quiet, long done = 0);
+    enum class Form { text, json };
+
+    // Of `total` gearboxes, `done` of which are there already. Silent if `quiet`, JSON never is.
+    Progress(long total, bool quiet, long done = 0, Form form = Form::text);
 
     // `count` more gearboxes are done.
     void advance(long count);
@@ -24,8 +29,10 @@ class Progress {
 
   private:
     void show(std::chrono::steady_clock::time_point now);
+    void show_json(double elapsed, double rate, long left, bool finished) const;
 
     const long total_;
+    const Form form_;
     const bool quiet_;
     const bool terminal_;
     const std::chrono::steady_clock::time_point start_;

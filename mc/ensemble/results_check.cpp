@@ -129,10 +129,17 @@ void check_results(const std::string& path, const Results& frame, const RowSourc
     std::optional<std::size_t> healthy;
     if (why.empty() && study) {
         why = unlike_study(frame, results_frame(*study));
-        healthy = static_cast<std::size_t>(study->ensemble.threshold_instances);
-        const std::size_t most = *healthy + static_cast<std::size_t>(study->ensemble.instances);
+        const auto part = read_part(frame.provenance_value("part"));
+        const BatchPlan plan(study->ensemble.threshold_instances, study->ensemble.instances,
+                             part.value_or(Part{}));
+        healthy = plan.threshold_rows();
+        const std::size_t most = plan.rows();
+        if (why.empty() && !part) {
+            why = "its attribute part is none";
+        }
         if (why.empty() && rows.rows() > most) {
-            why = fmt::format("it has {} gearboxes, the study {}", rows.rows(), most);
+            why = fmt::format("it has {} gearboxes, the study{} {}", rows.rows(),
+                              part && !part->whole() ? "'s part " + part->text() : "", most);
         }
     }
     if (why.empty()) {

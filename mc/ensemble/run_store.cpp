@@ -13,45 +13,38 @@
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
-namespace {
+
+Part part_of(const Results& results) {
+    return read_part(results.provenance_value("part")).value_or(Part{});
+}
 
 RunIdentity identity_of(const Results& results, const std::string& path) {
     const StudyReading reading = read_study_text(results.provenance_value("study"), path);
-    RunIdentity identity = run_identity(reading.study.value_or(Study{}), row_shape(results));
+    RunIdentity identity =
+        run_identity(reading.study.value_or(Study{}), row_shape(results), part_of(results));
     identity.version = version_text(results.provenance_value("code_version"),
                                     results.provenance_value("git_hash"));
     identity.seed = results.provenance_value("seed");
     return identity;
 }
 
-// Rows of finished results into a checkpoint: all whole batches.
-class BatchFiller {
-  public:
-    BatchFiller(Checkpoint& checkpoint, const BatchPlan& plan, const RowShape& shape)
-        : checkpoint_(checkpoint), plan_(plan), shape_(shape) {}
-
-    void add(const RowBlock& block) {
-        for (std::size_t row = 0; row < block.count(); ++row) {
-            const auto values =
-                block.values.begin() + static_cast<std::ptrdiff_t>(row * shape_.values());
-            rows_.status.push_back(block.status[row]);
-            rows_.values.insert(rows_.values.end(), values,
-                                values + static_cast<std::ptrdiff_t>(shape_.values()));
-            const std::size_t batch = plan_.batch_of_row(block.first + row);
-            const Batch place = plan_.batch(batch);
-            if (block.first + row + 1 == place.first_row + place.count) {
-                checkpoint_.write(batch, rows_);
-                rows_ = {};
-            }
+void BatchFiller::add(const RowBlock& block) {
+    for (std::size_t row = 0; row < block.count(); ++row) {
+        const auto values =
+            block.values.begin() + static_cast<std::ptrdiff_t>(row * shape_.values());
+        rows_.status.push_back(block.status[row]);
+        rows_.values.insert(rows_.values.end(), values,
+                            values + static_cast<std::ptrdiff_t>(shape_.values()));
+        const std::size_t batch = plan_.batch_of_row(block.first + row);
+        const Batch place = plan_.batch(batch);
+        if (block.first + row + 1 == place.first_row + place.count) {
+            store_.write(number_(batch), rows_);
+            rows_ = {};
         }
     }
+}
 
-  private:
-    Checkpoint& checkpoint_;
-    const BatchPlan& plan_;
-    const RowShape shape_;
-    BatchRows rows_;
-};
+namespace {
 
 std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
                                  const RunIdentity& identity, const BatchPlan& plan) {
@@ -69,7 +62,7 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
     }
     check_results(results_path, old, rows);
     auto checkpoint = Checkpoint::create(path, identity, plan);
-    BatchFiller filler(*checkpoint, plan, identity.shape);
+    BatchFiller filler(*checkpoint, plan, identity.shape, [](std::size_t batch) { return batch; });
     rows.visit([&](const RowBlock& block) { filler.add(block); });
     checkpoint->sync();
     return checkpoint;
@@ -111,7 +104,8 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan&
                                             const std::string& results_path,
                                             const StoreOptions& options) {
     const Study& study = scene.study();
-    const RunIdentity identity = run_identity(study, row_shape(Sampler(study), study));
+    const RunIdentity identity =
+        run_identity(study, row_shape(Sampler(study), study), options.part);
     const std::string path = checkpoint_path(results_path);
     std::unique_ptr<Checkpoint> checkpoint;
     std::string from;

@@ -2,10 +2,13 @@
 // finished results that are to grow.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "mc/results/checkpoint.hpp"
+#include "mc/results/results_file.hpp"
+#include "mc/results/row_source.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {
@@ -13,15 +16,39 @@ namespace gearpod::mc {
 // The checkpoint's file: beside the results file, behind its links.
 std::string checkpoint_path(const std::string& results_path);
 
+// What a results file's rows are the rows of; `path` stands for it in messages.
+RunIdentity identity_of(const Results& results, const std::string& path);
+// Which of its ensemble's rows it has.
+Part part_of(const Results& results);
+
 struct StoreOptions {
     bool resume = false;
     bool force = false;  // a run that begins anew may overwrite what is not of this study
     bool quiet = false;  // else says on stderr what it continues
+    Part part = {};
 };
 
 // Throws std::runtime_error naming the file and the reason.
 std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
                                             const std::string& results_path,
                                             const StoreOptions& options);
+
+// Puts whole batches of consecutive rows into a store.
+class BatchFiller {
+  public:
+    // `plan` numbers the rows; `number` says under which number the store keeps a batch of it.
+    BatchFiller(RowStore& store, const BatchPlan& plan, const RowShape& shape,
+                std::function<std::size_t(std::size_t)> number)
+        : store_(store), plan_(plan), shape_(shape), number_(std::move(number)) {}
+
+    void add(const RowBlock& block);
+
+  private:
+    RowStore& store_;
+    const BatchPlan plan_;
+    const RowShape shape_;
+    const std::function<std::size_t(std::size_t)> number_;
+    BatchRows rows_;
+};
 
 }  // namespace gearpod::mc

@@ -158,8 +158,17 @@ class Examples {
           features_(scene, &healthy_),
           level_(reference_level(frame.noise_levels)) {}
 
+    // Of a part of an ensemble: its own rows.
+    GearboxId id_of(std::size_t row) const {
+        const Ensemble& ensemble = scene_.study().ensemble;
+        const BatchPlan plan(ensemble.threshold_instances, ensemble.instances,
+                             read_part(frame_.provenance_value("part")).value_or(Part{}));
+        const Batch batch = plan.batch(plan.batch_of_row(row));
+        return {batch.group, batch.first_index + row - batch.first_row};
+    }
+
     Json run(const ExampleRow& row) {
-        const GearboxId id = id_of_row(scene_.study(), static_cast<long>(row.row));
+        const GearboxId id = id_of(row.row);
         const GearboxTile tile = run_gearboxes(scene_, sampler_, path_, std::span(&id, 1), 1);
         if (tile.status[0] != Status::ok) {
             throw std::runtime_error("the gearbox in row " + std::to_string(row.row) +

@@ -67,6 +67,13 @@ std::string results_text(const Results& frame, const RowSource& rows,
                          const std::optional<analysis::Reliability>& reliability) {
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     std::string text;
+    if (const std::string part = frame.provenance_value("part"); !part.empty()) {
+        analysis::add_wrapped(
+            text,
+            fmt::format("Part {} of the study alone; `gearpod merge` makes the whole of all.",
+                        part),
+            2);
+    }
     if (const std::string shortage =
             analysis::sample_shortage(frame.detection, frame.request, subject_of(frame));
         !shortage.empty()) {

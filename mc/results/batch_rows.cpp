@@ -1,30 +1,69 @@
 #include "mc/results/batch_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 
 namespace gearpod::mc {
 
-BatchPlan::BatchPlan(std::int64_t threshold_instances, std::int64_t instances)
-    : threshold_rows_(static_cast<std::size_t>(threshold_instances)),
-      graded_rows_(static_cast<std::size_t>(instances)) {}
+std::string Part::text() const {
+    return whole() ? "" : fmt::format("{}/{}", index + 1, count);
+}
+
+std::optional<Part> read_part(const std::string& text) {
+    if (text.empty()) {
+        return Part{};
+    }
+    constexpr std::size_t kMostParts = 1'000'000;
+    Part part;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, part.index);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') {
+        return std::nullopt;
+    }
+    const auto second = std::from_chars(first.ptr + 1, end, part.count);
+    if (second.ec != std::errc() || second.ptr != end || part.index < 1 ||
+        part.index > part.count || part.count > kMostParts) {
+        return std::nullopt;
+    }
+    --part.index;
+    return part;
+}
+
+BatchPlan::BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part)
+    : thresholds_(static_cast<std::size_t>(threshold_instances)),
+      graded_(static_cast<std::size_t>(instances)),
+      part_(part) {}
 
 Batch BatchPlan::batch(std::size_t index) const {
-    const bool threshold = index < threshold_batches();
-    const std::size_t in_group = threshold ? index : index - threshold_batches();
-    const std::size_t rows = threshold ? threshold_rows_ : graded_rows_;
+    const std::size_t all = number(index), thresholds = all_threshold_batches();
+    const bool threshold = all < thresholds;
+    const std::size_t in_group = threshold ? all : all - thresholds;
+    const std::size_t rows = threshold ? thresholds_ : graded_;
     const std::size_t first = in_group * kBatchRows;
-    return {threshold ? Group::threshold : Group::graded, first,
-            threshold ? first : threshold_rows_ + first,
+    return {threshold ? Group::threshold : Group::graded, first, rows_before(index),
             std::min<std::size_t>(kBatchRows, rows - first)};
 }
 
 std::size_t BatchPlan::batch_of_row(std::size_t row) const {
-    return row < threshold_rows_ ? row / kBatchRows
-                                 : threshold_batches() + (row - threshold_rows_) / kBatchRows;
+    // All batches are full before the threshold group's last.
+    const std::size_t thresholds = threshold_batches(), before = threshold_rows();
+    return row < before ? row / kBatchRows : thresholds + (row - before) / kBatchRows;
 }
 
 std::size_t BatchPlan::rows_before(std::size_t batches) const {
-    return batches >= this->batches() ? rows() : batch(batches).first_row;
+    const std::size_t until = std::min(batches, this->batches());
+    std::size_t rows = until * kBatchRows;
+    // All are full but the last of either group.
+    const auto short_of = [&](std::size_t last, std::size_t instances) {
+        const bool own = last % part_.count == part_.index && last / part_.count < until;
+        return own ? (kBatchRows - instances % kBatchRows) % kBatchRows : 0;
+    };
+    const std::size_t thresholds = all_threshold_batches(), graded = batches_of(graded_);
+    rows -= thresholds > 0 ? short_of(thresholds - 1, thresholds_) : 0;
+    rows -= graded > 0 ? short_of(thresholds + graded - 1, graded_) : 0;
+    return rows;
 }
 
 }  // namespace gearpod::mc

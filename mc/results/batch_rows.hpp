@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,26 +44,50 @@ struct Batch {
     std::size_t count = 0;
 };
 
+// A share of an ensemble that a run of its own computes: of every `count` batches one, so that all
+// parts have about as many of either group.
+struct Part {
+    std::size_t index = 0;  // below count
+    std::size_t count = 1;
+
+    bool whole() const { return count == 1; }
+    std::string text() const;  // "2/4" of index 1, "" of a whole
+    bool operator==(const Part&) const = default;
+};
+// Of "2/4", or "" for a whole.
+std::optional<Part> read_part(const std::string& text);
+
 // All batches of an ensemble: first the threshold group's, then the graded group's. A larger graded
-// group begins with the batches of a smaller one, but for the last, which may be filled up.
+// group begins with the batches of a smaller one, but for the last, which may be filled up. Of a
+// part its own batches and rows, numbered from 0 in the same order.
 class BatchPlan {
   public:
-    BatchPlan(std::int64_t threshold_instances, std::int64_t instances);
+    BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part = {});
 
-    std::size_t rows() const { return threshold_rows_ + graded_rows_; }
-    std::size_t threshold_rows() const { return threshold_rows_; }
-    std::size_t graded_rows() const { return graded_rows_; }
-    std::size_t batches() const { return threshold_batches() + batches_of(graded_rows_); }
-    std::size_t threshold_batches() const { return batches_of(threshold_rows_); }
+    std::size_t rows() const { return rows_before(batches()); }
+    std::size_t threshold_rows() const { return rows_before(threshold_batches()); }
+    std::size_t graded_rows() const { return rows() - threshold_rows(); }
+    // Of the whole ensemble.
+    std::size_t graded_instances() const { return graded_; }
+    std::size_t batches() const { return own_of(all_threshold_batches() + batches_of(graded_)); }
+    std::size_t threshold_batches() const { return own_of(all_threshold_batches()); }
     Batch batch(std::size_t index) const;
+    // Its number in the whole ensemble.
+    std::size_t number(std::size_t index) const { return part_.index + index * part_.count; }
     std::size_t batch_of_row(std::size_t row) const;
     // Rows of the first `batches` batches.
     std::size_t rows_before(std::size_t batches) const;
 
   private:
     static std::size_t batches_of(std::size_t rows) { return (rows + kBatchRows - 1) / kBatchRows; }
+    std::size_t all_threshold_batches() const { return batches_of(thresholds_); }
+    // How many of the ensemble's first batches are the part's.
+    std::size_t own_of(std::size_t first) const {
+        return (first + part_.count - 1 - part_.index) / part_.count;
+    }
 
-    std::size_t threshold_rows_, graded_rows_;
+    std::size_t thresholds_, graded_;
+    Part part_;
 };
 
 // Finished batches by their number.

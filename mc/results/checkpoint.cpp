@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <sstream>
 #include <stdexcept>
 
 #include "mc/files/atomic_file.hpp"
@@ -47,9 +47,9 @@ std::string_view view(const std::vector<std::byte>& bytes) {
 }
 
 std::string text_of(const RunIdentity& identity) {
-    return fmt::format("{}\n{}\n{} {} {}\n{}", identity.version, identity.seed,
+    return fmt::format("{}\n{}\n{} {} {}{}{}\n{}", identity.version, identity.seed,
                        identity.shape.parameters, identity.shape.features, identity.shape.levels,
-                       identity.study);
+                       identity.part.empty() ? "" : " ", identity.part, identity.study);
 }
 
 RunIdentity identity_of(const std::string& text) {
@@ -59,8 +59,9 @@ RunIdentity identity_of(const std::string& text) {
     const std::size_t shape = text.find('\n', seed + 1);
     identity.version = text.substr(0, version);
     identity.seed = text.substr(version + 1, seed - version - 1);
-    std::sscanf(text.substr(seed + 1, shape - seed - 1).c_str(), "%zu %zu %zu",
-                &identity.shape.parameters, &identity.shape.features, &identity.shape.levels);
+    std::istringstream numbers(text.substr(seed + 1, shape - seed - 1));
+    numbers >> identity.shape.parameters >> identity.shape.features >> identity.shape.levels >>
+        identity.part;
     identity.study = text.substr(shape + 1);
     return identity;
 }
@@ -261,11 +262,11 @@ std::uint64_t Checkpoint::synced_before() {
         }
         return 0;
     }
-    if (number_at(bytes, 0) > plan_.graded_rows()) {
+    if (number_at(bytes, 0) > plan_.graded_instances()) {
         fail(
             fmt::format("is of a run with {} graded gearboxes, more than the {} asked for; raise "
                         "--instances, or delete it to start again",
-                        number_at(bytes, 0), plan_.graded_rows()));
+                        number_at(bytes, 0), plan_.graded_instances()));
     }
     return number_at(bytes, 8);
 }
@@ -349,7 +350,7 @@ void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
 }
 
 void Checkpoint::write_counter() {
-    std::string counter = bytes_of(plan_.graded_rows()) + bytes_of(count_);
+    std::string counter = bytes_of(plan_.graded_instances()) + bytes_of(count_);
     counter += bytes_of(fnv1a(counter));
     if (!write_at(file_.get(), std::as_bytes(std::span(counter)),
                   static_cast<off_t>(header_.size())) ||

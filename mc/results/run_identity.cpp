@@ -23,7 +23,7 @@ std::string line_difference(const std::string& there, const std::string& here,
     return fmt::format("\"{}\" {}, \"{}\" here", a, where_there, b);
 }
 
-RunIdentity run_identity(const Study& study, const RowShape& shape) {
+RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part) {
     Study essence = study;
     essence.title.clear();
     essence.numerics.threads = Numerics{}.threads;
@@ -31,7 +31,8 @@ RunIdentity run_identity(const Study& study, const RowShape& shape) {
     essence.numerics.instruction_set = Numerics{}.instruction_set;
     essence.ensemble = {};
     essence.ensemble.threshold_instances = study.ensemble.threshold_instances;
-    return {version_text(), std::to_string(study.ensemble.seed), resolved_text(essence), shape};
+    return {version_text(), std::to_string(study.ensemble.seed), resolved_text(essence), shape,
+            part.text()};
 }
 
 std::string difference(const RunIdentity& there, const RunIdentity& here) {
@@ -44,6 +45,12 @@ std::string difference(const RunIdentity& there, const RunIdentity& here) {
     }
     if (there.seed != here.seed) {
         return fmt::format("has seed {}, this run has {}", there.seed, here.seed);
+    }
+    if (there.part != here.part) {
+        const auto named = [](const std::string& part) {
+            return part.empty() ? "the whole ensemble" : "part " + part;
+        };
+        return fmt::format("has {}, this is {}", named(there.part), named(here.part));
     }
     return there.shape == here.shape ? "" : "has rows of another shape";
 }

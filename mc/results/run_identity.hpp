@@ -13,11 +13,12 @@ struct RunIdentity {
     std::string seed;
     std::string study;  // resolved, without what leaves the rows as they are
     RowShape shape;
+    std::string part = {};  // Part::text(): whose rows there are
 };
 
 // Left out are the title, the number of graded gearboxes, when to stop, and everything about
 // threads, lanes, instruction set and checkpoints.
-RunIdentity run_identity(const Study& study, const RowShape& shape);
+RunIdentity run_identity(const Study& study, const RowShape& shape, const Part& part = {});
 
 // Why `there`, found in a file, cannot continue as `here`, or "". One line, to follow the file's
 // name.

@@ -20,6 +20,7 @@ check_program() {
     bash -n "$prefix/share/bash-completion/completions/gearpod" || fail "no completion"
     [ -f "$prefix/share/doc/gearpod/CITATION.cff" ] || fail "no CITATION.cff"
     [ -x "$prefix/share/gearpod/studies/slurm.sh" ] || fail "no slurm.sh"
+    [ -x "$prefix/share/gearpod/studies/slurm-array.sh" ] || fail "no slurm-array.sh"
 
     if /usr/bin/python3 -c "import h5py" 2>/dev/null; then
         PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -Bc \

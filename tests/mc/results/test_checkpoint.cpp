@@ -87,6 +87,44 @@ TEST_CASE("A plan's batches hold every row once, the threshold group's apart fro
     CHECK(kPlan.batches() == 5);
 }
 
+TEST_CASE("Parts of a plan hold every batch of the whole once, with rows of their own") {
+    for (const auto& [thresholds, graded] : {std::pair{20, 42}, {35, 50}, {16, 16}, {3, 2}}) {
+        const BatchPlan whole(thresholds, graded);
+        for (const std::size_t count : {1, 2, 3, 4, 7}) {
+            std::size_t batches = 0, rows = 0, threshold_rows = 0;
+            for (std::size_t index = 0; index < count; ++index) {
+                const BatchPlan own(thresholds, graded, {index, count});
+                std::size_t row = 0;
+                for (std::size_t batch = 0; batch < own.batches(); ++batch) {
+                    const Batch place = own.batch(batch), all = whole.batch(own.number(batch));
+                    CHECK(place.group == all.group);
+                    CHECK(place.first_index == all.first_index);
+                    CHECK(place.count == all.count);
+                    CHECK(place.first_row == row);
+                    for (std::size_t i = 0; i < place.count; ++i, ++row) {
+                        CHECK(own.batch_of_row(row) == batch);
+                    }
+                    CHECK((batch < own.threshold_batches()) == (all.group == Group::threshold));
+                }
+                CHECK(own.rows() == row);
+                CHECK(own.threshold_rows() + own.graded_rows() == row);
+                batches += own.batches();
+                rows += row;
+                threshold_rows += own.threshold_rows();
+            }
+            CHECK(batches == whole.batches());
+            CHECK(rows == whole.rows());
+            CHECK(threshold_rows == whole.threshold_rows());
+        }
+    }
+    CHECK(read_part("2/4") == Part{1, 4});
+    CHECK(read_part("")->whole());
+    CHECK(Part{1, 4}.text() == "2/4");
+    CHECK(!read_part("0/4"));
+    CHECK(!read_part("5/4"));
+    CHECK(!read_part("-1/4"));
+}
+
 TEST_CASE("Finished batches are there again, in whatever order they were written") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");

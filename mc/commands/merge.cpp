@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <stdexcept>
+
+#include "machine/wall_clock.hpp"
+#include "mc/commands/run_checks.hpp"
+#include "mc/commands/run_to_end.hpp"
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/results_check.hpp"
+#include "mc/ensemble/run_store.hpp"
+#include "mc/files/atomic_file.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/results/provenance.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// A results file and which batches of its ensemble it has.
+struct PartFile {
+    std::string path;
+    Results frame;
+    Study study;
+    BatchPlan plan;
+    std::size_t batches = 0;  // whole ones, of the plan's first
+};
+
+PartFile read_part_file(const std::string& path) {
+    Results frame = read_frame(path);
+    const FileRows rows(path, frame);
+    if (frame.provenance_value("kind") == kRecordingsKind) {
+        throw std::runtime_error(path + ": holds recordings; only what `run` computed is merged");
+    }
+    StudyReading reading = read_study_text(frame.provenance_value("study"), path);
+    if (!reading.study) {
+        throw std::runtime_error(path + ": its study cannot be read:\n" + format(reading.problems));
+    }
+    check_results(path, frame, rows);
+    const Ensemble& ensemble = reading.study->ensemble;
+    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances, part_of(frame));
+    PartFile file{path, std::move(frame), *std::move(reading.study), plan, 0};
+    while (file.batches < plan.batches() && plan.rows_before(file.batches + 1) <= rows.rows()) {
+        ++file.batches;
+    }
+    return file;
+}
+
+// Rows of a whole ensemble's batch, "16 to 31".
+std::string rows_text(const BatchPlan& whole, std::size_t first, std::size_t last) {
+    const Batch end = whole.batch(last);
+    return fmt::format("rows {} to {}", whole.batch(first).first_row,
+                       end.first_row + end.count - 1);
+}
+
+class Merge {
+  public:
+    explicit Merge(const MergeOptions& options) : options_(options) {}
+
+    // "" or every problem, a line each.
+    std::string read() {
+        std::string problems;
+        for (const std::string& path : options_.results) {
+            try {
+                files_.push_back(read_part_file(path));
+            } catch (const std::exception& error) {
+                problems += exception_text(error) + "\n";
+            }
+        }
+        for (const PartFile& file : files_) {
+            problems += misfit(file);
+        }
+        return problems.empty() ? gaps() : problems;
+    }
+
+    // The study of all of them.
+    StudyScene scene() const {
+        const PartFile& first = files_.front();
+        return make_scene(first.path,
+                          read_study_text(first.frame.provenance_value("study"), first.path));
+    }
+
+    BatchPlan whole() const {
+        const Ensemble& ensemble = files_.front().study.ensemble;
+        return {ensemble.threshold_instances, ensemble.instances};
+    }
+
+    void fill(RowStore& store) const {
+        for (const PartFile& file : files_) {
+            BatchFiller filler(store, file.plan, row_shape(file.frame),
+                               [&](std::size_t batch) { return file.plan.number(batch); });
+            FileRows(file.path, file.frame).visit([&](const RowBlock& block) {
+                filler.add(block);
+            });
+        }
+    }
+
+    const std::string& first_path() const { return files_.front().path; }
+
+  private:
+    // What keeps a file from being merged with the first, by this program.
+    std::string misfit(const PartFile& file) const {
+        const PartFile& first = files_.front();
+        RunIdentity here = identity_of(first.frame, first.path);
+        here.version = version_text();
+        RunIdentity there = identity_of(file.frame, file.path);
+        there.part = here.part;
+        std::string why = difference(there, here);
+        if (why.empty() && file.study.ensemble.instances != first.study.ensemble.instances) {
+            why = fmt::format("is of {} graded gearboxes, {} of {}", file.study.ensemble.instances,
+                              first.path, first.study.ensemble.instances);
+        }
+        if (why.empty() && file.frame.provenance_value("numerics_choice") !=
+                               first.frame.provenance_value("numerics_choice")) {
+            why = fmt::format("chose other numerics ({}) than {} ({})",
+                              file.frame.provenance_value("numerics_choice"), first.path,
+                              first.frame.provenance_value("numerics_choice"));
+        }
+        return why.empty() ? "" : file.path + ": cannot be merged: it " + why + "\n";
+    }
+
+    // Batches that several files have or none has.
+    std::string gaps() const {
+        std::map<std::size_t, const PartFile*> owner;
+        std::string problems;
+        for (const PartFile& file : files_) {
+            for (std::size_t batch = 0; batch < file.batches; ++batch) {
+                const auto [at, fresh] = owner.emplace(file.plan.number(batch), &file);
+                if (!fresh) {
+                    problems += fmt::format(
+                        "{}: cannot be merged: {} and others are in {} as well\n", file.path,
+                        rows_text(whole(), at->first, at->first), at->second->path);
+                    break;
+                }
+            }
+            if (file.batches < file.plan.batches()) {
+                problems += fmt::format(
+                    "{}: holds {} of its {} gearboxes ({}); continue it with `run --resume`\n",
+                    file.path, file.plan.rows_before(file.batches), file.plan.rows(),
+                    printable(file.frame.provenance_value("state")));
+            }
+        }
+        if (!problems.empty()) {
+            return problems;
+        }
+        for (std::size_t batch = 0; batch < whole().batches(); ++batch) {
+            if (!owner.contains(batch)) {
+                return fmt::format(
+                    "{} of {} tiles of gearboxes, {} the first, are in none of the files: {}\n",
+                    whole().batches() - owner.size(), whole().batches(),
+                    rows_text(whole(), batch, batch), missing_part(batch));
+            }
+        }
+        return "";
+    }
+
+    std::string missing_part(std::size_t batch) const {
+        const std::size_t parts = part_of(files_.front().frame).count;
+        return fmt::format("`run --part {}/{}` computes them", batch % parts + 1, parts);
+    }
+
+    const MergeOptions& options_;
+    std::vector<PartFile> files_;
+};
+
+bool check_names(const MergeOptions& options) {
+    std::vector<FileRole> parts;
+    for (const std::string& path : options.results) {
+        parts.emplace_back("a part", path);
+    }
+    return can_write({"--out", options.out}, parts);
+}
+
+}  // namespace
+
+int merge_command(const MergeOptions& options) {
+    const auto start = WallClock::now();
+    RunOptions run;
+    run.study.path = options.results.front();
+    run.out = options.out;
+    run.force = options.force;
+    run.quiet = options.quiet;
+    const Ranks ranks;
+    if (ranks.size() > 1) {
+        fmt::print(stderr, "merge: is the work of one process, and {} were started\n",
+                   ranks.size());
+        return kBadInput;
+    }
+    Merge merge(options);
+    const std::string problems = merge.read();
+    fmt::print(stderr, "{}", problems);
+    if (!check_names(options) || !check_output(run) || !problems.empty()) {
+        return kBadInput;
+    }
+    const StudyScene made = merge.scene();
+    if (!made) {
+        print_problems(made.problems);
+        return kBadInput;
+    }
+    std::unique_ptr<Checkpoint> checkpoint;
+    try {
+        checkpoint = open_checkpoint(*made.scene, merge.whole(), options.out,
+                                     {.force = options.force, .quiet = options.quiet});
+        merge.fill(*checkpoint);
+        checkpoint->sync();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
+    }
+    const Interruption interruption(std::nullopt);
+    return run_to_end(run, made, ranks, std::move(checkpoint), seconds_since(start), interruption);
+}
+
+}  // namespace gearpod::mc

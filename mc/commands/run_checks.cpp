@@ -1,0 +1,145 @@
+#include "mc/commands/run_checks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/interruption.hpp"
+#include "mc/ensemble/run_store.hpp"
+#include "mc/ensemble/thread_count.hpp"
+#include "mc/files/atomic_file.hpp"
+#include "mc/forecast/forecast.hpp"
+#include "mc/forecast/memory.hpp"
+#include "mc/input/printable.hpp"
+
+namespace gearpod::mc {
+
+std::string results_path(const RunOptions& options) {
+    return options.out.empty() ? std::filesystem::path(options.study.path).stem().string() + ".h5"
+                               : options.out;
+}
+
+BatchPlan plan_of(const RunOptions& options, const Study& study) {
+    return {study.ensemble.threshold_instances, study.ensemble.instances,
+            read_part(options.part).value_or(Part{})};
+}
+
+bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
+    if (options.time_limit.empty()) {
+        return true;
+    }
+    limit = parse_time_limit(options.time_limit);
+    if (!limit) {
+        fmt::print(stderr,
+                   "--time-limit {}: is not a time; write hours:minutes:seconds as 01:30:00\n",
+                   options.time_limit);
+    }
+    return limit.has_value();
+}
+
+bool check_progress(const RunOptions& options) {
+    if (options.progress.empty() || options.progress == "json") {
+        return true;
+    }
+    fmt::print(stderr, "--progress {}: is no way to show progress; the only one is json\n",
+               printable(options.progress));
+    return false;
+}
+
+bool check_part(const RunOptions& options, const Study& study) {
+    const std::optional<Part> part = read_part(options.part);
+    if (!part) {
+        fmt::print(stderr, "--part {}: is no part; the second of four is 2/4\n",
+                   printable(options.part));
+        return false;
+    }
+    if (part->whole()) {
+        return true;
+    }
+    if (study.ensemble.until.half_width) {
+        fmt::print(stderr,
+                   "--part {}: ensemble.until ends a run by what all gearboxes say, which a part "
+                   "does not know; leave one of both out\n",
+                   options.part);
+        return false;
+    }
+    if (plan_of(options, study).batches() == 0) {
+        fmt::print(
+            stderr,
+            "--part {}: the study's gearboxes make {} tiles of {}, this part has none; take "
+            "fewer parts\n",
+            options.part,
+            BatchPlan(study.ensemble.threshold_instances, study.ensemble.instances).batches(),
+            kBatchRows);
+        return false;
+    }
+    return true;
+}
+
+bool check_watch(const RunOptions& options, const Study& study) {
+    const auto& use = study.features.use;
+    if (options.watch.empty() || std::find(use.begin(), use.end(), options.watch) != use.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--watch {}: is not among the study's features.use\n", options.watch);
+    return false;
+}
+
+bool check_signals(const RunOptions& options, const Study& study) {
+    if (!options.part.empty() && !options.signals.empty()) {
+        fmt::print(stderr,
+                   "--signals: a part has rows of its own; ask merge's results, or "
+                   "`simulate --instance`\n");
+        return false;
+    }
+    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
+                                      [&](long row) { return row < 0 || row >= rows; });
+    if (outside == options.signals.end()) {
+        return true;
+    }
+    fmt::print(stderr, "--signals {}: is no row of the results, 0 to {}\n", *outside, rows - 1);
+    return false;
+}
+
+bool check_output(const RunOptions& options) {
+    const std::vector<FileRole> study{{"the study", options.study.path}};
+    const std::string out = results_path(options);
+    if (!can_write({"--out", out}, study)) {
+        return false;
+    }
+    if (const std::string kind = why_no_results_name(out); !kind.empty()) {
+        fmt::print(stderr, "--out {}: {}\n", printable(out), kind);
+        return false;
+    }
+    std::string why = why_not_pending(out);
+    for (const std::string& name : {behind_links(out) + ".new", checkpoint_path(out)}) {
+        if (same_file(name, options.study.path)) {
+            why = "the study has the name " + name + " that the run needs";
+        }
+    }
+    if (!why.empty()) {
+        fmt::print(stderr, "{}: cannot be written: {}\n", out, why);
+    }
+    return why.empty();
+}
+
+bool check_memory(const RunOptions& options, const Scene& scene, const Ranks& ranks) {
+    const BatchPlan plan = plan_of(options, scene.study());
+    const int here = ranks.on_this_machine();
+    const double needed = least_memory_bytes(scene, plan, here * thread_count(scene.study(), here));
+    const double at_hand = memory_at_hand_bytes();
+    if (options.force || needed <= at_hand) {
+        return true;
+    }
+    fmt::print(
+        stderr,
+        "{}: numerics.threads: the run needs {:.2g} GB of memory at least, and {:.2g} GB are "
+        "at hand; take fewer threads or lower sensor.sampling_Hz, or try it with --force\n",
+        options.study.path, 1e-9 * needed, 1e-9 * at_hand);
+    return false;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,154 @@
+// Parts of a study by runs of their own, merged: the same as one run, or refused by name.
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bits;
+using test::bytes_of;
+using test::Folder;
+using test::Outcome;
+using test::program;
+using test::study;
+
+namespace {
+
+// Three tiles of the threshold group and four graded ones, the last of each not full.
+const std::string kRun = "run " + study("planet-crack-ideal.toml") +
+                         " --instances 50 --set ensemble.threshold_instances=35"
+                         " --set sensor.noise_levels=[0,1] --quiet";
+
+std::string part(const Folder& folder, const std::string& which, const std::string& more = "") {
+    std::string name = which + ".h5";
+    name[name.find('/')] = '-';
+    const Outcome run =
+        program(kRun + " --part " + which + " --out " + folder.file(name) + " " + more);
+    INFO(run.output);
+    REQUIRE(run.code == 0);
+    return folder.file(name);
+}
+
+// Their names, where h5dump is installed.
+std::string datasets(const std::string& file) {
+    return test::shell("h5dump -n " + file + " | tail -n +2").output;
+}
+
+}  // namespace
+
+TEST_CASE("Four parts merged are one run, bit by bit", "[merge]") {
+    const Folder folder;
+    std::string parts;
+    for (const char* which : {"3/4", "1/4", "4/4", "2/4"}) {  // in any order
+        parts += " " + part(folder, which);
+    }
+    const std::string merged = folder.file("merged.h5"), whole = folder.file("whole.h5");
+    const Outcome merge = program("merge" + parts + " --out " + merged);
+    INFO(merge.output);
+    REQUIRE(merge.code == 0);
+    CHECK(merge.mentions("results: " + merged));
+    REQUIRE(program(kRun + " --out " + whole).code == 0);
+    CHECK(bits(merged) == bits(whole));
+    CHECK(datasets(merged) == datasets(whole));
+    // What is said of them is the same as well.
+    CHECK(program("report " + merged).output == program("report " + whole).output);
+    CHECK(!std::filesystem::exists(merged + ".part"));
+    // One part more than needed is too much.
+    const Outcome twice =
+        program("merge " + merged + " " + whole + " --out " + folder.file("t.h5"));
+    CHECK(twice.code == 2);
+    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and others are in "));
+}
+
+TEST_CASE("Parts have their own gearboxes and say what they are", "[merge]") {
+    const Folder folder;
+    const std::string first = part(folder, "1/2"), second = part(folder, "2/2");
+    const std::string whole = folder.file("whole.h5");
+    REQUIRE(program(kRun + " --out " + whole).code == 0);
+    const mc::Results one = mc::read_results(first), two = mc::read_results(second),
+                      all = mc::read_results(whole);
+    CHECK(one.status.size() + two.status.size() == all.status.size());
+    // Tiles 0, 2, 4, 6 and 1, 3, 5: rows 0, 32, 51, 83 and 16, 35, 67 on.
+    const auto depth = [](const mc::Results& r, std::size_t row) {
+        return r.features.back().values[2 * row + 1];
+    };
+    CHECK(depth(two, 0) == depth(all, 16));
+    CHECK(depth(one, 16) == depth(all, 32));
+    CHECK(depth(one, 16 + 3) == depth(all, 35 + 16));
+    const Outcome report = program("report " + first);
+    CHECK(report.output.starts_with("Part 1/2 of the study alone"));
+    // The page's examples are the part's own gearboxes.
+    CHECK(program("report " + second + " --json -").mentions("\"same_bits\": true"));
+    // Another part is no continuation.
+    const Outcome other = program(kRun + " --part 2/2 --resume --out " + first);
+    CHECK(other.code == 2);
+    CHECK(other.mentions("has part 1/2, this is part 2/2"));
+}
+
+TEST_CASE("What does not belong together is refused by name, all at once", "[merge]") {
+    const Folder folder;
+    const std::string first = part(folder, "1/3"), second = part(folder, "2/3");
+    const std::string out = " --out " + folder.file("m.h5");
+    const Outcome gap = program("merge " + first + " " + second + out);
+    CHECK(gap.code == 2);
+    CHECK(gap.mentions("rows 32 to 34 the first, are in none of the files"));
+    CHECK(gap.mentions("run --part 3/3"));
+    const std::string seed = part(folder, "3/3", "--seed 77");
+    const Outcome other = program("merge " + first + " " + second + " " + seed + out);
+    CHECK(other.code == 2);
+    CHECK(other.mentions("3-3.h5: cannot be merged: it has seed 77"));
+    const std::string third = part(folder, "3/3", "--force --set gearbox.mesh_damping_ratio=0.08");
+    const Outcome study = program("merge " + first + " " + third + " /none/there.h5" + out);
+    CHECK(study.code == 2);
+    CHECK(study.mentions("belongs to another study"));
+    CHECK(study.mentions("/none/there.h5"));
+    const Outcome itself = program("merge " + first + " " + second + " --out " + first);
+    CHECK(itself.code == 2);
+    CHECK(itself.mentions("would overwrite"));
+    CHECK(!std::filesystem::exists(folder.file("m.h5")));
+    for (const char* bad : {"0/4", "5/4", "2", "a/b", "2/4x", "1/0"}) {
+        const Outcome refused = program(kRun + " --part " + bad + out);
+        CHECK(refused.code == 2);
+        CHECK(refused.mentions("is no part"));
+    }
+    CHECK(program(kRun + " --part 9/9" + out).mentions("this part has none"));
+}
+
+TEST_CASE("Parts by another version of the program are refused", "[merge]") {
+    const Folder folder;
+    const std::string first = part(folder, "1/2"), second = part(folder, "2/2");
+    mc::Results older = mc::read_results(second);
+    for (auto& [name, value] : older.provenance) {
+        value = name == "git_hash" ? "0123456789abcdef" : value;
+    }
+    mc::write_results(second, older);
+    const Outcome refused =
+        program("merge " + first + " " + second + " --out " + folder.file("m.h5"));
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("2-2.h5: cannot be merged: it was made by gearpod"));
+    CHECK(refused.mentions("git 0123456789ab"));
+}
+
+TEST_CASE("An interrupted part is continued before it is merged; progress is JSON for programs",
+          "[merge]") {
+    const Folder folder;
+    const std::string first = part(folder, "1/2", "--progress json");
+    const Outcome run = program(kRun + " --part 2/2 --progress json --out " + folder.file("b.h5"));
+    REQUIRE(run.code == 0);
+    CHECK(run.mentions("\"finished\":true"));
+    CHECK(run.mentions("\"done\":48,"));
+    CHECK(run.mentions("\"of\":48,"));
+    CHECK(program(kRun + " --progress xml --out " + folder.file("c.h5")).code == 2);
+    // The first rows of a part, as a snapshot has them.
+    mc::Results some = mc::read_results(first);
+    for (auto& parameter : some.parameters) {
+        parameter.values.resize(16);
+    }
+    for (auto& feature : some.features) {
+        feature.values.resize(32);
+    }
+    some.group.resize(16);
+    some.status.resize(16);
+    mc::write_results(first, some);
+    const Outcome refused =
+        program("merge " + first + " " + folder.file("b.h5") + " --out " + folder.file("m.h5"));
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("1-2.h5: holds 16 of its 37 gearboxes"));
+}
