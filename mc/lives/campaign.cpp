@@ -123,13 +123,13 @@ Campaign run_campaign(const Scene& scene, int threads, const std::function<void(
         Part& part = parts[p];
         LifeCosts costs;
         auto lives = tiles.run(part.ids, part.cracked, costs);
-        auto interpolation =
-            p == 0 ? tiles.interpolation_errors(part.ids) : std::vector<InterpolationError>();
+        const auto interpolation =
+            p == 0 ? tiles.interpolation_errors(part.ids) : InterpolationErrors();
         const std::lock_guard lock(one_at_a_time);
         std::move(lives.begin(), lives.end(),
                   part.into->begin() + static_cast<std::ptrdiff_t>(part.first));
         if (p == 0) {
-            campaign.interpolation = std::move(interpolation);
+            campaign.interpolation = interpolation;
         }
         campaign.costs.gearboxes += costs.gearboxes;
         campaign.costs.records += costs.records;

@@ -15,7 +15,7 @@ namespace gearpod::mc {
 struct Campaign {
     std::vector<GearboxLife> setting, healthy, cracked;
     LifeCosts costs;
-    std::vector<InterpolationError> interpolation;  // of the first tile of cracked gearboxes
+    InterpolationErrors interpolation;  // of the first tile of cracked gearboxes
     long failed = 0;
 };
 

@@ -56,10 +56,22 @@ void check_composable(const Study& study) {
     }
 }
 
-// Streams of a record's own: far behind those of all gearboxes.
+// Rms of signal - (a share_a + b share_b).
+double rms_apart(std::span<const double> signal, std::span<const double> a, double share_a,
+                 std::span<const double> b, double share_b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+        const double miss = signal[i] - share_a * a[i] - share_b * b[i];
+        sum += miss * miss;
+    }
+    return std::sqrt(sum / static_cast<double>(signal.size()));
+}
+
+// Streams of a record's own, far behind those of all gearboxes. The first record's are the
+// gearbox's: a life of one record is the record of a run.
 GearboxId record_id(const GearboxId& id, std::size_t record, bool change) {
     constexpr int kRecordShift = 40;
-    return {id.group, id.index + ((2 * record + (change ? 2 : 1)) << kRecordShift)};
+    return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
 }
 
 }  // namespace
@@ -173,7 +185,10 @@ class LifeTiles::Lane {
         InstanceInputs inputs = inputs_;
         inputs.noise_m_s2 *= record.noise;
         inputs.encoder_noise_rad *= record.noise;
-        const LaneSignals own = composed.at(coefficients);
+        LaneSignals own = composed.at(coefficients);
+        for (double& value : own.te_turn) {
+            value /= inputs_.gain * record.gain;  // of the sensor alone
+        }
         record_.load(own, inputs, record_id(id_, r, false));
         features::FeatureInput input = record_.at(0), change;
         LaneSignals changed;
@@ -321,44 +336,38 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
     return lives;
 }
 
-std::vector<InterpolationError> LifeTiles::interpolation_errors(
-    std::span<const GearboxId> ids) const {
-    std::vector<Status> status(ids.size(), Status::ok);
-    std::vector<InterpolationError> errors;
-    const auto healthy = march(ids, 0.0, 1.0, status);
+InterpolationErrors LifeTiles::interpolation_errors(std::span<const GearboxId> ids) const {
     const int last = scene_.study().life.depth_steps - 1;
-    for (const int step : last > 0 ? std::vector<int>{0, last} : std::vector<int>{0}) {
-        InterpolationError error;
-        error.depth_m = 0.5 * (depth(step) + depth(step + 1));
-        const auto marched = march(ids, error.depth_m, 1.0, status);
-        std::vector<std::vector<double>> composed(ids.size());
-        const std::vector<double> share = shares(1.0), torque = torques();
-        for (const int end : {step, step + 1}) {
-            for (std::size_t t = 0; t < torque.size(); ++t) {
-                const auto part = march(ids, depth(end), torque[t], status);
-                for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-                    composed[lane].resize(part[lane].sensor.size(), 0.0);
-                    for (std::size_t i = 0; i < part[lane].sensor.size(); ++i) {
-                        composed[lane][i] += 0.5 * share[t] * part[lane].sensor[i];
-                    }
-                }
-            }
+    const std::vector<double> torque = torques();
+    InterpolationErrors errors;
+    errors.first_m = 0.5 * depth(1);
+    errors.last_m = 0.5 * (depth(last) + depth(last + 1));
+    std::vector<Status> status(ids.size(), Status::ok);
+    const auto healthy = march(ids, 0.0, torque[0], status);
+    const auto first = march(ids, depth(1), torque[0], status);
+    const auto before = march(ids, depth(last), torque[0], status);
+    const auto behind = march(ids, depth(last + 1), torque[0], status);
+    const auto in_first = march(ids, errors.first_m, torque[0], status);
+    const auto in_last = march(ids, errors.last_m, torque[0], status);
+    const auto between = march(ids, 0.0, 1.0, status);
+    const auto loaded = torque.size() > 1 ? march(ids, 0.0, torque[1], status) : between;
+    const std::vector<double> share = shares(1.0);
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        if (status[lane] != Status::ok) {
+            continue;
         }
-        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-            if (status[lane] != Status::ok) {
-                continue;
-            }
-            double miss = 0.0, crack = 0.0, all = 0.0;
-            for (std::size_t i = 0; i < composed[lane].size(); ++i) {
-                const double right = marched[lane].sensor[i];
-                miss += std::pow(composed[lane][i] - right, 2);
-                crack += std::pow(right - healthy[lane].sensor[i], 2);
-                all += right * right;
-            }
-            error.of_crack = std::max(error.of_crack, std::sqrt(miss / crack));
-            error.of_signal = std::max(error.of_signal, std::sqrt(miss / all));
+        const auto& none = healthy[lane].sensor;
+        const auto take = [](double& largest, double error) { largest = std::max(largest, error); };
+        take(errors.first, rms_apart(in_first[lane].sensor, none, 0.5, first[lane].sensor, 0.5) /
+                               rms_apart(in_first[lane].sensor, none, 1.0, none, 0.0));
+        take(errors.last,
+             rms_apart(in_last[lane].sensor, before[lane].sensor, 0.5, behind[lane].sensor, 0.5) /
+                 rms_apart(in_last[lane].sensor, none, 1.0, none, 0.0));
+        if (torque.size() > 1) {
+            take(errors.torque,
+                 rms_apart(between[lane].sensor, none, share[0], loaded[lane].sensor, share[1]) /
+                     rms_apart(between[lane].sensor, none, 0.0, none, 0.0));
         }
-        errors.push_back(error);
     }
     return errors;
 }

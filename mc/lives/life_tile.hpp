@@ -18,12 +18,13 @@ struct GearboxLife {
     std::vector<std::vector<double>> values;  // [feature][record]; none of a gearbox that failed
 };
 
-// What interpolation takes: the composed signal less the marched one in the middle of a step of
-// depth and between the torques, rms, over that of the marched one's difference to no crack.
-struct InterpolationError {
-    double depth_m = 0.0;    // the middle of the step
-    double of_crack = 0.0;   // the largest of the gearboxes
-    double of_signal = 0.0;  // the same over the whole signal
+// What interpolation takes, the largest of some gearboxes, rms over the span: in the middle of the
+// first and the last step of depth, over what the crack changes there, and without a crack between
+// the torques, over the signal.
+struct InterpolationErrors {
+    double first_m = 0.0, first = 0.0;  // depth, error
+    double last_m = 0.0, last = 0.0;
+    double torque = 0.0;  // 0 where all records have one torque
 };
 
 // How long what belongs to gearboxes and what belongs to records took, seconds of processor time.
@@ -40,8 +41,7 @@ class LifeTiles {
     std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked,
                                  LifeCosts& costs) const;
 
-    // Of the middles of the first and the last step.
-    std::vector<InterpolationError> interpolation_errors(std::span<const GearboxId> ids) const;
+    InterpolationErrors interpolation_errors(std::span<const GearboxId> ids) const;
 
     // Gearboxes in lockstep.
     std::size_t lanes() const;

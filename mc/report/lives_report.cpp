@@ -70,13 +70,11 @@ std::string lives_text(const Study& study, const Campaign& campaign,
     if (campaign.failed > 0) {
         out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
     }
-    for (const InterpolationError& error : campaign.interpolation) {
-        out += fmt::format(
-            "interpolated signal at {:.3g} mm: off by {:.2g} of what the crack changes (rms), "
-            "{:.2g} "
-            "of the signal\n",
-            1e3 * error.depth_m, error.of_crack, error.of_signal);
-    }
+    const InterpolationErrors& off = campaign.interpolation;
+    out += fmt::format(
+        "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
+        "{:.2g} of it at {:.3g} mm; between torques by {:.2g} of the signal\n",
+        off.first, 1e3 * off.first_m, off.last, 1e3 * off.last_m, off.torque);
     out += costs_text(campaign) + "\n";
     out += fmt::format("{:<20}{:<12}{:>10}{:>22}{:>20}{:>8}{:>16}{:>9}{:>9}\n", "feature",
                        "detector", "threshold", "false alarms/1000 h", "found before end",
@@ -99,8 +97,8 @@ std::string lives_text(const Study& study, const Campaign& campaign,
 
 nlohmann::json lives_json(const Study& study, const Campaign& campaign,
                           const std::vector<MonitoredFeature>& monitored) {
-    LifeJson watched = LifeJson::array(), interpolation = LifeJson::array(),
-             lives = LifeJson::array();
+    LifeJson watched = LifeJson::array(), lives = LifeJson::array();
+    const InterpolationErrors& off = campaign.interpolation;
     for (const MonitoredFeature& one : monitored) {
         const analysis::LifeAnswers& a = one.answers;
         watched.push_back({{"feature", one.feature},
@@ -125,11 +123,6 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
                            {"warning_50_h", number_or_null(a.warning_50)},
                            {"warning_90_h", number_or_null(a.warning_90)}});
     }
-    for (const InterpolationError& error : campaign.interpolation) {
-        interpolation.push_back({{"depth_m", error.depth_m},
-                                 {"of_crack", error.of_crack},
-                                 {"of_signal", error.of_signal}});
-    }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();
         for (const LifeRecord& record : life.history.records) {
@@ -145,7 +138,12 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
     return {{"title", study.title},
             {"false_alarms_per_1000_h", study.monitoring.false_alarms_per_1000_h},
             {"failed", campaign.failed},
-            {"interpolation", interpolation},
+            {"interpolation",
+             {{"first_depth_m", off.first_m},
+              {"first", number_or_null(off.first)},
+              {"last_depth_m", off.last_m},
+              {"last", number_or_null(off.last)},
+              {"torque", number_or_null(off.torque)}}},
             {"costs",
              {{"gearboxes", campaign.costs.gearbox_count},
               {"gearbox_s", campaign.costs.gearboxes},

@@ -75,7 +75,7 @@ const Key kKeys[] = {
     {"monitoring", "false_alarms_per_1000_h", number<&Monitoring::false_alarms_per_1000_h>, kNone, kPositive, with_life, kShared, "false alarms in 1000 machine hours of healthy gearboxes that lives' thresholds are set to"},
 
     {"life", "interval_h", number<&Life::interval_h>, kHours, kPositive, may, kShared, "hours between two records of a gearbox; `lives` then follows gearboxes whose crack grows"},
-    {"life", "records", integer<&Life::records>, kNone, from_to(2, 1e5), with_life, kShared, "records of a life at most, the baseline's included"},
+    {"life", "records", integer<&Life::records>, kNone, from_to(1, 1e5), with_life, kShared, "records of a life at most, the baseline's included"},
     {"life", "healthy_lives", integer<&Life::healthy_lives>, kNone, from_to(1, 1e6), with_life, kShared, "healthy gearboxes that count false alarms, besides those that set the thresholds (ensemble.threshold_instances)"},
     {"life", "first_depth_mm", number<&Life::first_depth_m>, kMm, kPositive, life_needs, kShared, "depth of the crack that is there when the baseline is known"},
     {"life", "last_depth_mm", number<&Life::last_depth_m>, kMm, kPositive, life_needs, kShared, "depth of the crack at which a life ends"},

@@ -21,6 +21,15 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
         throw std::invalid_argument(
             "the crack's angle to the tooth's centre line must lie between 0 and 90 degrees");
     }
+    constexpr int kPositions = 200;
+    const double ratio = geometry.contact_ratio();
+    for (int i = 0; i <= kPositions; ++i) {
+        const double tau = ratio * i / kPositions;
+        // Pairs that touch at once: those a whole number of mesh periods before and behind.
+        const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
+        const Stress stress = stress_at(tau);
+        engagement_.push_back({stress.tension / pairs, stress.bending / pairs});
+    }
 }
 
 // x along the centre line to the tip, from the root section; y to the loaded flank. The crack runs
@@ -38,25 +47,24 @@ RootCrack::Stress RootCrack::stress_at(double tau) const {
     return {across / area, 6.0 * moment / (area * width_)};
 }
 
-double RootCrack::intensity(double depth_m, double force_N, double tau) const {
-    const double share = depth_m / width_;
-    const Stress stress = stress_at(tau);
+double RootCrack::intensity_of(const Stress& stress, double depth_m, double share) {
     const double opening =
         stress.tension * edge_crack_tension(share) + stress.bending * edge_crack_bending(share);
-    return std::max(0.0, force_N * opening * std::sqrt(std::numbers::pi * depth_m));
+    return std::max(0.0, opening * std::sqrt(std::numbers::pi * depth_m));
+}
+
+double RootCrack::intensity(double depth_m, double force_N, double tau) const {
+    return force_N * intensity_of(stress_at(tau), depth_m, depth_m / width_);
 }
 
 double RootCrack::largest_intensity(double depth_m, double force_N) const {
-    constexpr int kPositions = 200;
-    const double ratio = geometry_.contact_ratio();
+    const double share = depth_m / width_;
+    const double tension = edge_crack_tension(share), bending = edge_crack_bending(share);
     double largest = 0.0;
-    for (int i = 0; i <= kPositions; ++i) {
-        const double tau = ratio * i / kPositions;
-        // Pairs that touch at once: those a whole number of mesh periods before and behind.
-        const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
-        largest = std::max(largest, intensity(depth_m, force_N / pairs, tau));
+    for (const Stress& stress : engagement_) {
+        largest = std::max(largest, stress.tension * tension + stress.bending * bending);
     }
-    return largest;
+    return force_N * largest * std::sqrt(std::numbers::pi * depth_m);
 }
 
 }  // namespace gearpod::stiffness

@@ -6,6 +6,8 @@
 // body below it, and that the crack turns on its way.
 #pragma once
 
+#include <vector>
+
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
 
@@ -35,11 +37,13 @@ class RootCrack {
         double tension = 0.0, bending = 0.0;
     };
     Stress stress_at(double tau) const;
+    static double intensity_of(const Stress& stress, double depth_m, double share);
 
     gears::MeshGeometry geometry_;
     ToothProfile profile_;
     int which_;
     double angle_, face_width_, width_;
+    std::vector<Stress> engagement_;  // of 1 N on the mesh, from its begin to its end
 };
 
 }  // namespace gearpod::stiffness

@@ -39,7 +39,7 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     REQUIRE(completion.code == 0);
     const std::string page = replaced(man.output);
     for (const char* command : {"run", "report", "compare", "describe", "stiffness", "modes",
-                                "accuracy", "simulate", "features", "pod"}) {
+                                "accuracy", "simulate", "features", "pod", "lives"}) {
         INFO(command);
         const auto names = options(command);
         CHECK(names.size() >= 2);

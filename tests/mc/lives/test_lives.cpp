@@ -1,0 +1,210 @@
+// Lives of gearboxes: records against what is marched, growth against Paris' integral, one record
+// against the run, and the same bits for any threads and lanes.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/lives/campaign.hpp"
+#include "mc/results/row_source.hpp"
+#include "stiffness/growth/root_crack.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_file.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::vector<std::string> kLife{"life.interval_h=5",
+                                     "life.first_depth_mm=1",
+                                     "life.last_depth_mm=4",
+                                     "life.depth_steps=4",
+                                     "life.paris_factor=1.36e-7",
+                                     "life.paris_exponent=2.25",
+                                     "life.records=40",
+                                     "life.healthy_lives=4",
+                                     "monitoring.baseline_records=6",
+                                     "sensor.noise_levels=[1]",
+                                     "features.use=[\"te_rms\",\"sensor_rms\",\"window_ratio\"]",
+                                     "ensemble.instances=3",
+                                     "ensemble.threshold_instances=4"};
+
+mc::Study life_study(std::vector<std::string> more = {}) {
+    more.insert(more.begin(), kLife.begin(), kLife.end());
+    return shipped_study("planet-crack-ideal.toml", more);
+}
+
+TEST_CASE("A record is what its gearbox gives when it is marched at that depth and torque") {
+    const mc::Scene scene(life_study({"life.torque_scatter=0.05", "life.gain_scatter=0.1",
+                                      "sensor.noise_m_s2=0", "sensor.encoder_noise_arcsec=0"}));
+    const mc::LifeTiles tiles(scene);
+    const mc::GearboxId id{mc::Group::graded, 1};
+    mc::LifeCosts costs;
+    const auto life = tiles.run(std::span(&id, 1), true, costs).front();
+    REQUIRE(life.status == mc::Status::ok);
+    const mc::HealthyReference none;
+    mc::InstanceFeatures features(scene, &none);
+    // Without a crack, and where it is just as deep as is marched.
+    for (const std::size_t r : {std::size_t{0}, std::size_t{3}, std::size_t{6}}) {
+        const mc::LifeRecord& record = life.history.records[r];
+        mc::InstanceInputs inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+        inputs.fault_size = record.depth_m;
+        inputs.torque_N_m *= record.torque;
+        inputs.gain *= record.gain;
+        const auto path = mc::path_grid(scene);
+        const auto tile = mc::run_given(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto marched =
+            features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
+        for (std::size_t f = 0; f < marched.size(); ++f) {
+            INFO(r << " " << scene.study().features.use[f]);
+            CHECK(life.values[f][r] == Approx(marched[f]).epsilon(1e-6));
+        }
+    }
+    CHECK(life.history.records[6].depth_m == Approx(1e-3).epsilon(1e-12));
+    CHECK(life.history.records[5].depth_m == 0.0);
+}
+
+TEST_CASE("A tooth goes when Paris' integral says so") {
+    const mc::Scene scene(life_study({"life.records=400"}));
+    const mc::CrackLife crack(scene);
+    const mc::GearboxId id{mc::Group::graded, 0};
+    const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+    // The carrier's 8.87 turns a minute, 81 ring teeth, 31 planet teeth.
+    CHECK(crack.cycles_per_hour(inputs) == Approx(60.0 * 8.87 * 81.0 / 31.0));
+    const auto history = crack.history(id, inputs, true);
+    REQUIRE(history.end_hours);
+    // 19 sun teeth of 3.175 mm, four planets: the force along the line of action.
+    const double base_radius = 0.5 * 19 * 3.175e-3 * std::cos(20.0 * std::numbers::pi / 180.0);
+    const double force = inputs.torque_N_m / (4.0 * base_radius);
+    double cycles = 0.0;
+    constexpr int kSteps = 4'000;
+    const auto rate = [&](double depth) {
+        const double range_MPa = 1e-6 * force * crack.range_per_force(depth);
+        return 1e-3 * 1.36e-7 * std::pow(range_MPa, 2.25);
+    };
+    for (int i = 0; i < kSteps; ++i) {
+        const double width = 3e-3 / kSteps;
+        cycles += width / rate(1e-3 + (i + 0.5) * width);
+    }
+    const double hours = cycles / crack.cycles_per_hour(inputs);
+    CHECK(*history.end_hours - 6 * 5.0 == Approx(hours).epsilon(1e-5));
+    CHECK(history.records.size() == static_cast<std::size_t>(std::ceil(*history.end_hours / 5.0)));
+    for (std::size_t r = 1; r < history.records.size(); ++r) {
+        CHECK(history.records[r].depth_m >= history.records[r - 1].depth_m);
+    }
+    // A brittle tooth goes sooner, at the record whose stress intensity is that large.
+    const double toughness = 1e-6 * force * crack.range_per_force(2e-3);
+    const mc::Scene brittle_scene(life_study(
+        {"life.records=400", "life.fracture_toughness_MPa_m05=" + std::to_string(toughness)}));
+    const auto brittle = mc::CrackLife(brittle_scene).history(id, inputs, true);
+    REQUIRE(brittle.end_hours);
+    CHECK(*brittle.end_hours < *history.end_hours);
+    CHECK(brittle.records.back().depth_m < 2e-3);
+    const std::size_t next = brittle.records.size();
+    CHECK(history.records[next].depth_m >= 2e-3 * (1.0 - 1e-6));
+}
+
+TEST_CASE("A life of one record with a population threshold is the snapshot study") {
+    const std::vector<std::string> both{
+        "sensor.noise_levels=[1]", "features.use=[\"sensor_rms\",\"window_ratio\"]",
+        "ensemble.instances=16",   "ensemble.threshold_instances=40",
+        "fault.depth_mm=2",        "detection.false_alarm_rate=0.05"};
+    const auto snapshot = run(shipped_study("planet-crack-ideal.toml", both));
+    const auto detection = mc::detect_all(snapshot, mc::ColumnRows(snapshot));
+    auto one = kLife;
+    one.insert(one.end(), both.begin(), both.end());
+    // So rarely measured that every tooth goes before the next record.
+    for (const char* more :
+         {"life.records=1", "monitoring.baseline_records=0", "life.first_depth_mm=2",
+          "life.interval_h=1e9", "monitoring.false_alarms_per_1000_h=5e-8",
+          "monitoring.detectors=[\"single\"]", "life.healthy_lives=1"}) {
+        one.emplace_back(more);
+    }
+    const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
+    const auto campaign = mc::run_campaign(scene, 2, [](long) {});
+    const auto monitored = mc::monitor(scene.study(), campaign);
+    for (std::size_t f = 0; f < 2; ++f) {
+        INFO(monitored[f].feature);
+        REQUIRE(monitored[f].feature == snapshot.features[f].name);
+        const auto& level = detection[f].levels[0];
+        CHECK(monitored[f].answers.threshold.value == Approx(level.threshold).epsilon(1e-9));
+        CHECK(monitored[f].answers.ended == 16);
+        CHECK(monitored[f].answers.found == level.cells[0].detected);
+        for (std::size_t g = 0; g < 16; ++g) {
+            CHECK(campaign.cracked[g].values[f][0] ==
+                  Approx(snapshot.features[f].values[40 + g]).epsilon(1e-9));
+        }
+    }
+    // Some, not all, of either: the comparison says something.
+    CHECK(monitored[1].answers.found > 0);
+}
+
+std::string life_options() {
+    std::string options;
+    for (const std::string& one : kLife) {
+        options += " --set '" + one + "'";
+    }
+    return options + " --set life.torque_scatter=0.02 --set 'features.use=[\"window_ratio\",\"" +
+           "change_window_ratio\"]' --quiet --json -";
+}
+
+TEST_CASE("Lives have the same bits for any lanes") {
+    const std::vector<std::string> few{"ensemble.threshold_instances=1", "life.healthy_lives=1",
+                                       "life.torque_scatter=0.02",
+                                       "features.use=[\"sensor_rms\",\"change_window_z\"]"};
+    const auto of = [&](const std::string& lanes) {
+        auto overrides = few;
+        overrides.push_back(lanes);
+        const mc::Scene scene(life_study(overrides));
+        return mc::run_campaign(scene, 1, [](long) {});
+    };
+    const auto eight = of("numerics.lanes=8"), one = of("numerics.lanes=1");
+    for (std::size_t g = 0; g < eight.cracked.size(); ++g) {
+        CHECK(eight.cracked[g].values == one.cracked[g].values);
+        CHECK(eight.cracked[g].history.end_hours == one.cracked[g].history.end_hours);
+    }
+    CHECK(eight.setting[0].values == one.setting[0].values);
+}
+
+TEST_CASE("Lives have the same bits for any threads, and the command says what it must") {
+    const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
+                                " --set monitoring.false_alarms_per_1000_h=10";
+    const auto of = [&](const std::string& more) {
+        const Outcome outcome = program(command + more);
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+        auto json = nlohmann::json::parse(outcome.output);
+        CHECK(json["costs"]["gearboxes"] == 11);
+        json.erase("costs");
+        json.erase("interpolation");  // of as many gearboxes as there are lanes
+        return json;
+    };
+    const auto reference = of("");
+    CHECK(of(" --set numerics.threads=1") == reference);
+    CHECK(of(" --seed 77") != reference);
+    REQUIRE(reference["monitored"].size() == 15);  // two features and both, five detectors
+    for (const auto& one : reference["monitored"]) {
+        CHECK(one["false_alarms"]["hours"] == 4 * 34 * 5.0);
+        CHECK(one["found"].get<int>() <= one["ended"].get<int>());
+    }
+    CHECK(reference["lives"].size() == 3);
+}
+
+TEST_CASE("What cannot live on is refused with the key") {
+    const auto refused = [&](const std::string& more) {
+        const Outcome outcome =
+            program("lives " + study("planet-crack-ideal.toml") + life_options() + more);
+        CHECK(outcome.code == 2);
+        return outcome;
+    };
+    CHECK(
+        program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
+    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" looks at samples"));
+    CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
+    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts the tooth"));
+    CHECK(refused(" --set life.records=6").mentions("no more than monitoring.baseline_records"));
+    CHECK(refused(" --set fault.kind=reduction --set fault.reduction=0").code == 2);
+    CHECK(refused(" --set 'sensor.noise_levels=[1,2]'").mentions("one noise"));
+}
+
+}  // namespace
+}  // namespace gearpod::test
