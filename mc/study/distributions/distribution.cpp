@@ -11,21 +11,25 @@
 
 #include "mc/input/document.hpp"
 #include "mc/input/spelling.hpp"
+#include "mc/study/distributions/beta.hpp"
 #include "mc/study/distributions/constant.hpp"
+#include "mc/study/distributions/discrete.hpp"
 #include "mc/study/distributions/grid.hpp"
 #include "mc/study/distributions/levels.hpp"
 #include "mc/study/distributions/lognormal.hpp"
 #include "mc/study/distributions/magnitude.hpp"
 #include "mc/study/distributions/normal.hpp"
+#include "mc/study/distributions/parameters.hpp"
 #include "mc/study/distributions/triangular.hpp"
 #include "mc/study/distributions/truncated_normal.hpp"
 #include "mc/study/distributions/uniform.hpp"
+#include "mc/study/distributions/weibull.hpp"
 
 namespace gearpod::mc {
 
 // The registration line.
-using AnyLaw =
-    std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNormal, Triangular, Levels, Grid>;
+using AnyLaw = std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNormal, Triangular,
+                            Weibull, Beta, Discrete, Levels, Grid>;
 
 struct DistributionKind {
     AnyLaw law;
@@ -173,6 +177,16 @@ class FieldReader {
     Problems& problems_;
 };
 
+const char* kind_text(double) {
+    return "number";
+}
+const char* kind_text(int) {
+    return "integer";
+}
+const char* kind_text(const std::vector<double>&) {
+    return "list of numbers";
+}
+
 std::string text_of(double value) {
     return fmt::format("{}", value);
 }
@@ -267,6 +281,22 @@ std::vector<std::string_view> distribution_names() {
     std::vector<std::string_view> names;
     for_each_law([&](const auto& law) { names.push_back(law.kName); });
     return names;
+}
+
+std::vector<DistributionHelp> distribution_help() {
+    std::vector<DistributionHelp> all;
+    for_each_law([&](const auto& law) {
+        std::string parameters;
+        const auto add = [&](const auto& field) {
+            const std::string range = field.range.text();
+            parameters +=
+                fmt::format("{}{} ({}{}{})", parameters.empty() ? "" : ", ", field.name,
+                            kind_text(law.*(field.member)), range.empty() ? "" : " ", range);
+        };
+        std::apply([&](const auto&... field) { (add(field), ...); }, law.fields());
+        all.push_back({std::string(law.kName), parameters});
+    });
+    return all;
 }
 
 }  // namespace gearpod::mc

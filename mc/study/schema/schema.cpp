@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "mc/study/distributions/parameters.hpp"
 #include "mc/study/schema/table.hpp"
 
 namespace gearpod::mc {
@@ -112,6 +113,19 @@ std::string schema_help(std::string_view word) {
                                     range.empty() ? "" : " " + range,
                                     key.may_be_random() ? ", may be random" : "", key.doc),
                         6);
+    }
+    bool random = false;
+    for (const DistributionHelp& distribution : distribution_help()) {
+        constexpr const char* kSection = "random";
+        if (!contains(kSection, word) && !contains(distribution.name, word) &&
+            !contains(distribution.parameters, word)) {
+            continue;
+        }
+        text += random ? "" : "[random]\n";
+        random = true;
+        text +=
+            fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", distribution.name) +
+            wrapped("with " + distribution.parameters, 6);
     }
     return text;
 }

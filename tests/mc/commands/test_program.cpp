@@ -95,6 +95,9 @@ TEST_CASE("The keys of study files are described without a study") {
     CHECK(some.code == 0);
     CHECK(mentions(some, "growth_depth_mm"));
     CHECK(!mentions(some, "noise_levels"));
+    const Outcome weibull = program("describe --keys weibull");
+    CHECK(weibull.mentions("distribution = \"weibull\""));
+    CHECK(weibull.mentions("with scale (number > 0), shape (number"));
     const Outcome none = program("describe --keys nonsense");
     CHECK(none.code == 2);
     CHECK(mentions(none, "--keys nonsense: in no section, name or explanation"));

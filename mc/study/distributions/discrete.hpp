@@ -1,0 +1,70 @@
+// One of some values, each with a probability that goes with its weight. `levels` gives its values
+// in turn, this at random.
+#pragma once
+
+#include <algorithm>
+#include <boost/random/uniform_01.hpp>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "mc/random/philox.hpp"
+#include "mc/study/distributions/field.hpp"
+#include "mc/study/distributions/support.hpp"
+
+namespace gearpod::mc {
+
+struct Discrete {
+    static constexpr std::string_view kName = "discrete";
+    std::vector<double> values;
+    std::vector<double> weights;
+
+    static constexpr auto fields() {
+        return std::tuple{Field{"values", &Discrete::values},
+                          Field{"weights", &Discrete::weights, kPositiveField}};
+    }
+    std::string problem() const {
+        const bool both = !values.empty() && !weights.empty();  // else that is what is wrong
+        return both && values.size() != weights.size() ? "values and weights must be as many" : "";
+    }
+    double median() const {
+        std::vector<std::pair<double, double>> ascending;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            ascending.emplace_back(values[i], weights[i]);
+        }
+        std::sort(ascending.begin(), ascending.end());
+        double left = 0.5 * total();
+        for (const auto& [value, weight] : ascending) {
+            left -= weight;
+            if (left <= 0.0) {
+                return value;
+            }
+        }
+        return ascending.back().first;
+    }
+    Support support() const {
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        return {*low, *high, false, false};
+    }
+    std::vector<double> levels() const { return {}; }
+    double draw(Philox& engine, std::uint64_t) const {
+        double left = boost::random::uniform_01<double>()(engine) * total();
+        for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+            left -= weights[i];
+            if (left < 0.0) {
+                return values[i];
+            }
+        }
+        return values.back();
+    }
+    bool operator==(const Discrete&) const = default;
+
+  private:
+    double total() const { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+};
+
+}  // namespace gearpod::mc

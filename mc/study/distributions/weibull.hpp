@@ -1,0 +1,45 @@
+// Lives, wind speeds and loads: P(value > x) = exp(-(x / scale)^shape).
+#pragma once
+
+#include <algorithm>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mc/random/philox.hpp"
+#include "mc/study/distributions/field.hpp"
+#include "mc/study/distributions/support.hpp"
+
+namespace gearpod::mc {
+
+struct Weibull {
+    static constexpr std::string_view kName = "weibull";
+    double scale = 0.0;
+    double shape = 0.0;
+
+    // Flatter ones reach down to the smallest numbers, steeper ones are a constant.
+    static constexpr auto fields() {
+        return std::tuple{Field{"scale", &Weibull::scale, kPositiveField},
+                          Field{"shape", &Weibull::shape, Range{0.2, 1e4}}};
+    }
+    std::string problem() const { return ""; }
+    double median() const { return quantile(0.5); }
+    Support support() const { return {0.0, std::numeric_limits<double>::infinity(), true, true}; }
+    std::vector<double> levels() const { return {}; }
+    double draw(Philox& engine, std::uint64_t) const {
+        constexpr double kLeast =
+            0x1p-54;  // 0 is drawn once in 2^53 times, and never to be a value
+        return quantile(std::max(kLeast, boost::random::uniform_01<double>()(engine)));
+    }
+    bool operator==(const Weibull&) const = default;
+
+  private:
+    double quantile(double p) const { return scale * std::pow(-std::log1p(-p), 1.0 / shape); }
+};
+
+}  // namespace gearpod::mc

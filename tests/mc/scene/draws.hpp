@@ -1,0 +1,58 @@
+// Draws of a distribution, held against its distribution function.
+#pragma once
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mc/input/document.hpp"
+#include "mc/random/philox.hpp"
+#include "mc/study/distributions/distribution.hpp"
+
+namespace gearpod::tests {
+
+using namespace gearpod::mc;
+
+inline Distribution distribution_of(const std::string& toml) {
+    Problems problems;
+    const Value document = parse_document("x = " + toml, "test.toml", problems);
+    const auto distribution = Distribution::read(document.find("x")->value, "x", problems);
+    INFO(format(problems));
+    REQUIRE(distribution);
+    return *distribution;
+}
+
+// Draws of as many instances, as a Sampler takes them, from a distribution given as TOML.
+inline std::vector<double> draws_of(const std::string& toml, int count) {
+    const Distribution distribution = distribution_of(toml);
+    std::vector<double> draws;
+    for (int i = 0; i < count; ++i) {
+        const auto index = static_cast<std::uint64_t>(i);
+        Philox engine(7, Group::graded, index, parameter_id("operation.torque_N_m"));
+        draws.push_back(distribution.draw(engine, index));
+    }
+    return draws;
+}
+
+// Largest distance between the empirical and the exact distribution function, times sqrt(n).
+inline double kolmogorov_smirnov(std::vector<double> draws,
+                                 const std::function<double(double)>& cdf) {
+    std::sort(draws.begin(), draws.end());
+    const double n = static_cast<double>(draws.size());
+    double distance = 0.0;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const double exact = cdf(draws[i]);
+        distance = std::max(
+            {distance, exact - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - exact});
+    }
+    return distance * std::sqrt(n);
+}
+
+// Exceeded by chance once in ten thousand: 2 exp(-2 x^2) = 1e-4.
+inline constexpr double kKsLimit = 2.23;
+inline constexpr int kDraws = 20000;
+
+}  // namespace gearpod::tests
