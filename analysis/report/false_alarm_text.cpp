@@ -23,6 +23,24 @@ long largest_sample(std::span<const FeatureDetection> features, std::size_t leve
     return largest;
 }
 
+// The widest interval that is wider than as many independent recordings have (clusters.hpp); 0 if
+// there is none.
+Interval clustered_rate(std::span<const FeatureDetection> features,
+                        const DetectionRequest& request) {
+    Interval widest{0.0, 0.0};
+    for (const FeatureDetection& feature : features) {
+        for (const LevelDetection& level : feature.levels) {
+            const Interval independent = threshold_rate_interval(
+                level.threshold_sample, request.false_alarm_rate, request.confidence);
+            if (!level.tail && level.threshold_rate.upper > independent.upper + 1e-9 &&
+                level.threshold_rate.upper > widest.upper) {
+                widest = level.threshold_rate;
+            }
+        }
+    }
+    return widest;
+}
+
 Json pair_json(const Interval& bounds) {
     return Json::array({number(bounds.lower), number(bounds.upper)});
 }
@@ -84,8 +102,15 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
             without.push_back(fmt::format("x {:g}", request.noise_levels[n]));
         }
     }
-    const std::string text =
+    std::string text =
         sample_shortage(fewest, request.false_alarm_rate, request.confidence, subject);
+    if (const Interval rate = clustered_rate(features, request);
+        rate.upper > 2.0 * request.false_alarm_rate) {
+        text = fmt::format(
+            "Recordings of few gearboxes for a false-alarm rate of {:g}: they fix it to between "
+            "{:.2g} and {:.2g} at {:g} % confidence. It takes recordings of more gearboxes.",
+            request.false_alarm_rate, rate.lower, rate.upper, 100.0 * request.confidence);
+    }
     return without.empty() || without.size() == levels || text.empty()
                ? text
                : fmt::format("At noise {}: {}", fmt::join(without, ", "), text);

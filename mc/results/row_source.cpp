@@ -1,6 +1,10 @@
 #include "mc/results/row_source.hpp"
 
 #include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "analysis/detection/clusters.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -11,6 +15,32 @@ constexpr std::size_t kBlockRows = 512;
 struct Sample {
     std::vector<double> size;
     std::vector<std::vector<double>> values;  // by feature: rows x levels
+    std::vector<std::size_t> row;
+};
+
+// Whose recordings the rows are, by number; a run's rows, and recordings without a name, are each
+// of a gearbox of its own.
+class Gearboxes {
+  public:
+    explicit Gearboxes(const Results& frame) {
+        std::istringstream names(frame.provenance_value("recorded_gearboxes"));
+        std::map<std::string, std::size_t> numbers;
+        for (std::string name; std::getline(names, name);) {
+            const std::size_t row = of_row_.size();
+            of_row_.push_back(name.empty() ? row : numbers.emplace(name, row).first->second);
+        }
+    }
+
+    std::vector<std::size_t> of(const std::vector<std::size_t>& rows) const {
+        std::vector<std::size_t> numbers;
+        for (const std::size_t row : rows) {
+            numbers.push_back(row < of_row_.size() ? of_row_[row] : row);
+        }
+        return numbers;
+    }
+
+  private:
+    std::vector<std::size_t> of_row_;  // the first row of the same one
 };
 
 // Where a row has its fault size, or nowhere.
@@ -29,6 +59,7 @@ void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
         }
         const double* values = block.values.data() + row * shape.values();
         Sample& sample = block.group[row] == static_cast<int>(Group::threshold) ? healthy : graded;
+        sample.row.push_back(block.first + row);
         sample.size.push_back(size_at < shape.parameters ? values[size_at] : 0.0);
         for (std::size_t f = 0; f < sample.values.size(); ++f) {
             const double* feature = values + shape.value_of(first + f, 0);
@@ -98,6 +129,7 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     const std::size_t each = 8 * std::max<std::size_t>(1, rows.rows() * shape.levels);
     const std::size_t at_once = std::max<std::size_t>(1, kBytes / each);
     const std::size_t size_at = size_column(frame);
+    const Gearboxes gearboxes(frame);
     std::vector<analysis::FeatureDetection> all;
     for (std::size_t first = 0; first < shape.features; first += at_once) {
         const std::size_t count = std::min(at_once, shape.features - first);
@@ -109,9 +141,9 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         });
         for (std::size_t f = 0; f < count; ++f) {
             const FeatureResult& feature = frame.features[first + f];
-            all.push_back(analysis::detect(feature.name, feature.alarm,
-                                           {healthy.size, healthy.values[f]},
-                                           {graded.size, graded.values[f]}, frame.request));
+            all.push_back(analysis::detect_clustered(
+                feature.name, feature.alarm, {healthy.size, healthy.values[f]},
+                gearboxes.of(healthy.row), {graded.size, graded.values[f]}, frame.request));
         }
     }
     return all;
