@@ -105,7 +105,7 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
     std::string text =
         sample_shortage(fewest, request.false_alarm_rate, request.confidence, subject);
     if (const Interval rate = clustered_rate(features, request);
-        rate.upper > 2.0 * request.false_alarm_rate) {
+        subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
         text = fmt::format(
             "Recordings of few gearboxes for a false-alarm rate of {:g}: they fix it to between "
             "{:.2g} and {:.2g} at {:g} % confidence. It takes recordings of more gearboxes.",
