@@ -47,7 +47,7 @@ double quantile_bound(std::vector<double> values, double quantile, double confid
             return values[r - 1];
         }
     }
-    return kNever;
+    return kNan;
 }
 
 LifeAnswers answer(const Detector& detector, std::span<const HealthyLife> setting,

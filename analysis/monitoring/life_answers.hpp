@@ -22,7 +22,7 @@ struct CrackedLife {
 // A quantile over lives, those that were not found beyond all sizes.
 struct LifeQuantile {
     double value = kNan;  // infinite: that many are not found
-    double bound = kNan;  // upper, one-sided at the confidence; infinite likewise
+    double bound = kNan;  // upper, one-sided at the confidence; NaN of too few lives
 };
 
 struct LifeAnswers {
@@ -44,7 +44,7 @@ LifeAnswers answer(const Detector& detector, std::span<const HealthyLife> settin
                    double per_1000_h, double confidence);
 
 // The least order statistic that lies above the quantile with this probability, of values that
-// need not be finite: ISO 16269-7. Infinite where there are too few.
+// need not be finite: ISO 16269-7. NaN where there are too few.
 double quantile_bound(std::vector<double> values, double quantile, double confidence);
 
 }  // namespace gearpod::analysis

@@ -50,8 +50,8 @@ TEST_CASE("Detection, depth and warning are those of the first alarm on the crac
     CHECK(got.share == 0.75);
     CHECK(got.size_50.value == 3.0);
     CHECK(std::isinf(got.size_90.value));
-    CHECK(std::isinf(got.size_90.bound));
-    CHECK(got.warning_50 == 6.0);  // alarms at 2, 4 and 6 h
+    CHECK(std::isnan(got.size_90.bound));  // of four lives
+    CHECK(got.warning_50 == 6.0);          // alarms at 2, 4 and 6 h
     CHECK(got.warning_90 == 4.0);
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("A quantile's bound holds as often as it says") {
     // The 90 % quantile: of 28 values the largest lies above it with 1 - 0.9^28 = 94.8 %, of 29
     // with 95.3 % (W. J. Conover's 29 of 95/90).
     std::vector<double> values(28, 1.0);
-    CHECK(std::isinf(quantile_bound(values, 0.9, 0.95)));
+    CHECK(std::isnan(quantile_bound(values, 0.9, 0.95)));
     values.push_back(2.0);
     CHECK(quantile_bound(values, 0.9, 0.95) == 2.0);
     std::mt19937_64 engine(9);
