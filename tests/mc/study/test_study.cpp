@@ -221,6 +221,7 @@ TEST_CASE("The resolved text spells out every key that may be given") {
                                                         "outer",
                                                         "error",
                                                         "tones",
+                                                        "interval_h",
                                                         "torque_fluctuation",
                                                         "torque_noise",
                                                         "until",
