@@ -9,9 +9,9 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kNodes = 32;
-constexpr int kResolvedTerms = 26;  // more may hide an error in those that are missing
-constexpr int kMostHalvings = 8;
+constexpr int kPieceNodes = 32;
+constexpr int kTermsThatEnd = 26;  // more may hide an error in those that are missing
+constexpr int kHalvings = 8;
 
 }  // namespace
 
@@ -19,21 +19,21 @@ RunningIntegral::RunningIntegral(const Curve& curve, std::span<const double> poi
                                  double tolerance) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
         if (points[i] < points[i + 1])
-            add_piece(curve, points[i], points[i + 1], tolerance, kMostHalvings);
+            add_piece(curve, points[i], points[i + 1], tolerance, kHalvings);
 }
 
 void RunningIntegral::add_piece(const Curve& curve, double begin, double end, double tolerance,
                                 int halvings) {
-    static const ChebyshevTransform transform(kNodes);
+    static const ChebyshevTransform transform(kPieceNodes);
     const double middle = 0.5 * (begin + end);
-    std::array<double, kNodes> t, values, coefficients;
-    for (int i = 0; i < kNodes; ++i)  // the points fall
-        t[kNodes - 1 - i] = middle + 0.5 * (end - begin) * transform.points()[i];
+    std::array<double, kPieceNodes> t, values, coefficients;
+    for (int i = 0; i < kPieceNodes; ++i)  // the points fall
+        t[kPieceNodes - 1 - i] = middle + 0.5 * (end - begin) * transform.points()[i];
     curve(t, middle, values);
     std::reverse(values.begin(), values.end());
     transform.fit(values, coefficients);
     const int terms = chebyshev_terms(coefficients, tolerance);
-    if (terms > kResolvedTerms && halvings > 0) {
+    if (terms > kTermsThatEnd && halvings > 0) {
         add_piece(curve, begin, middle, tolerance, halvings - 1);
         add_piece(curve, middle, end, tolerance, halvings - 1);
         return;
