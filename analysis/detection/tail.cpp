@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kTailRounding = 1e-9;
 constexpr long kShare = 10;  // a tenth of the sample
 // Where the posterior is looked for first, in units of the median excess: a shape of 2 has a scale
 // of 2/3 there, one of -1/2 of 1.7.
@@ -84,13 +84,13 @@ long exceedances_of(long sample) {
 bool tail_reaches(long sample, double false_alarm_rate) {
     return exceedances_of(sample) >= kLeastExceedances &&
            static_cast<double>(sample) * false_alarm_rate * kFarthestExtrapolation >=
-               1.0 - kRounding;
+               1.0 - kTailRounding;
 }
 
 long sample_for_tail(double false_alarm_rate) {
     return std::max(kShare * kLeastExceedances,
-                    static_cast<long>(
-                        std::ceil(1.0 / (kFarthestExtrapolation * false_alarm_rate) - kRounding)));
+                    static_cast<long>(std::ceil(1.0 / (kFarthestExtrapolation * false_alarm_rate) -
+                                                kTailRounding)));
 }
 
 TailFit::TailFit(std::span<const double> largest, long sample)
@@ -138,7 +138,7 @@ std::vector<TailFit::Node> TailFit::posterior(const std::vector<double>& excess,
         for (const double y : excess) {
             sum += std::log1p(pace * y);
         }
-        const double slope = std::abs(pace) < kRounding ? total : sum / pace;
+        const double slope = std::abs(pace) < kTailRounding ? total : sum / pace;
         for (int j = 0; j < kNodes; ++j) {
             const double s = log_scale_low + (j + 0.5) / kNodes * (log_scale_high - log_scale_low);
             const double scale = std::exp(s), shape = pace * scale;
@@ -219,7 +219,7 @@ Interval TailFit::threshold_interval(double rate, double confidence) const {
         const double log_ratio = std::log(std::min(1.0, rate / share));
         for (const Node& node : nodes_) {
             const double shape = node.pace * node.scale;
-            const double x = std::abs(shape) < kRounding
+            const double x = std::abs(shape) < kTailRounding
                                  ? -node.scale * log_ratio
                                  : std::expm1(-shape * log_ratio) / node.pace;
             values.push_back({above_ + unit_ * x, node.weight});
