@@ -12,7 +12,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kPod = 0.9;
+constexpr double kWantedPod = 0.9;
 
 SizeBounds everywhere(SizeEstimate::Where where) {
     const SizeEstimate estimate{where, kNan};
@@ -42,7 +42,8 @@ std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, c
         return std::nullopt;
     }
     const PodLikelihood likelihood(table, form);
-    return size_bounds(table, likelihood, likelihood.maximise(), kPod, one_sided_bound(confidence));
+    return size_bounds(table, likelihood, likelihood.maximise(), kWantedPod,
+                       one_sided_bound(confidence));
 }
 
 RatePoint point_of(const GradedValues& values, const std::vector<double>& healthy, double rate,
