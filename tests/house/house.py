@@ -2,7 +2,8 @@
 
 Says what is wrong with the sources below TREE, a line each, and ends with 1 if anything is: an
 include that points up the floors (floors.txt) or round in a circle, a header that does not exist,
-files and folders that have grown too long, names in comments that no file has.
+files and folders that have grown too long, names in comments that no file has, constants that two
+sources of a folder name alike.
 """
 
 import collections
@@ -21,6 +22,9 @@ QUOTED = re.compile(r'\s*#\s*include\s*"')
 # What nothing in src may know of: files and messages.
 OUTSIDE = re.compile(r"^(hdf5|H5|mpi|matio|mc/|analysis/)")
 NAME = re.compile(r"[\w./*-]*[\w*]\.[ch]pp(?!\.?\w)")
+# Sources that the quick build (cmake/quick_build.cmake) compiles one by one.
+ALONE = re.compile(r"_kernel\.cpp$|study/faults/|_keys\.cpp$")
+CONSTANT = re.compile(r"(?:inline |static )?constexpr [^(=]*?\b(k[A-Z]\w*)\s*(?:\[|=|\{)")
 STRING = re.compile(r'"(\\.|[^"\\])*"')
 
 Arrow = collections.namedtuple("Arrow", "file line header target")
@@ -194,6 +198,21 @@ def missing_names(tree):
                     yield f"{file}:{number} names {name}, which does not exist"
 
 
+def clashing_constants(tree):
+    """The quick build compiles a folder's sources as one: constants of two need two names."""
+    first = {}
+    for file in tree.files:
+        if not (file.endswith(".cpp") and file.startswith(tuple(f"{p}/" for p in PARTS))) \
+                or ALONE.search(file):
+            continue
+        for number, line in enumerate(tree.lines(file), 1):
+            if match := CONSTANT.match(line):
+                place = folder(file), match.group(1)
+                other = first.setdefault(place, f"{file}:{number}")
+                if not other.startswith(f"{file}:"):
+                    yield f"{file}:{number} names {match.group(1)} as {other} does"
+
+
 def complaints(root, floors):
     tree = Tree(root)
     yield from upward(tree, floors)
@@ -202,6 +221,7 @@ def complaints(root, floors):
     yield from circles(tree, folder, "folders")
     yield from too_long(tree)
     yield from missing_names(tree)
+    yield from clashing_constants(tree)
 
 
 def main(arguments):

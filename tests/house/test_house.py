@@ -106,6 +106,12 @@ class House(unittest.TestCase):
         self.refused({f"src/low/pebble_{i}.hpp": "" for i in range(39)},
                      "src/low: 41 files, at most 40")
 
+    def test_constants_that_two_sources_of_a_folder_name_alike(self):
+        stone = "namespace {\nconstexpr double kWeight = 2;\n}\n"
+        self.refused({"src/low/chalk.cpp": stone, "src/low/slate.cpp": stone,
+                      "src/low/sand_kernel.cpp": stone, "src/beside/mortar.cpp": stone},
+                     "src/low/slate.cpp:2 names kWeight as src/low/chalk.cpp:2 does")
+
     def test_names_that_no_file_has(self):
         self.refused({"src/low/sand.cpp": 'const char* kept = "gone.cpp";  // As gone.hpp says.\n',
                       "src/README.md": "`low/stone.cpp`, `low/gone_*.cpp`\n"},
