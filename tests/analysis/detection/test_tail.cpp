@@ -125,7 +125,7 @@ TEST_CASE("The posterior is that of the generalised Pareto law under Jeffreys' p
 
 TEST_CASE("Intervals of rates beyond the sample cover the truth over 500 studies") {
     // Standard deviation of a coverage of 0.95 in 500 studies: 0.0097; all laws, more studies and
-    // 1e-6 under [.coverage].
+    // 1e-6 under [.rare-coverage].
     for (const Law& law : {laws()[0], laws()[1]}) {
         const Covered covered = coverage(law, 2000, 1e-4, 500);
         INFO(law.name);
@@ -134,7 +134,7 @@ TEST_CASE("Intervals of rates beyond the sample cover the truth over 500 studies
 }
 
 TEST_CASE("Intervals beyond the sample cover, and expected rates are those asked for",
-          "[.coverage]") {
+          "[.rare-coverage]") {
     for (const auto& [sample, rate] :
          {std::pair{1000L, 2e-4}, std::pair{2000L, 1e-4}, std::pair{200'000L, 1e-6}}) {
         for (const Law& law : laws()) {

@@ -116,7 +116,7 @@ TEST_CASE("Intervals of false alarms hold in nearly all of 100 campaigns") {
     CHECK(held.expected >= 0.885);
 }
 
-TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.campaigns]") {
+TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-coverage]") {
     // 1000 campaigns: three standard deviations of a coverage of 0.95 are 0.021.
     for (const char* text : {"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 30"}) {
         for (const std::size_t baseline : {0U, 20U}) {
