@@ -216,6 +216,8 @@ TEST_CASE("The resolved text spells out every key that may be given") {
                                                         "_tip_mm",
                                                         "centre_distance",
                                                         "_relief_um",
+                                                        "_crowning_um",
+                                                        "normal_module",
                                                         "ring_to_sun_phase",
                                                         "bore",
                                                         "outer",
