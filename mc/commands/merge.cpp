@@ -49,11 +49,10 @@ PartFile read_part_file(const std::string& path) {
     return file;
 }
 
-// Rows of a whole ensemble's batch, "16 to 31".
-std::string rows_text(const BatchPlan& whole, std::size_t first, std::size_t last) {
-    const Batch end = whole.batch(last);
-    return fmt::format("rows {} to {}", whole.batch(first).first_row,
-                       end.first_row + end.count - 1);
+// Rows of a whole ensemble's batch, "rows 16 to 31".
+std::string rows_text(const BatchPlan& whole, std::size_t batch) {
+    const Batch place = whole.batch(batch);
+    return fmt::format("rows {} to {}", place.first_row, place.first_row + place.count - 1);
 }
 
 class Merge {
@@ -98,8 +97,6 @@ class Merge {
         }
     }
 
-    const std::string& first_path() const { return files_.front().path; }
-
   private:
     // What keeps a file from being merged with the first, by this program.
     std::string misfit(const PartFile& file) const {
@@ -130,9 +127,9 @@ class Merge {
             for (std::size_t batch = 0; batch < file.batches; ++batch) {
                 const auto [at, fresh] = owner.emplace(file.plan.number(batch), &file);
                 if (!fresh) {
-                    problems += fmt::format(
-                        "{}: cannot be merged: {} and others are in {} as well\n", file.path,
-                        rows_text(whole(), at->first, at->first), at->second->path);
+                    problems +=
+                        fmt::format("{}: cannot be merged: {} and others are in {} as well\n",
+                                    file.path, rows_text(whole(), at->first), at->second->path);
                     break;
                 }
             }
@@ -150,8 +147,8 @@ class Merge {
             if (!owner.contains(batch)) {
                 return fmt::format(
                     "{} of {} tiles of gearboxes, {} the first, are in none of the files: {}\n",
-                    whole().batches() - owner.size(), whole().batches(),
-                    rows_text(whole(), batch, batch), missing_part(batch));
+                    whole().batches() - owner.size(), whole().batches(), rows_text(whole(), batch),
+                    missing_part(batch));
             }
         }
         return "";

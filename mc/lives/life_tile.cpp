@@ -267,13 +267,11 @@ std::vector<LaneSignals> LifeTiles::march(std::span<const GearboxId> ids, double
         all.back().gain = 1.0;  // each record has its own
     }
     const GearboxTile tile = run_given(scene_, path_, ids, all, static_cast<int>(lanes()));
-    std::vector<LaneSignals> signals(ids.size());
+    auto signals = all_lane_signals(scene_, path_, tile, scene_.span_meshes());
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        if (tile.status[lane] == Status::ok) {
-            signals[lane] =
-                lane_signals(scene_, path_, tile, static_cast<int>(lane), scene_.span_meshes());
-        } else {
+        if (tile.status[lane] != Status::ok) {
             status[lane] = tile.status[lane];
+            signals[lane] = {};
         }
     }
     return signals;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/json_values.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -22,12 +24,8 @@ std::string number_or_dash(double value) {
     return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
 }
 
-LifeJson number_or_null(double value) {
-    return std::isfinite(value) ? LifeJson(value) : LifeJson(nullptr);
-}
-
 LifeJson interval_json(const analysis::Interval& interval) {
-    return {number_or_null(interval.lower), number_or_null(interval.upper)};
+    return {analysis::number(interval.lower), analysis::number(interval.upper)};
 }
 
 std::string costs_text(const Campaign& campaign) {
@@ -103,25 +101,25 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
         const analysis::LifeAnswers& a = one.answers;
         watched.push_back({{"feature", one.feature},
                            {"detector", one.detector},
-                           {"threshold", number_or_null(a.threshold.value)},
+                           {"threshold", analysis::number(a.threshold.value)},
                            {"threshold_hours", a.threshold.hours},
                            {"false_alarms",
                             {{"count", a.false_alarms.alarms},
                              {"hours", a.false_alarms.hours},
-                             {"per_1000_h", number_or_null(a.false_alarms.per_1000_h)},
+                             {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
                              {"bounds", interval_json(a.false_alarms.bounds)},
                              {"dispersion", a.false_alarms.dispersion},
                              {"expected", interval_json(a.expected_per_1000_h)}}},
                            {"ended", a.ended},
                            {"found", a.found},
-                           {"share", number_or_null(a.share)},
+                           {"share", analysis::number(a.share)},
                            {"share_bounds", interval_json(a.share_bounds)},
-                           {"depth_50_m", number_or_null(a.size_50.value)},
-                           {"depth_50_bound_m", number_or_null(a.size_50.bound)},
-                           {"depth_90_m", number_or_null(a.size_90.value)},
-                           {"depth_90_bound_m", number_or_null(a.size_90.bound)},
-                           {"warning_50_h", number_or_null(a.warning_50)},
-                           {"warning_90_h", number_or_null(a.warning_90)}});
+                           {"depth_50_m", analysis::number(a.size_50.value)},
+                           {"depth_50_bound_m", analysis::number(a.size_50.bound)},
+                           {"depth_90_m", analysis::number(a.size_90.value)},
+                           {"depth_90_bound_m", analysis::number(a.size_90.bound)},
+                           {"warning_50_h", analysis::number(a.warning_50)},
+                           {"warning_90_h", analysis::number(a.warning_90)}});
     }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();
@@ -140,10 +138,10 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
             {"failed", campaign.failed},
             {"interpolation",
              {{"first_depth_m", off.first_m},
-              {"first", number_or_null(off.first)},
+              {"first", analysis::number(off.first)},
               {"last_depth_m", off.last_m},
-              {"last", number_or_null(off.last)},
-              {"torque", number_or_null(off.torque)}}},
+              {"last", analysis::number(off.last)},
+              {"torque", analysis::number(off.torque)}}},
             {"costs",
              {{"gearboxes", campaign.costs.gearbox_count},
               {"gearbox_s", campaign.costs.gearboxes},

@@ -9,7 +9,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/monitoring/own_baseline.hpp"
+#include "analysis/report/json_values.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -222,17 +224,13 @@ std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, doub
     for (const Records& gearbox : gearboxes) {
         healthy += std::count(gearbox.healthy.begin() + baseline, gearbox.healthy.end(), char{1});
     }
-    const auto needed = static_cast<long>(std::ceil(1.0 / rate - 1.0 - 1e-9));
+    const auto needed = analysis::sample_for_threshold(rate);
     return healthy >= needed
                ? ""
                : fmt::format(
                      "{} healthy recordings behind the first {} of a gearbox are too few "
                      "for a false-alarm rate of {:g}: at least {} are needed",
                      healthy, baseline, rate, needed);
-}
-
-nlohmann::json finite_or_null(double value) {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
 }  // namespace
@@ -336,7 +334,7 @@ nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {
         watched.push_back(
             {{"feature", one.feature},
              {"detector", one.detector},
-             {"threshold", finite_or_null(one.threshold.value)},
+             {"threshold", analysis::number(one.threshold.value)},
              {"healthy", {{"recordings", one.threshold.records}, {"alarms", one.threshold.alarms}}},
              {"gearboxes", gearboxes}});
     }

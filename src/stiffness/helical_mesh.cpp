@@ -7,29 +7,24 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "stiffness/teeth/position_range.hpp"
+
 namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfMean = 1e-10;    // of the spur pair's mean stiffness
-constexpr double kTogether = 1e-10;  // mesh periods
-
-// Points, ascending, those that coincide once.
-std::vector<double> ordered(std::vector<double> points) {
-    std::sort(points.begin(), points.end());
-    const auto same = [](double a, double b) { return b - a < kTogether; };
-    points.erase(std::unique(points.begin(), points.end(), same), points.end());
-    return points;
-}
+constexpr double kOfMean = 1e-10;  // of the spur pair's mean stiffness
 
 // The transitions within [begin, end], and both ends.
 std::vector<double> points_within(std::span<const double> transitions, double begin, double end) {
     std::vector<double> points{begin, end};
     for (double period = std::floor(begin); period <= end; ++period)
         for (const double phase : transitions)
-            if (const double at = period + phase; at > begin + kTogether && at < end - kTogether)
+            if (const double at = period + phase;
+                at > begin + kPositionTolerance && at < end - kPositionTolerance)
                 points.push_back(at);
-    return ordered(std::move(points));
+    sort_positions(points);
+    return points;
 }
 
 std::vector<double> helical_transitions(const MeshStiffness& spur, double overlap) {
@@ -37,9 +32,10 @@ std::vector<double> helical_transitions(const MeshStiffness& spur, double overla
     for (const double phase : spur.transitions())
         for (const double later : {0.0, overlap}) {
             const double at = phase + later - std::floor(phase + later);
-            phases.push_back(at > 1 - kTogether ? 0 : at);
+            phases.push_back(at > 1 - kPositionTolerance ? 0 : at);
         }
-    return ordered(std::move(phases));
+    sort_positions(phases);
+    return phases;
 }
 
 // mean += integral / width over the window of that width which ends at tau, for ascending tau. Of a
@@ -137,7 +133,8 @@ class FaultyHelicalMesh : public FaultyMesh {
             points_within(healthy_.slice().transitions(), 0, spur_->duration());
         for (const double jump : spur_->jumps())
             points.push_back(jump);
-        return {curve, ordered(std::move(points)), healthy_.tolerance_};
+        sort_positions(points);
+        return {curve, points, healthy_.tolerance_};
     }
 
     void integrate_tooth_pairs() const {

@@ -25,13 +25,6 @@ void for_slice_points(const F& f) {
         f(x[i], w[i]);
 }
 
-void sort_phases(std::vector<double>& phases) {
-    std::sort(phases.begin(), phases.end());
-    phases.erase(std::unique(phases.begin(), phases.end(),
-                             [](double a, double b) { return b - a < kPositionTolerance; }),
-                 phases.end());
-}
-
 }  // namespace
 
 LoadedMesh::LoadedMesh(const MeshStiffness& mesh, std::function<double(double)> gap,
@@ -49,8 +42,8 @@ LoadedMesh::LoadedMesh(const MeshStiffness& mesh, std::function<double(double)> 
         for (const double at : {kink, kink + overlap_})
             phases_.push_back(at - std::floor(at));
     }
-    sort_phases(slice_phases_);
-    sort_phases(phases_);
+    sort_positions(slice_phases_);
+    sort_positions(phases_);
 }
 
 // The approach that F asks for: with the pairs of the smallest gaps first, the first number of them

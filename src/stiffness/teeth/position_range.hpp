@@ -4,12 +4,21 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace gearpod::stiffness {
 
 // Mesh periods. Positions this close to the end of an engagement count as inside; a phase reduced
 // from thousands of meshes carries a rounding error of that order.
 inline constexpr double kPositionTolerance = 1e-10;
+
+// Ascending, those that coincide once.
+inline void sort_positions(std::vector<double>& positions) {
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end(),
+                                [](double a, double b) { return b - a < kPositionTolerance; }),
+                    positions.end());
+}
 
 struct PositionRange {
     std::size_t first = 0, count = 0;
