@@ -71,6 +71,7 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     }
     level.inputs = input_effects(data.graded_size, hit, data.inputs, level.hit_miss,
                                  transition_sizes(detection.cells), confidence);
+    level.uncertain = uncertain_band(data.graded_size, hit, data.uncertain, level.hit_miss);
     for (const DetectionCell& cell : detection.cells) {
         if (cell.size.high > 0.0) {
             level.pd.push_back(cell.pd);

@@ -12,6 +12,7 @@
 #include "analysis/inputs/input_effects.hpp"
 #include "analysis/inputs/level_sensitivity.hpp"
 #include "analysis/inputs/miss_sensitivity.hpp"
+#include "analysis/inputs/uncertain_inputs.hpp"
 #include "analysis/pod/hit_miss_pod.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 #include "analysis/ranking/combined_detector.hpp"
@@ -32,6 +33,7 @@ struct LevelReliability {
     std::vector<RocPoint> roc;  // all faulty gearboxes against all healthy ones
     MissSensitivity misses;
     InputEffects inputs;
+    UncertainBand uncertain;
     std::vector<double> pd;   // of the size groups above 0, ascending; NaN where none was tested
     FalseAlarmCurve by_rate;  // a90 at other false-alarm rates
     std::optional<LeastCost> least_cost;  // if costs are asked for
@@ -70,6 +72,7 @@ struct ReliabilityData {
     std::span<const double> graded_size;
     std::vector<FeatureColumns> features;
     std::vector<InputColumn> inputs;         // of the graded gearboxes
+    std::vector<InputColumn> uncertain;      // those of them that are (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
 };

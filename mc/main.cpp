@@ -70,23 +70,14 @@ int run_program(int argc, char** argv) {
     add_shorthand(*run_app, "--instances", "ensemble.instances", "gearboxes over all fault sizes",
                   run.study);
     add_shorthand(*run_app, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
-    needs_name(
-        run_app->add_option("--out", run.out, "results file (default: the study's name with .h5)"));
-    run_app->add_flag("--resume", run.resume,
-                      "continue an interrupted run, or add gearboxes to a finished one");
-    run_app->add_flag("--force", run.force,
-                      "overwrite the results of another study, or a file that is none; start "
-                      "although the memory will not suffice");
-    run_app
-        ->add_option("--time-limit", run.time_limit,
-                     "finish, save and exit with 4 before this time is over")
-        ->type_name("HH:MM:SS");
+    add_results(*run_app, run, "continue an interrupted run, or add gearboxes to a finished one",
+                "overwrite the results of another study, or a file that is none; start although "
+                "the memory will not suffice");
     run_app
         ->add_option("--part", run.part,
                      "compute one part of the gearboxes, e.g. 2/4; merge makes the whole of all")
         ->type_name("K/N");
-    run_app->add_option("--progress", run.progress, "json: progress as an object a line on stderr")
-        ->type_name("json");
+    add_progress(*run_app, run);
     run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
     run_app
         ->add_option("--signals", run.signals,
@@ -97,18 +88,14 @@ int run_program(int argc, char** argv) {
     run_app->add_flag("--quiet", run.quiet, "print nothing but problems");
     run_app->callback([&] { code = run_command(run); });
 
+    NewOptions new_study;
+    add_new(app, new_study, code);
+
+    SweepOptions sweep;
+    add_sweep(app, sweep, code);
+
     LivesOptions lives;
-    auto* lives_app = app.add_subcommand(
-        "lives",
-        "gearboxes measured again and again while a crack grows: how many are found in time, how "
-        "long before, and how many false alarms that costs");
-    add_study(*lives_app, lives.study);
-    add_shorthand(*lives_app, "--instances", "ensemble.instances", "gearboxes that crack",
-                  lives.study);
-    add_shorthand(*lives_app, "--seed", "ensemble.seed", "seed of all random numbers", lives.study);
-    needs_name(lives_app->add_option("--json", lives.json, "write JSON to a file, or to -"));
-    lives_app->add_flag("--quiet", lives.quiet, "no progress");
-    lives_app->callback([&] { code = lives_command(lives); });
+    add_lives(app, lives, code);
 
     MergeOptions merge;
     auto* merge_app = app.add_subcommand(
@@ -172,8 +159,14 @@ int run_program(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     accuracy_app
         ->add_option("--gearboxes", accuracy.gearboxes,
-                     "gearboxes whose detection rates are compared; 0 for none")
+                     "gearboxes whose detection rates are compared, 0 for none; by default 480, or "
+                     "as many as the time allows")
         ->check(CLI::Range(0L, 1000000L));
+    accuracy_app
+        ->add_option("--seconds", accuracy.seconds,
+                     "processor seconds after which no part is begun, and said to be left out; 0: "
+                     "as long as it takes")
+        ->check(CLI::Range(0.0, 1e9));
     accuracy_app->add_flag("--quiet", accuracy.quiet, "no progress");
     accuracy_app->callback([&] { code = accuracy_command(accuracy); });
 

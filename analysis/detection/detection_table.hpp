@@ -91,6 +91,11 @@ struct DetectionRequest {
     std::vector<double> noise_levels;
     std::vector<SizeGroup> groups;  // ascending; from levels or from edges
     SizeUnit size = {};
+    // Inputs (columns of the gearboxes) whose distribution is what is known of one value that all
+    // gearboxes have.
+    std::vector<std::string> uncertain = {};
+    // Rows of a gearbox that sets thresholds, one after another: records that differ in noise.
+    std::size_t threshold_records = 1;
 };
 
 }  // namespace gearpod::analysis

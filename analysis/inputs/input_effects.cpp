@@ -113,14 +113,6 @@ struct CovariateCurve {
     SizeBounds a90(double value, double smallest, double largest, double confidence) const;
 };
 
-SizeEstimate within(double size, double smallest, double largest) {
-    if (!(size <= largest)) {
-        return {Where::not_reached, kNan};
-    }
-    return size < smallest ? SizeEstimate{Where::below_tested, kNan}
-                           : SizeEstimate{Where::reached, size};
-}
-
 SizeBounds CovariateCurve::a90(double value, double smallest, double largest,
                                double confidence) const {
     const Eigen::VectorXd& b = fit.coefficients;
@@ -134,7 +126,7 @@ SizeBounds CovariateCurve::a90(double value, double smallest, double largest,
     const double slope = b[1];
     const double away = b.dot(level) - target;  // eta - target at u = 0
     const auto estimate = [&](double u) {
-        return within(form.size(size.back(u)), smallest, largest);
+        return estimate_within(form.size(size.back(u)), smallest, largest);
     };
     if (!(slope > 0.0)) {
         const SizeEstimate never{Where::not_reached, kNan};

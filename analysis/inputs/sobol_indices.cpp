@@ -7,6 +7,7 @@
 
 #include "analysis/inputs/polynomial_surrogate.hpp"
 #include "analysis/statistics/link.hpp"
+#include "analysis/statistics/midranks.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -17,6 +18,32 @@ constexpr std::size_t kMost = 20000;
 bool varies(std::span<const double> values) {
     return std::any_of(values.begin(), values.end(),
                        [&](double value) { return value != values.front(); });
+}
+
+// The rank correlation (Spearman's) that differs most from 0.
+struct Dependence {
+    std::size_t first = 0, second = 0;
+    double rank = 0.0;
+};
+
+Dependence strongest_dependence(const std::vector<std::vector<double>>& columns) {
+    std::vector<Eigen::VectorXd> ranks;
+    for (const std::vector<double>& column : columns) {
+        const std::vector<double> own = midranks(column);
+        const Eigen::VectorXd all =
+            Eigen::Map<const Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
+        ranks.push_back((all.array() - all.mean()).matrix().normalized());
+    }
+    Dependence most;
+    for (std::size_t i = 0; i < ranks.size(); ++i) {
+        for (std::size_t j = i + 1; j < ranks.size(); ++j) {
+            const double rank = ranks[i].dot(ranks[j]);
+            if (std::abs(rank) > std::abs(most.rank)) {
+                most = {i, j, rank};
+            }
+        }
+    }
+    return most;
 }
 
 // The terms that have the input, as a share of the variance.
@@ -79,6 +106,18 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
     }
     if (columns.empty()) {
         result.refusal = "no input varies";
+        return result;
+    }
+    // Of independent inputs one pair in 100,000 seems as dependent by chance.
+    constexpr double kChance = 4.5, kSlight = 0.1;
+    const Dependence most = strongest_dependence(columns);
+    if (std::abs(most.rank) >
+        std::max(kSlight, kChance / std::sqrt(static_cast<double>(output.size())))) {
+        result.refusal = fmt::format(
+            "{} and {} go together (rank correlation {:.2f}), and the indices are of independent "
+            "inputs",
+            result.inputs[most.first].name, result.inputs[most.second].name, most.rank);
+        result.inputs.clear();
         return result;
     }
     const PolynomialSurrogate surrogate = fit_surrogate(columns, output);

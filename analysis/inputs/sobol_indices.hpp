@@ -34,8 +34,9 @@ struct SobolIndices {
     std::string refusal;                // why there are none, else empty
 };
 
-// `output` and every input per gearbox, finite. Refused below 100 gearboxes and for a constant
-// output; of more than 20,000 gearboxes the first ones are taken.
+// `output` and every input per gearbox, finite. Refused below 100 gearboxes, for a constant output
+// and for inputs whose ranks are correlated, by which a share belongs to no input alone; of more
+// than 20,000 gearboxes the first ones are taken.
 SobolIndices sobol_indices(std::span<const double> output, const std::vector<InputColumn>& inputs,
                            double confidence);
 

@@ -63,11 +63,12 @@ LifeAnswers answer(const Detector& detector, std::span<const HealthyLife> settin
     }
     std::vector<double> sizes, warnings;
     for (const CrackedLife& life : cracked) {
+        const auto record = detection(detector, life, threshold);
+        answers.alarm_hours.push_back(record ? life.hours[*record] : kNan);
         if (!life.end_hours) {
             continue;
         }
         ++answers.ended;
-        const auto record = detection(detector, life, threshold);
         sizes.push_back(record ? life.sizes[*record] : kNever);
         if (record) {
             ++answers.found;

@@ -35,6 +35,8 @@ struct LifeAnswers {
     LifeQuantile size_50, size_90;      // at detection, over the lives that end
     // Hours from the alarm to the end, of those found: median, and what nine in ten have.
     double warning_50 = kNan, warning_90 = kNan;
+    // Of each cracked life the first alarm behind the crack's begin; NaN of none.
+    std::vector<double> alarm_hours;
 };
 
 // Thresholds from `setting`, false alarms on `healthy`, all else of `cracked`. An alarm before the

@@ -1,6 +1,8 @@
 // What is read off a POD curve: sizes and probabilities, each with its one-sided bounds.
 #pragma once
 
+#include <limits>
+
 namespace gearpod::analysis {
 
 // A size read off the curve. Curves are not continued beyond the sizes tested.
@@ -9,6 +11,15 @@ struct SizeEstimate {
     Where where = Where::not_reached;
     double size = 0.0;  // if reached; else NaN
 };
+
+inline SizeEstimate estimate_within(double size, double smallest, double largest) {
+    if (!(size <= largest)) {
+        return {SizeEstimate::Where::not_reached, std::numeric_limits<double>::quiet_NaN()};
+    }
+    return size < smallest ? SizeEstimate{SizeEstimate::Where::below_tested,
+                                          std::numeric_limits<double>::quiet_NaN()}
+                           : SizeEstimate{SizeEstimate::Where::reached, size};
+}
 
 struct SizeBounds {
     SizeEstimate estimate;

@@ -1,9 +1,10 @@
 """Writes the page of a report to standard output.
 
-    gearpod report F.h5 --json F.json         (or of gearpod pod, gearpod compare)
+    gearpod report F.h5 --json F.json         (or of gearpod pod, compare, sweep, lives)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
-With --figures FOLDER behind it the figures go there too, each as SVG and PNG.
+With --figures FOLDER behind it the figures go there too, each as SVG and PNG. With --pdf behind it,
+of a report, what is written is its summary on one sheet, as PDF.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -47,14 +48,16 @@ def study_parts(data, page):
 
 def page_html(data, figures=None):
     import charts
-    import comparison_page
-    import inspection_page
     from blocks import Page
+    from lives import lives_page
+    from pages import comparison_page, inspection_page, sweep_page
     from words import escape
 
     page = Page(figures)
     command, make = {"inspection": ("pod", inspection_page.parts),
-                     "comparison": ("compare", comparison_page.parts)}.get(
+                     "comparison": ("compare", comparison_page.parts),
+                     "sweep": ("sweep", sweep_page.parts),
+                     "lives": ("lives", lives_page.parts)}.get(
                          data.get("kind"), ("report", study_parts))
     title, sentence, answer, body = make(data, page)
     contents = "".join(f'<li><a href="#{name}">{escape(title_)}</a></li>'
@@ -88,11 +91,19 @@ def page_html(data, figures=None):
 """
 
 
+def summary_pdf(data):
+    import summary_sheet
+    from report import Report
+
+    return summary_sheet.pdf(Report(data))
+
+
 def main(arguments):
     figures = None
+    summary = arguments[1:] == ["--pdf"]
     if len(arguments) == 3 and arguments[1] == "--figures":
         figures = pathlib.Path(arguments[2])
-    elif len(arguments) != 1:
+    elif len(arguments) != 1 and not summary:
         print(__doc__, file=sys.stderr)
         return 2
     missing = missing_packages()
@@ -104,6 +115,9 @@ def main(arguments):
         data = json.load(sys.stdin)
     else:
         data = json.loads(pathlib.Path(arguments[0]).read_text(encoding="utf-8"))
+    if summary:
+        sys.stdout.buffer.write(summary_pdf(data))
+        return 0
     try:
         if figures is not None:
             figures.mkdir(parents=True, exist_ok=True)

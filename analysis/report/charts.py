@@ -11,6 +11,7 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
+from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
 # Told apart by people with any colour vision, and at least 3 : 1 against the page in either scheme;
 # lines differ in their dashes as well. (light, dark)
@@ -24,6 +25,7 @@ INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}
 _SCHEME.update({light: f"--series-{i}" for i, (light, _) in enumerate(SERIES)})
 
+LABELS = 30  # points from an axis to what is below its numbers and its name
 GAP = "#d3d8dd"  # a square of a map without a number
 
 # From quiet to loud. (light scheme, dark scheme)
@@ -65,8 +67,11 @@ def panel(height=3.2):
 
 
 def legend_below(axes, columns, **options):
-    """To the left of the axes' right edge, since the labels of rows leave more room there."""
-    axes.legend(loc="upper right", bbox_to_anchor=(1.02, -0.17), ncol=columns, **options)
+    """To the left of the axes' right edge, since the labels of rows leave more room there; below the
+    axis' numbers and name, however low the axes are."""
+    below = ScaledTranslation(0, -LABELS / 72, axes.figure.dpi_scale_trans)
+    axes.legend(loc="upper right", bbox_to_anchor=(1.02, 0), ncol=columns,
+                bbox_transform=axes.transAxes + below, **options)
 
 
 def legend_above(axes):
@@ -124,9 +129,14 @@ class SvgNames:
             return
         words = re.sub(r"[^a-z0-9]+", "-", title.lower().replace("×", "x")).strip("-")[:60]
         for kind in ("svg", "png"):
-            figure.savefig(self.folder / f"{self.count:02d}-{words}.{kind}", format=kind, dpi=200,
-                           facecolor=PAPER, metadata={"Date": None} if kind == "svg" else
-                           {"Software": None})
+            # Replaced, not written over: a link of that name may lead to anything.
+            path = self.folder / f"{self.count:02d}-{words}.{kind}"
+            new = path.with_suffix(f".{kind}.new")
+            new.unlink(missing_ok=True)
+            with open(new, "xb") as file:
+                figure.savefig(file, format=kind, dpi=200, facecolor=PAPER, metadata={"Date": None}
+                               if kind == "svg" else {"Software": None})
+            new.replace(path)
 
 
 def to_svg(figure, title, description, names):

@@ -5,8 +5,10 @@ import math
 from blocks import note, table
 from charts import (GAP, INK, MUTED, PAPER, RULE, between, cell, colour, dash, legend_below, marker,
                     panel, shade, to_svg)
-from words import (joined, noise, number, p_value, percent, rate, rate_with_bounds)
+from words import (input_name, joined, noise, number, p_value, percent, rate, rate_with_bounds)
 
+REJECTED = "Thin dots: a curve that does not fit the hits and misses, without bounds."
+POOR = " (poor fit)"
 MISSED, FOUND = (0.93, 0.95, 0.98), (0.03, 0.25, 0.48)
 
 
@@ -26,13 +28,39 @@ def _curve(axes, report, pod, paint, line, label, band):
         return False
     x = [report.sizes.shown(size) for size in pod["band"]["size"]]
     # The curve may begin where its bounds do; missing bounds are gaps.
-    lower = [value if value is not None else float("nan") for value in pod["band"]["lower"]]
-    upper = [value if value is not None else float("nan") for value in pod["band"]["upper"]]
-    values = [value if value is not None else float("nan") for value in pod["band"]["pod"]]
-    if band:
+    lower, upper, values = ([math.nan if value is None else value for value in pod["band"][name]]
+                            for name in ("lower", "upper", "pod"))
+    poor = pod["doubtful"]  # its bounds promise nothing
+    if band and not poor:
         axes.fill_between(x, lower, upper, color=paint, alpha=0.16, linewidth=0)
-    axes.plot(x, values, color=paint, linestyle=line, label=label)
+    axes.plot(x, values, color=paint, linestyle=(0, (1, 2)) if poor else line,
+              linewidth=0.9 if poor else None, label=label + POOR if poor and label else label)
     return True
+
+
+def _open(axes, report, level, paint):
+    """The band that inputs which are not known leave open."""
+    if level["uncertain"] and level["uncertain"]["band"]["size"]:
+        band = level["uncertain"]["band"]
+        axes.fill_between([report.sizes.shown(size) for size in band["size"]], band["lower"],
+                          band["upper"], facecolor="none", edgecolor=paint, hatch="///",
+                          linewidth=0, alpha=0.6)
+
+
+def uncertain_text(report, n):
+    """What is not known of the machine, and what that leaves open of the first feature's a90."""
+    for f in report.order(n) if report.reliability else []:
+        level = report.reliable(f, n)
+        found = level["uncertain"]
+        if found and not found["refusal"]:
+            low, high = (_size(report, found[key], level["hit_miss"])
+                         for key in ("a90_low", "a90_high"))
+            inputs = joined([input_name(name, "") for name in found["inputs"]])
+            return (f"Not known of the machine: {inputs}. "
+                    f"Over the middle 90\u00a0% of what they may be, the size that "
+                    f"{report.names[f]} finds with 90\u00a0% probability goes from {low} to {high}; "
+                    f"more gearboxes do not tell it.")
+    return None
 
 
 def _rates(axes, report, cells, paint, mark, label=None, bars=True):
@@ -97,13 +125,17 @@ def _rate_table(report, f):
 
 def _comparison(report, page):
     n = report.reference
-    columns = 2 if max(len(name) for name in report.names) < 20 else 1
+    labels = [name + (POOR if report.reliable(f, n)["hit_miss"]["doubtful"] else "")
+              for f, name in enumerate(report.names)]
+    columns = 2 if max(map(len, labels)) < 20 else 1
     figure, axes = panel(3.3 + 0.2 * math.ceil(len(report.names) / columns))
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for position, f in enumerate(report.order(n)):
         level = report.reliable(f, n)
         drawn = _curve(axes, report, level["hit_miss"], colour(f), dash(f), report.names[f],
                        band=position < 3)
+        if position == 0:
+            _open(axes, report, level, colour(f))
         _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], colour(f),
                marker(f), None if drawn else report.names[f] + " (rates)", bars=not drawn)
     found = report.smallest_fault(n)
@@ -121,28 +153,39 @@ def _comparison(report, page):
     bound = f"a90/{number(100 * report.confidence)}"
     how = (f"Each curve is fitted to hits and misses of single gearboxes; marks are the rates found. "
            f"Shaded, for the three best ranked: bounds, each one-sided at "
-           f"{percent(report.confidence)}. Where the lower bound passes 0.9 (dashed) is {bound}; "
+           f"{percent(report.confidence)}. {REJECTED} Where the lower bound passes 0.9 (dashed) "
+           f"is {bound}; "
            + ("the upright line is the smallest one of all features." if found
               else "no feature gets there."))
+    unknown = uncertain_text(report, n)
+    if unknown:
+        how += f" Hatched, for the best ranked: {unknown[0].lower()}{unknown[1:]}"
     return page.figure(f"Probability of detection at {noise(report.levels[n])}", [svg], how,
                        _pod_table(report, n))
+
+
+def of_feature(axes, report, f):
+    """Rates of a feature at all noise levels, with the curves where there are any."""
+    axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    for n, level in enumerate(report.levels):
+        paint = shade(n / max(1, len(report.levels) - 1))
+        if report.reliability:
+            reliable = report.reliable(f, n)
+            _curve(axes, report, reliable["hit_miss"], paint, "-", None, band=True)
+            _open(axes, report, reliable, paint)
+        _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], paint,
+               marker(n), f"× {number(level)}")
+    _limits(axes, report)
+    axes.set_title(report.names[f], fontsize=10, loc="left")
+    if report.levels:
+        axes.legend(title="noise", loc="best", title_fontsize=9, handletextpad=0.2)
 
 
 def _by_feature(report, page):
     charts, tables = [], []
     for f in report.order(report.reference):
         figure, axes = panel()
-        axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-        for n, level in enumerate(report.levels):
-            paint = shade(n / max(1, len(report.levels) - 1))
-            reliable = report.reliable(f, n)
-            _curve(axes, report, reliable["hit_miss"], paint, "-", None, band=True)
-            _rates(axes, report, [c for c in report.cells(f, n) if c["size_high"] > 0], paint,
-                   marker(n), f"× {number(level)}")
-        _limits(axes, report)
-        axes.set_title(report.names[f], fontsize=10, loc="left")
-        if report.levels:
-            axes.legend(title="noise", loc="best", title_fontsize=9, handletextpad=0.2)
+        of_feature(axes, report, f)
         states = "; ".join(f"{noise(level)}: {_state(report, f, n).split(': ', 1)[1]}"
                            for n, level in enumerate(report.levels))
         charts.append(to_svg(figure, f"Probability of detection of {report.names[f]} by noise",
@@ -153,7 +196,7 @@ def _by_feature(report, page):
                if report.reliable(f, n)["hit_miss"]["refusal"]]
     how = ("Marks are detection rates with their Wilson bounds, at "
            f"{percent(report.confidence)}; lines are the fitted curves with their bounds, from blue "
-           "for the least noise to red for the most."
+           "for the least noise to red for the most. " + REJECTED
            + (f" There is no curve for {joined(refused)}: the reasons stand with the numbers."
               if refused else ""))
     reasons = table("Fitted curves", ["feature", "noise", "a50", "a90",

@@ -41,6 +41,23 @@ Interval clustered_rate(std::span<const FeatureDetection> features,
     return widest;
 }
 
+// Of how many thresholds several records of each gearbox leave the rate open.
+std::string unfixed_text(std::span<const FeatureDetection> features,
+                         const DetectionRequest& request, double upper) {
+    long open = 0, all = 0;
+    for (const FeatureDetection& feature : features) {
+        for (const LevelDetection& level : feature.levels) {
+            ++all;
+            open += level.threshold_rate.upper > 2.0 * request.false_alarm_rate ? 1 : 0;
+        }
+    }
+    return fmt::format(
+        "Healthy gearboxes differ too much beside their noise for a false-alarm rate of {:g} of {} "
+        "of the {} thresholds: it may be up to {:.2g}. It takes more gearboxes, not more records "
+        "of each.",
+        request.false_alarm_rate, open, all, upper);
+}
+
 Json pair_json(const Interval& bounds) {
     return Json::array({number(bounds.lower), number(bounds.upper)});
 }
@@ -50,10 +67,40 @@ std::string beyond_text(double extrapolation) {
                                : "";
 }
 
+// Of gearboxes with several records each: nothing is known beyond these, whose tails go together.
+std::string record_shortage(long gearboxes, long records, double false_alarm_rate,
+                            double confidence) {
+    const long all = gearboxes * records;
+    const auto each = [&](long wanted) { return (wanted + gearboxes - 1) / gearboxes; };
+    const long least = sample_for_threshold(false_alarm_rate);
+    const Interval rate = threshold_rate_interval(all, false_alarm_rate, confidence);
+    if (rate.upper <= 2.0 * false_alarm_rate) {
+        return "";
+    }
+    const std::string found =
+        all < least ? fmt::format(
+                          "a false-alarm rate of {:g} is rarer than one in them, and they go "
+                          "together too much to say what lies beyond. It takes {} of each, and {}",
+                          false_alarm_rate, each(least),
+                          each(sample_for_rate(false_alarm_rate, confidence)))
+                    : fmt::format(
+                          "they fix a false-alarm rate of {:g} to between {:.2g} and {:.2g} at "
+                          "{:g} % confidence. It takes {} of each",
+                          false_alarm_rate, rate.lower, rate.upper, 100.0 * confidence,
+                          each(sample_for_rate(false_alarm_rate, confidence)));
+    return fmt::format(
+        "Few records ({} of each of {} healthy gearboxes): {} for a rate of at most "
+        "twice that.",
+        records, gearboxes, found);
+}
+
 }  // namespace
 
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject) {
+                            Subject subject, long records) {
+    if (records > 1) {
+        return record_shortage(healthy, records, false_alarm_rate, confidence);
+    }
     const long without_law = sample_for_threshold(false_alarm_rate),
                by_law = sample_for_tail(false_alarm_rate);
     const std::string enough =
@@ -102,10 +149,13 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
             without.push_back(fmt::format("x {:g}", request.noise_levels[n]));
         }
     }
-    std::string text =
-        sample_shortage(fewest, request.false_alarm_rate, request.confidence, subject);
-    if (const Interval rate = clustered_rate(features, request);
-        subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
+    const auto records = static_cast<long>(request.threshold_records);
+    std::string text = sample_shortage(fewest / records, request.false_alarm_rate,
+                                       request.confidence, subject, records);
+    const Interval rate = clustered_rate(features, request);
+    if (text.empty() && records > 1 && rate.upper > 2.0 * request.false_alarm_rate) {
+        text = unfixed_text(features, request, rate.upper);
+    } else if (subject == Subject::recordings && rate.upper > 2.0 * request.false_alarm_rate) {
         text = fmt::format(
             "Recordings of few gearboxes for a false-alarm rate of {:g}: they fix it to between "
             "{:.2g} and {:.2g} at {:g} % confidence. It takes recordings of more gearboxes.",

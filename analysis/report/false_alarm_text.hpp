@@ -16,7 +16,7 @@ namespace gearpod::analysis {
 // their false-alarm rate may be more than twice the one asked for, and how many it takes; "" where
 // they suffice. One sentence or two.
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject);
+                            Subject subject, long records = 1);
 
 // The same of the smallest sample among a report's thresholds, which names the noise levels that
 // have none at all.

@@ -2,8 +2,9 @@
 
 import math
 
+import detection_figures
 import numerical_figures
-from words import (count, escape, input_name, joined, noise, number, percent, plural, quantity,
+from words import (TESTED_ALONE, count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
 CARRIED = '<abbr title="the bound of a feature or noise level that finds no more">†</abbr>'
@@ -11,11 +12,11 @@ TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one be
 ARCSECONDS = 180 * 3600 / math.pi  # in a radian
 
 
-def _promise(report):
+def promise(report):
     return f"90\u00a0% probability at {percent(report.confidence)} confidence"
 
 
-def _fault(report):
+def fault(report):
     kinds = {"fault_depth_m": "crack"}
     return kinds.get(report.data["detection"]["size"]["name"], "fault")
 
@@ -39,15 +40,15 @@ def sentence(report):
     found = report.smallest_fault(level)
     at = noise(report.levels[level])
     if found:
-        return (f"A {_fault(report)} of {report.sizes.text(found['size'])} is found with "
-                f"{_promise(report)} by {found['feature']} at {at}.")
+        return (f"A {fault(report)} of {report.sizes.text(found['size'])} is found with "
+                f"{promise(report)} by {found['feature']} at {at}.")
     best = _best_rate(report, level)
     if best is None:
         return f"At {at} no feature has a detection rate."
     name, cell = best
     whom = ("the faulty recordings" if report.sizes.name == "label" else
             f"those of {report.sizes.group(cell['size_low'], cell['size_high'])}")
-    return (f"No tested {_fault(report)} is found with {_promise(report)} at {at}. The best is "
+    return (f"No tested {fault(report)} is found with {promise(report)} at {at}. The best is "
             f"{name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
             f"{whom}.")
 
@@ -148,7 +149,7 @@ def limits(report):
     return [text for text in texts if text]
 
 
-def _threshold(report, name, n):
+def threshold(report, name, n):
     detection = report.detection[report.feature_number(name)]
     level = detection["levels"][n]
     side = ">" if detection["alarm"] == "high" else "<"
@@ -158,12 +159,22 @@ def _threshold(report, name, n):
     return text, rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])
 
 
+def narrow_note(report):
+    """Where the table's last column has no room: the false alarms of the answer."""
+    found = report.smallest_fault(report.reference)
+    if found is None:
+        return ""
+    false = threshold(report, found["feature"], report.reference)[1]
+    return (f'<p class="small narrow">False alarms of {escape(found["feature"])} at '
+            f"{noise(report.levels[report.reference])}: {false}.</p>")
+
+
 def footnotes(report):
     """What the marks in the table mean, below what limits the answer."""
     faults = [found for n in range(len(report.levels)) if (found := report.smallest_fault(n))]
     notes = []
     if not all(found["from_curve"] for found in faults):
-        notes.append("* a tested size; no detection curve vouches for one between.")
+        notes.append(TESTED_ALONE)
     carried = list(dict.fromkeys(_source(found) for found in faults if found["source"]))
     if carried:
         notes.append(f"† the bound of {escape(joined(carried))}, which finds no more of any tested "
@@ -181,7 +192,7 @@ def table(report):
             none = "no threshold" if report.without_threshold(n) else "none"
             cells = f'<td>{none}</td><td>–</td><td>–</td><td class="wide">–</td>'
         else:
-            alarm, false = _threshold(report, found["feature"], n)
+            alarm, false = threshold(report, found["feature"], n)
             basis = ("" if found["from_curve"] else TESTED_SIZE) + (
                 CARRIED if found["source"] else "")
             cells = (f"<td><strong>{escape(report.sizes.text(found['size']))}</strong>{basis}</td>"
@@ -191,7 +202,7 @@ def table(report):
     confidence = number(100 * report.confidence)
     return ('<div class="scroll" role="region" tabindex="0" '
             'aria-label="Smallest fault found, by noise">'
-            f"<table><caption>Smallest {_fault(report)} found with {_promise(report)}</caption>"
+            f"<table><caption>Smallest {fault(report)} found with {promise(report)}</caption>"
             '<thead><tr><th scope="col">Noise</th>'
             f'<th scope="col">{escape(report.sizes.name.replace("fault ", ""))}</th>'
             '<th scope="col">by</th><th scope="col">alarm if</th>'
@@ -230,16 +241,20 @@ def facts(report):
             f"faulty ones have values.{thresholds}")
 
 
+def answers(report):
+    """The headline with what it takes for granted and what is not known, as texts."""
+    speaks = report.silence() is None
+    texts = [report.data["detection"]["shortage"] if speaks else None, sentence(report),
+             report.data.get("assumptions"),
+             detection_figures.uncertain_text(report, report.reference) if speaks else None]
+    return [text for text in texts if text]
+
+
 def html_of(report):
-    parts = [f'<p class="answer">{escape(sentence(report))}</p>']
-    shortage = report.data["detection"]["shortage"]
-    if shortage and report.silence() is None:
-        parts.insert(0, f'<p class="answer">{escape(shortage)}</p>')
-    if report.data.get("assumptions"):
-        parts.append(f'<p class="answer">{escape(report.data.get("assumptions"))}</p>')
+    parts = [f'<p class="answer">{escape(text)}</p>' for text in answers(report)]
     texts = limits(report)
     if report.silence() is None:
-        parts.append(table(report))
+        parts += [table(report), narrow_note(report)]
     if texts:
         parts.append('<h2 id="limits">What limits it</h2><ul class="limits">'
                      + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>")

@@ -40,6 +40,23 @@ Json to_json(const MissSensitivity& misses) {
             {"refusal", text_or_null(misses.refusal)}};
 }
 
+Json to_json(const UncertainBand& uncertain) {
+    if (uncertain.inputs.empty()) {
+        return nullptr;
+    }
+    Json size = Json::array(), lower = Json::array(), upper = Json::array();
+    for (const PodPoint& point : uncertain.band) {
+        size.push_back(point.size);
+        lower.push_back(number(point.lower));
+        upper.push_back(number(point.upper));
+    }
+    return {{"inputs", uncertain.inputs},
+            {"a90_low", to_json(uncertain.a90_low)},
+            {"a90_high", to_json(uncertain.a90_high)},
+            {"band", {{"size", size}, {"lower", lower}, {"upper", upper}}},
+            {"refusal", text_or_null(uncertain.refusal)}};
+}
+
 Json to_json(const LevelReliability& level) {
     Json by_size = Json::array();
     for (const Auc& auc : level.auc_by_size) {
@@ -52,6 +69,7 @@ Json to_json(const LevelReliability& level) {
             {"auc_by_size", by_size},
             {"roc", to_json(level.roc)},
             {"misses", to_json(level.misses)},
+            {"uncertain", to_json(level.uncertain)},
             {"by_false_alarm_rate", false_alarm_json(level.by_rate)},
             {"least_cost", level.least_cost ? least_cost_json(*level.least_cost) : Json(nullptr)}};
 }

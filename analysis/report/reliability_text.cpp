@@ -64,6 +64,34 @@ void add_feature(std::string& out, const FeatureReliability& feature, std::size_
     add_wrapped(out, row, name_width + 22);
 }
 
+// What inputs that are not known leave open, beside what the number of gearboxes does.
+void add_uncertain(std::string& out, const std::vector<const FeatureReliability*>& features,
+                   std::size_t n, const SizeUnit& unit) {
+    std::string list;
+    const std::vector<std::string>* inputs = nullptr;
+    for (const FeatureReliability* feature : features) {
+        const LevelReliability& level = feature->levels[n];
+        if (level.uncertain.inputs.empty() || !level.uncertain.refusal.empty()) {
+            continue;
+        }
+        inputs = &level.uncertain.inputs;
+        const auto text = [&](const SizeEstimate& estimate) {
+            return size_estimate_text(estimate, level.hit_miss.smallest, level.hit_miss.largest,
+                                      unit);
+        };
+        list += fmt::format("{} {} {} to {}", list.empty() ? "" : ";", feature->feature,
+                            text(level.uncertain.a90_low), text(level.uncertain.a90_high));
+    }
+    if (inputs != nullptr) {
+        add_wrapped(out,
+                    fmt::format("NOT KNOWN of the machine, which more gearboxes do not tell: {}. "
+                                "Over the middle 90 % of what they may be, a90{} is{}",
+                                fmt::join(*inputs, ", "),
+                                unit.shown_unit().empty() ? "" : " in " + unit.shown_unit(), list),
+                    4);
+    }
+}
+
 void add_signal_response(std::string& out, const std::vector<const FeatureReliability*>& features,
                          std::size_t n, const SizeUnit& unit) {
     std::string refused;
@@ -222,6 +250,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     for (const FeatureReliability* feature : features) {
         add_feature(out, *feature, n, width, unit);
     }
+    add_uncertain(out, features, n, unit);
     add_ranking(out, reliability.rankings[n]);
     add_signal_response(out, features, n, unit);
     add_false_alarms(out, features, n, request);

@@ -80,24 +80,25 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
                     feature.feature, range_text({effects.smallest, effects.largest}, unit),
                     shown.empty() ? "" : " in " + shown),
         4);
-    // Names on lines of their own where they and the numbers are too wide for one.
-    constexpr std::size_t kNumbers = 80;
+    // Names on lines of their own, with p, where they and the numbers are too wide for one.
+    constexpr std::size_t kNumbers = 84;
     const bool apart = width + kNumbers > text_width();
-    const auto row = [&](const std::string& name, const auto&... numbers) {
-        out += apart ? name + "\n" : fmt::format("{:<{}}", name, width);
-        out += fmt::format("{:>8}{:>8}{:>18}{:>18}{:>7}{:>7}{:>7}{:>7}\n", numbers...);
+    const auto row = [&](const std::string& name, const std::string& p, const auto&... numbers) {
+        out += apart ? name + ", " + p + "\n" : fmt::format("{:<{}}", name, width);
+        out += fmt::format("{:>9}{:>9}{:>18}{:>18}{:>9}{:>7}{:>7}", numbers...);
+        out += apart ? "\n" : fmt::format("{:>7}\n", p);
     };
-    row("input", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high", "p");
+    row("input", "p", "from", "to", "Pd low", "Pd high", "a90 low", "middle", "high");
     const HitMissPod& pod = level.hit_miss;
     const auto a90 = [&](const SizeBounds& bounds) {
         return size_estimate_text(bounds.estimate, pod.smallest, pod.largest, unit);
     };
     for (const InputEffect* effect : mattering) {
         const auto value = [](double number) { return fmt::format("{:.3g}", number); };
-        row(effect->name, value(effect->bins.front().middle), value(effect->bins.back().middle),
+        row(effect->name, fmt::format("{:.1g}", effect->p_value),
+            value(effect->bins.front().middle), value(effect->bins.back().middle),
             bin_text(effect->bins.front()), bin_text(effect->bins.back()), a90(effect->a90.front()),
-            a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()),
-            fmt::format("{:.1g}", effect->p_value));
+            a90(effect->a90[effect->a90.size() / 2]), a90(effect->a90.back()));
     }
 }
 

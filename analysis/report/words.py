@@ -98,6 +98,8 @@ def input_name(name, unit):
     return name.replace("_", " ")
 
 
+TESTED_ALONE = "* a tested size; no detection curve vouches for one between."
+
 _SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
 
 

@@ -97,6 +97,7 @@ std::string accuracy_json(const AccuracyReport& report, const Study& study) {
              {"noise_levels", report.noise_levels},
              {"own", report.rungs[static_cast<std::size_t>(report.own)].rung.text()},
              {"step_costs", report.step_costs},
+             {"left_out", report.left_out},
              {"reference",
               {{"first", r.first.text()},
                {"first_order", r.first_order},

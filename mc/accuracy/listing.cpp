@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mc/numerics/ladder.hpp"
+#include "mc/study/fluctuations.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -71,9 +72,39 @@ std::vector<ListedRung> listed_rungs(const Study& study) {
             all.push_back({flight.rung(i, settle_tolerances().front()), ""});
         }
     }
-    all.push_back({own_rung(study), ""});
-    all.back().rung.other.push_back("numerics.horizon=march");
+    if (why_no_mesh_repeats(study).empty()) {
+        all.push_back({own_rung(study), ""});
+        all.back().rung.other.push_back("numerics.horizon=march");
+    }
     return all;
+}
+
+bool marches_everything(const Rung& rung) {
+    return !rung.other.empty() && rung.other.back() == "numerics.horizon=march";
+}
+
+std::size_t place_of(const Rung& rung, const std::vector<RungResult>& rungs) {
+    const auto same = std::find_if(rungs.begin(), rungs.end(), [&](const RungResult& r) {
+        return r.rung.text() == rung.text();
+    });
+    return static_cast<std::size_t>(same - rungs.begin());
+}
+
+std::vector<std::size_t> cheapest_first(const Study& study, const std::vector<RungResult>& rungs,
+                                        std::size_t from) {
+    std::vector<std::pair<double, std::size_t>> costs;
+    for (std::size_t i = from; i < rungs.size(); ++i) {
+        const Rung& rung = rungs[i].rung;
+        const auto step = step_cost(study, rung.integrator, rung.other);
+        const double cost = step && rung.steps > 0 ? *step * rung.steps : INFINITY;
+        costs.emplace_back(i == 0 ? 0.0 : cost, i);
+    }
+    std::sort(costs.begin(), costs.end());
+    std::vector<std::size_t> places;
+    for (const auto& [cost, place] : costs) {
+        places.push_back(place);
+    }
+    return places;
 }
 
 }  // namespace gearpod::mc

@@ -9,8 +9,10 @@
 #include "lockstep/integrators/facts.hpp"
 #include "machine/upper_median.hpp"
 #include "mc/accuracy/listing.hpp"
+#include "mc/accuracy/measure_detection.hpp"
 #include "mc/accuracy/report.hpp"
 #include "mc/accuracy/rung_scenes.hpp"
+#include "mc/accuracy/time_left.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/numerics/choice.hpp"
 #include "mc/numerics/ladder.hpp"
@@ -24,13 +26,19 @@ constexpr double kNearFrontier = 3.0;
 // Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
+// The reference's share of the time.
+constexpr double kReferenceShare = 1.0 / 3.0;
 // Tried on the fastest rung for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
 class Measurement {
   public:
     Measurement(const Study& study, const AccuracyRequest& request)
-        : study_(plain(study)), request_(request), scenes_(study_), pilot_(scenes_.own()) {
+        : study_(plain(study)),
+          request_(request),
+          time_(request.seconds),
+          scenes_(study_),
+          pilot_(scenes_.own()) {
         const Scene& scene = scenes_.own();
         report_.features = study_.features.use;
         report_.noise_levels = study_.sensor.noise_levels;
@@ -43,27 +51,29 @@ class Measurement {
 
     AccuracyReport run() {
         request_.progress("reference: two methods until they agree");
-        report_.reference = converged_reference(study_, pilot_, {});
+        ReferenceRequest reference;
+        reference.seconds = kReferenceShare * time_.seconds();
+        report_.reference = converged_reference(study_, pilot_, reference);
         report_.own = 0;
         for (const ListedRung& listed : listed_rungs(study_)) {
             add(listed.rung, listed.refusal);
         }
         times_.resize(report_.rungs.size());
         request_.progress(fmt::format("{} rungs", report_.rungs.size()));
-        march_all(0, true);
+        march_first(0);
         finish_times();
-        const std::size_t tight = report_.rungs.size();
+        for (const double tolerance : request_.tolerances) {
+            choose(tolerance);
+        }
         settle_loosely();
-        request_.progress(
-            fmt::format("{} of them settled more loosely", report_.rungs.size() - tight));
-        march_all(tight, true);
         for (int repeat = 1; repeat < request_.repeats; ++repeat) {
             finish_times();
             request_.progress(fmt::format("time {} of {}", repeat + 1, request_.repeats));
-            march_all(0, false);
-        }
-        for (const double tolerance : request_.tolerances) {
-            choose(tolerance);
+            if (!march_again()) {
+                leave_out(
+                    fmt::format("all but {} of {} timings of each rung", repeat, request_.repeats));
+                break;
+            }
         }
         thin_stiffness();
         time_contenders();
@@ -74,9 +84,7 @@ class Measurement {
         mark_frontier();
         measure_explicit_limit();
         check_step_costs();
-        if (request_.gearboxes > 0) {
-            detect();
-        }
+        measure_detection(study_, request_, time_, report_);
         return std::move(report_);
     }
 
@@ -93,6 +101,9 @@ class Measurement {
 
     // The fastest rung for each tolerance with fewer terms in the stiffness curves.
     void thin_stiffness() {
+        if (!time_.enough()) {
+            return leave_out("rungs with thinner stiffness curves");
+        }
         finish_times();
         std::vector<Rung> fastest_rungs;
         for (const ChoiceCheck& check : report_.choices) {
@@ -119,25 +130,36 @@ class Measurement {
         times_.resize(report_.rungs.size());
         request_.progress(
             fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
-        march_all(first, true);
+        march_first(first);
     }
 
     // Rungs with the same steps stand together, so that a scene serves them all.
     void settle_loosely() {
-        std::vector<Rung> tight;
+        if (!time_.enough()) {
+            return leave_out("rungs settled more loosely");
+        }
+        finish_times();
+        std::vector<Rung> loose;
         for (const RungResult& result : report_.rungs) {
-            if (result.refusal.empty() && near_frontier(result) &&
-                result.rung.integrator != "auto" && !marches_everything(result.rung)) {
-                tight.push_back(result.rung);
+            if (!result.refusal.empty() || !near_frontier(result) ||
+                result.rung.settle_tolerance != settle_tolerances().front() ||
+                result.rung.integrator == "auto" || marches_everything(result.rung)) {
+                continue;
+            }
+            for (std::size_t i = 1; i < settle_tolerances().size(); ++i) {
+                loose.push_back(result.rung);
+                loose.back().settle_tolerance = settle_tolerances()[i];
             }
         }
-        for (Rung& rung : tight) {
-            for (std::size_t i = 1; i < settle_tolerances().size(); ++i) {
-                rung.settle_tolerance = settle_tolerances()[i];
+        const std::size_t first = report_.rungs.size();
+        for (const Rung& rung : loose) {
+            if (place_of(rung, report_.rungs) == report_.rungs.size()) {
                 add(rung);
             }
         }
         times_.resize(report_.rungs.size());
+        request_.progress(fmt::format("{} settled more loosely", report_.rungs.size() - first));
+        march_first(first);
     }
 
     bool near_frontier(const RungResult& result) const {
@@ -149,16 +171,43 @@ class Measurement {
             });
     }
 
-    static bool marches_everything(const Rung& rung) {
-        return !rung.other.empty() && rung.other.back() == "numerics.horizon=march";
+    void leave_out(const std::string& what) { report_.left_out.push_back(what); }
+
+    // Processor seconds that a rung will take at least: all meshes take as many times as long.
+    double least_s(const Rung& rung) const {
+        const RungResult& own = report_.rungs[0];
+        return marches_everything(rung) && own.meshes > 0.0 && !times_[0].march.empty()
+                   ? times_[0].march.front() * report_.gearboxes * report_.span_meshes / own.meshes
+                   : 0.0;
     }
 
-    void march_all(std::size_t from, bool first) {
-        for (std::size_t i = from; i < report_.rungs.size(); ++i) {
-            if (first || near_frontier(report_.rungs[i])) {
-                march(i, first);
+    void march_first(std::size_t from) {
+        int untried = 0;
+        for (const std::size_t i : cheapest_first(study_, report_.rungs, from)) {
+            RungResult& result = report_.rungs[i];
+            if (i > 0 && result.refusal.empty() && !time_.enough(least_s(result.rung))) {
+                result.refusal = kNotTried;
+                ++untried;
+                continue;
+            }
+            march(i, true);
+        }
+        if (untried > 0) {
+            leave_out(fmt::format("{} rungs", untried));
+        }
+    }
+
+    // Whether there was time for all.
+    bool march_again() {
+        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
+            if (!time_.enough()) {
+                return false;
+            }
+            if (near_frontier(report_.rungs[i])) {
+                march(i, false);
             }
         }
+        return true;
     }
 
     void march(std::size_t place, bool first) {
@@ -201,18 +250,22 @@ class Measurement {
         request_.progress(fmt::format("choice for {:g}", tolerance));
         ChoiceCheck check;
         check.tolerance = tolerance;
+        if (!time_.enough()) {
+            check.refusal = "not asked: the time was up";
+            leave_out(fmt::format("what numerics.tolerance = {:g} chooses", tolerance));
+            report_.choices.push_back(check);
+            return;
+        }
         Study study = without_steps(study_);
         study.numerics.tolerance = tolerance;
         try {
             const Rung rung = resolve_numerics(study).choice->rung;
-            const auto same =
-                std::find_if(report_.rungs.begin(), report_.rungs.end(),
-                             [&](const RungResult& r) { return r.rung.text() == rung.text(); });
-            check.chosen = static_cast<int>(same - report_.rungs.begin());
-            if (same == report_.rungs.end()) {
+            const std::size_t place = place_of(rung, report_.rungs);
+            check.chosen = static_cast<int>(place);
+            if (place == report_.rungs.size()) {
                 add(rung);
                 times_.emplace_back();
-                march(report_.rungs.size() - 1, true);
+                march(place, true);
             }
         } catch (const SceneError& error) {
             check.refusal = error.what();
@@ -239,6 +292,11 @@ class Measurement {
         request_.progress(fmt::format("{} contenders again", contenders.size()));
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
             for (const std::size_t place : contenders) {
+                if (!time_.enough()) {
+                    leave_out(fmt::format("all but {} of {} timings of the fastest rungs", repeat,
+                                          kContenderRepeats));
+                    return;
+                }
                 march(place, false);
             }
         }
@@ -320,46 +378,12 @@ class Measurement {
         }
     }
 
-    // The frontier's rungs, the study's own and the chosen ones, against the closest rung of all.
-    void detect() {
-        std::vector<std::size_t> places{0};
-        std::size_t closest = 0;
-        const auto error_of = [&](std::size_t i) {
-            const RungResult& r = report_.rungs[i];
-            return r.refusal.empty() && r.steps > 0 ? r.error.largest_feature() : INFINITY;
-        };
-        for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
-            closest = error_of(i) < error_of(closest) ? i : closest;
-            if (report_.rungs[i].frontier) {
-                places.push_back(i);
-            }
-        }
-        for (const ChoiceCheck& check : report_.choices) {
-            if (check.chosen >= 0) {
-                places.push_back(static_cast<std::size_t>(check.chosen));
-            }
-        }
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        const Study pilot = pilot_ensemble_study(study_, request_.gearboxes);
-        const PilotEnsemble reference =
-            run_pilot_ensemble(with_rung(pilot, report_.rungs[closest].rung));
-        if (!has_rates(reference)) {
-            return;
-        }
-        for (const std::size_t place : places) {
-            RungResult& result = report_.rungs[place];
-            request_.progress(fmt::format("detection rates by {}", result.rung.text()));
-            result.detection =
-                detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
-        }
-    }
-
     struct Times {
         std::vector<double> march, total;
     };
     const Study study_;
     const AccuracyRequest& request_;
+    const TimeLeft time_;
     RungScenes scenes_;
     const lockstep::Integrator own_integrator_ = scenes_.own().plan().integrator;
     const Pilot pilot_;

@@ -13,6 +13,9 @@
 
 namespace gearpod::mc {
 
+// Of a rung that is left out for want of time.
+inline constexpr const char* kNotTried = "not tried: the time was up";
+
 struct RungResult {
     Rung rung;
     std::string refusal;  // why it has no place in the study; then nothing else is said
@@ -67,6 +70,7 @@ struct AccuracyReport {
     std::vector<ChoiceCheck> choices;
     std::vector<PeerResult> peers;
     std::vector<std::string> step_costs;  // the cost model's ratios against the measured ones
+    std::vector<std::string> left_out;    // because the time was up
 
     int levels() const { return static_cast<int>(noise_levels.size()); }
 };
@@ -74,7 +78,9 @@ struct AccuracyReport {
 struct AccuracyRequest {
     int repeats = 3;
     std::vector<double> tolerances{1e-2, 1e-3, 1e-4};
-    long gearboxes = 480;  // of the pilot ensemble, both groups; 0: none
+    // Of the pilot ensemble, both groups; 0: none. By default 480, or as many as the time allows.
+    std::optional<long> gearboxes;
+    double seconds = 300.0;  // processor time after which no part is begun; 0: none is left out
     std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 

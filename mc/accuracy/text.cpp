@@ -72,8 +72,9 @@ bool is_thin(const Rung& rung) {
 // Of each flight at the tightest settling, of the frontier, and the study's own.
 bool worth_a_line(const AccuracyReport& report, std::size_t i) {
     const RungResult& r = report.rungs[i];
-    return r.frontier || static_cast<int>(i) == report.own || !r.refusal.empty() ||
-           r.rung.settle_tolerance <= 1e-10 || is_thin(r.rung) ||
+    return r.frontier || static_cast<int>(i) == report.own ||
+           (!r.refusal.empty() && r.refusal != kNotTried) || r.rung.settle_tolerance <= 1e-10 ||
+           is_thin(r.rung) ||
            std::any_of(report.choices.begin(), report.choices.end(),
                        [&](const ChoiceCheck& c) { return c.chosen == static_cast<int>(i); });
 }
@@ -91,7 +92,7 @@ void add_choices(const AccuracyReport& report, Text out) {
     fmt::format_to(out, "\nnumerics.tolerance\n");
     for (const ChoiceCheck& c : report.choices) {
         if (c.chosen < 0) {
-            fmt::format_to(out, "  {:g}: refused: {}\n", c.tolerance, c.refusal);
+            fmt::format_to(out, "  {:g}: no choice: {}\n", c.tolerance, c.refusal);
             continue;
         }
         const RungResult& chosen = report.rungs[static_cast<std::size_t>(c.chosen)];
@@ -106,8 +107,10 @@ void add_choices(const AccuracyReport& report, Text out) {
                        report.explicit_limit.mesh_s() / chosen.mesh_s,
                        report.explicit_limit.march_s() / chosen.march_s);
     }
-    fmt::format_to(out, "  cost of a step over Runge-Kutta's: {}\n",
-                   fmt::join(report.step_costs, "; "));
+    if (!report.step_costs.empty()) {
+        fmt::format_to(out, "  cost of a step over Runge-Kutta's: {}\n",
+                       fmt::join(report.step_costs, "; "));
+    }
 }
 
 void add_features(const AccuracyReport& report, Text out) {
@@ -160,6 +163,15 @@ void add_detection(const AccuracyReport& report, Text out) {
     }
 }
 
+void add_left_out(const AccuracyReport& report, Text out) {
+    if (!report.left_out.empty()) {
+        fmt::format_to(out, "\nleft out, the time was up (--seconds 0: nothing is)\n");
+        for (const std::string& what : report.left_out) {
+            fmt::format_to(out, "  {}\n", what);
+        }
+    }
+}
+
 void add_peers(const AccuracyReport& report, Text out) {
     for (const PeerResult& p : report.peers) {
         fmt::format_to(out, "{:<44} {:>6} {:>7} {:>9.3g} {:>9.3g} {:>8} {:>8} ", p.name, "", "",
@@ -192,6 +204,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     add_choices(report, out);
     add_features(report, out);
     add_detection(report, out);
+    add_left_out(report, out);
     return text;
 }
 

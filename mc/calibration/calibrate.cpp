@@ -94,6 +94,21 @@ FoundInput found_input(const CalibratedInput& input, std::span<const double> val
     return found;
 }
 
+// Places of a weighted sample's members that stand for it, equally likely: the member at every
+// `count`-th of the cumulated weight.
+std::vector<std::size_t> equally_likely(std::span<const double> weights, std::size_t count) {
+    std::vector<std::size_t> members;
+    double cumulated = weights.front();
+    for (std::size_t i = 0, member = 0; i < count; ++i) {
+        const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+        while (cumulated < at && member + 1 < weights.size()) {
+            cumulated += weights[++member];
+        }
+        members.push_back(member);
+    }
+    return members;
+}
+
 std::vector<std::string> deciding(const analysis::AbcPosterior& posterior, std::size_t p,
                                   const SetSummary& summary) {
     constexpr std::size_t kNamed = 3;
@@ -207,6 +222,15 @@ CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
         samples.push_back(in_prior(posterior, region, p));
         result.found.push_back(found_input(task.inputs[p], samples.back(), posterior.weight));
         result.found.back().deciding = deciding(posterior, p, summary);
+    }
+    constexpr std::size_t kDraws = 200;
+    const std::vector<std::size_t> members = equally_likely(posterior.weight, kDraws);
+    for (std::size_t p = 0; p < inputs; ++p) {
+        result.draws.emplace_back();
+        for (const std::size_t member : members) {
+            result.draws.back().push_back(
+                task.inputs[p].at(std::clamp(samples[p][member], 0.0, 1.0)));
+        }
     }
     result.pairs = bound_pairs(samples);
     result.checks = checks(posterior, fine, summary, observed);

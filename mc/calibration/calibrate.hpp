@@ -37,6 +37,8 @@ struct FeatureCheck {
 
 struct CalibrationResult {
     std::vector<FoundInput> found;
+    // [input][draw]: equally likely draws of all inputs together, in the keys' units.
+    std::vector<std::vector<double>> draws;
     std::vector<BoundPair> pairs;
     std::vector<FeatureCheck> checks;
     std::size_t sets = 0, failed = 0;  // simulated; of these without features
@@ -57,8 +59,9 @@ CalibrationResult calibrate(const Scene& scene, const CalibrationTask& task,
                             const SetSummary& summary, std::vector<SimulatedSet>& first,
                             const std::function<void(double)>& told);
 
-// A study that has the inputs in [random], by whatever distributions, with what was found in their
-// place, as TOML with its uncertainty in comments. `intro`: lines for the top.
+// A study that has the inputs in [random], by whatever distributions, with the draws of what was
+// found in their place, in rows, as TOML with their uncertainty in comments. `intro`: lines for the
+// top.
 std::string calibrated_study(const Study& study, const CalibrationResult& result,
                              const std::vector<std::string>& intro);
 

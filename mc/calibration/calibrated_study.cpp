@@ -2,35 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "mc/calibration/calibrate.hpp"
-#include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-constexpr double kDeviations = 2.0 * 1.6448536269514722;  // that a normal 90 % interval spans
-
-// The distribution with that median and 90 % interval: lognormal where the prior was even in the
-// logarithm and the key takes all of one, else normal between the prior's ends.
-std::string distribution_of(const FoundInput& found) {
-    const CalibratedInput& input = found.input;
-    const std::size_t dot = input.key.find('.');
-    const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
-    if (input.logarithmic &&
-        key.range.contains(Support{0.0, std::numeric_limits<double>::infinity(), true, true})) {
-        const double sigma = std::log(found.high / found.low) / kDeviations;
-        return fmt::format("{{ distribution = \"lognormal\", median = {:.6g}, cv = {:.4g} }}",
-                           found.median, std::max(1e-6, std::sqrt(std::expm1(sigma * sigma))));
+// Draws of all inputs together, in rows: what the recordings know of combinations stays known.
+std::string distribution_of(const std::vector<double>& draws) {
+    std::string values;
+    for (const double value : draws) {
+        values += fmt::format("{}{:.5g}", values.empty() ? "" : ", ", value);
     }
-    const double sd =
-        std::max(1e-9 * std::abs(input.high - input.low), (found.high - found.low) / kDeviations);
-    return fmt::format(
-        "{{ distribution = \"truncated-normal\", mean = {:.6g}, sd = {:.4g}, low = {:g}, high = "
-        "{:g} }}",
-        found.median, sd, input.low, input.high);
+    return fmt::format("{{ distribution = \"empirical\", rows = 1, values = [{}] }}", values);
 }
 
 std::string comment_of(const CalibrationResult& result, std::size_t p) {
@@ -46,8 +30,9 @@ std::string comment_of(const CalibrationResult& result, std::size_t p) {
     for (const BoundPair& pair : result.pairs) {
         if (pair.first == p || pair.second == p) {
             const std::size_t other = pair.first == p ? pair.second : pair.first;
-            text += fmt::format("# known together with {} alone, rank correlation {:+.2f}\n",
-                                result.found[other].input.key, pair.correlation);
+            text += fmt::format(
+                "# known together with {} alone, rank correlation {:+.2f}: drawn in rows\n",
+                result.found[other].input.key, pair.correlation);
         }
     }
     return text;
@@ -65,10 +50,14 @@ std::string calibrated_study(const Study& study, const CalibrationResult& result
     for (std::size_t p = 0; p < result.found.size(); ++p) {
         found += comment_of(result, p);
         found +=
-            fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.found[p]));
+            fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.draws[p]));
     }
     // The study's own distributions of these inputs give way.
     Study kept = study;
+    kept.detection.uncertain_inputs.clear();
+    for (const FoundInput& one : result.found) {
+        kept.detection.uncertain_inputs.push_back(one.input.key);
+    }
     std::erase_if(kept.random, [&](const RandomInput& one) {
         return std::ranges::any_of(result.found,
                                    [&](const FoundInput& f) { return f.input.key == one.key; });

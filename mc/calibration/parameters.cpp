@@ -9,7 +9,9 @@
 #include "mc/files/text_table.hpp"
 #include "mc/input/document.hpp"
 #include "mc/input/spelling.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "signals/noise/low_pass_noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -90,7 +92,8 @@ double CalibratedInput::unit_of(double value) const {
 }
 
 bool CalibratedInput::after_march() const {
-    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain", "sensor.noise_m_s2"};
+    constexpr std::array kSensor{"sensor.path_exponent", "sensor.gain", "sensor.tone_level",
+                                 "sensor.noise_m_s2", "sensor.noise_density_m_s2_per_sqrt_Hz"};
     return std::ranges::find(kSensor, key) != kSensor.end();
 }
 
@@ -118,9 +121,15 @@ std::vector<CalibratedInput> usual_inputs(const Study& study, double rms) {
     } else {
         usual.push_back({"gearbox.tooth_quality", 2.0, 11.0, false, 1.0});
     }
-    usual.push_back({"sensor.noise_m_s2", 0.01 * rms, 1.05 * rms, true, 1.0});
+    // In the key's unit, what makes a noise of that rms.
+    const double unit =
+        noise_by_density(study)
+            ? 1.0 / std::sqrt(signals::low_pass_noise_bandwidth_Hz(study.sensor.low_pass_Hz))
+            : 1.0;
+    usual.push_back({noise_key(study), 0.01 * rms * unit, 1.05 * rms * unit, true, 1.0});
     usual.push_back({"sensor.gain", 0.05, 20.0, true, 1.0});
     usual.push_back({"sensor.path_exponent", -0.2, 0.4, false, 1.0});
+    usual.push_back({"sensor.tone_level", 0.01, 20.0, true, 1.0});  // where there are tones
     std::erase_if(usual, [&](const CalibratedInput& input) {
         const bool forbidden = key_named(input.key)->presence(study).need == Need::forbidden;
         const bool no_path = input.key == "sensor.path_exponent" && study.effects.path == nullptr;

@@ -29,8 +29,8 @@ struct CalibratedInput {
 // "gearbox.tooth_quality=3:10", "sensor.noise_m_s2=0.01:1:log". Problems are of `--prior`.
 std::vector<CalibratedInput> read_priors(const std::vector<std::string>& texts, Problems& problems);
 
-// Those of a study whose sensor measures `rms` m/s^2: tooth errors, background, gain and path
-// exponent, whichever it may have.
+// Those of a study whose sensor measures `rms` m/s^2: tooth errors, background, level of the tones,
+// gain and path exponent, whichever it may have.
 std::vector<CalibratedInput> usual_inputs(const Study& study, double rms);
 
 // By their places in the priors, `unit` one for each.

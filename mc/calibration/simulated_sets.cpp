@@ -8,8 +8,10 @@
 #include "machine/team.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/instance_signals.hpp"
 #include "mc/gearbox/measured_features.hpp"
 #include "mc/random/philox.hpp"
+#include "mc/study/noise.hpp"
 #include "signals/noise/normals.hpp"
 #include "signals/sensor/sensor.hpp"
 
@@ -45,7 +47,7 @@ class Simulator {
         for (const Item& item : items) {
             ids.push_back(id_of(item));
             inputs.push_back(sampler_.sample(ids.back(), item.given.front()));
-            inputs.back().gain = 1.0;  // each background has its own
+            inputs.back().gain = inputs.back().tone_level = 1.0;  // each background has its own
         }
         const GearboxTile tile = run_given(scene_, path_, ids, inputs, lanes());
         std::vector<RecordValues> values(items.size());
@@ -110,11 +112,15 @@ class Simulator {
         MeasuredSignal signal;
         signal.has_sensor = true;
         signal.sensor.resize(count);
-        signals::draw_normals(engine, std::span(signal.sensor));
+        if (noise_by_density(scene_.study())) {
+            signal.sensor = low_pass_noise(scene_, inputs, count, engine);
+        } else {
+            signals::draw_normals(engine, std::span(signal.sensor));
+        }
         for (std::size_t i = 0; i < count; ++i) {
             signal.sensor[i] = inputs.gain * bare[first + i] + inputs.noise_m_s2 * signal.sensor[i];
             if (!tones.empty()) {
-                signal.sensor[i] += tones[first + i];
+                signal.sensor[i] += inputs.tone_level * tones[first + i];
             }
         }
         signal.sensor_meshes = static_cast<int>(count / samples);

@@ -26,6 +26,7 @@ int accuracy_command(const AccuracyOptions& options) {
     AccuracyRequest request;
     request.repeats = options.repeats;
     request.gearboxes = options.gearboxes;
+    request.seconds = options.seconds;
     if (!options.quiet) {
         request.progress = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mc/gearbox/measured_signal.hpp"
+#include "mc/new_study/planetary_datasheet.hpp"
 
 namespace gearpod::mc {
 
@@ -21,6 +22,15 @@ struct StudyOptions {
     std::vector<std::string> overrides;  // "section.key=value"
 };
 
+struct NewOptions {
+    std::string kind;     // of gearbox
+    std::string command;  // how it was called, for the study's first comment
+    PlanetaryDatasheet planetary;
+    std::string out = "-";  // "-": standard output
+    bool force = false;     // overwrite a file
+};
+int new_command(const NewOptions& options);
+
 struct RunOptions {
     StudyOptions study;
     std::string out;  // "": the study's name with .h5, in the working folder
@@ -32,8 +42,19 @@ struct RunOptions {
     std::string part;           // "2/4": every fourth tile, the second; "": all
     std::string progress;       // "json": one object a line; "": for people
     bool quiet = false;
+    bool says_results = true;  // at the end, on the terminal
 };
 int run_command(const RunOptions& options);
+
+struct SweepOptions {
+    StudyOptions study;
+    std::vector<std::string> vary;  // "section.key=[a, b, c]"
+    std::string out;                // folder of the results; "": the study's name with -sweep
+    std::string json, html;         // "": none; JSON "-": standard output
+    bool force = false;             // overwrite what a run with other numbers has written
+    bool quiet = false;
+};
+int sweep_command(const SweepOptions& options);
 
 struct MergeOptions {
     std::vector<std::string> results;  // of the parts of a study
@@ -46,7 +67,7 @@ int merge_command(const MergeOptions& options);
 struct ReportOptions {
     std::string results;
     std::string json;       // "": none; "-": standard output
-    std::string html;       // "": none
+    std::string html, pdf;  // "": none
     std::string csv;        // folder for every table; "": none
     std::string figures;    // folder for the page's figures as SVG and PNG; "": none
     std::string condition;  // random input whose values get thresholds of their own; "": none
@@ -68,11 +89,12 @@ struct DescribeOptions {
 int describe_command(const DescribeOptions& options);
 
 struct LivesOptions {
-    StudyOptions study;
-    std::string json;  // "": none; "-": standard output
-    bool quiet = false;
+    RunOptions run;          // without watch, signals and part
+    std::string json, html;  // "": none; JSON "-": standard output
 };
 int lives_command(const LivesOptions& options);
+// Of the results file that it has written; `report` comes here with one.
+int report_lives(const ReportOptions& options);
 
 struct StiffnessOptions {
     StudyOptions study;
@@ -90,10 +112,11 @@ int modes_command(const ModesOptions& options);
 
 struct AccuracyOptions {
     StudyOptions study;
-    std::string json;      // "": none; "-": standard output instead of the table
-    std::string peers;     // table of other programs' results, "": none
-    int repeats = 3;       // of every rung's time
-    long gearboxes = 480;  // of the pilot ensemble; 0: no detection rates
+    std::string json;               // "": none; "-": standard output instead of the table
+    std::string peers;              // table of other programs' results, "": none
+    int repeats = 3;                // of every rung's time
+    std::optional<long> gearboxes;  // of the pilot ensemble; 0: no detection rates
+    double seconds = 300.0;         // processor time; 0: as long as it takes
     bool quiet = false;
 };
 int accuracy_command(const AccuracyOptions& options);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 
 #include "analysis/comparison/comparison_report.hpp"
@@ -34,6 +35,18 @@ struct Side {
     std::string title;
 };
 
+// What is missing of a study, "" if nothing is.
+std::string not_whole(const Results& frame) {
+    const std::string part = frame.provenance_value("part");
+    const std::string state = frame.provenance_value("state");
+    const bool stopped = state == "running" || state.starts_with("interrupted");
+    return (part.empty() ? "" : fmt::format(", part {} of it alone", printable(part))) +
+           (stopped ? fmt::format(", {} of {} gearboxes ({})", frame.status.size(),
+                                  printable(frame.provenance_value("gearboxes_asked_for")),
+                                  printable(state))
+                    : "");
+}
+
 Side read_side(const std::string& path) {
     Side side{path, read_results(path), {}, {}, {}, {}, ""};
     const ColumnRows rows(side.frame);
@@ -45,14 +58,15 @@ Side read_side(const std::string& path) {
         side.without_threshold.push_back(analysis::without_threshold(*reliability, n));
     }
     for (std::size_t row = 0; row < side.frame.group.size(); ++row) {
-        if (side.frame.group[row] != kUngraded) {
-            (side.frame.group[row] == static_cast<int>(Group::threshold) ? side.threshold
-                                                                         : side.graded)
-                .push_back(row);
+        const bool threshold = side.frame.group[row] == static_cast<int>(Group::threshold);
+        // Gearboxes are resampled: of each that sets thresholds its first record.
+        const bool repeats = threshold && row % side.frame.request.threshold_records != 0;
+        if (side.frame.group[row] != kUngraded && !repeats) {
+            (threshold ? side.threshold : side.graded).push_back(row);
         }
     }
     const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
-    side.title = study ? printable(study->title) : "";
+    side.title = (study ? printable(study->title) : "") + not_whole(side.frame);
     return side;
 }
 
@@ -283,6 +297,31 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
     return report;
 }
 
+// All files, or none after every message: of those that cannot be read, and of those that cannot be
+// compared with the first.
+std::vector<Side> read_sides(const std::vector<std::string>& paths) {
+    std::vector<Side> sides;
+    std::set<std::string> problems;  // a file may be named twice
+    std::string said;
+    const auto say = [&](const std::string& problem) {
+        said += problems.insert(problem).second ? problem : "";
+    };
+    bool first_read = false;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        try {
+            sides.push_back(read_side(paths[i]));
+            first_read = first_read || i == 0;
+            if (i > 0 && first_read) {
+                say(mismatch(sides.front(), sides.back()));
+            }
+        } catch (const std::exception& error) {
+            say(exception_text(error) + "\n");
+        }
+    }
+    fmt::print(stderr, "{}", said);
+    return said.empty() ? std::move(sides) : std::vector<Side>{};
+}
+
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
@@ -303,14 +342,8 @@ int compare_command(const CompareOptions& options) {
         return kBadInput;
     }
     try {
-        std::vector<Side> sides;
-        std::string problems;
-        for (const std::string& path : options.results) {
-            sides.push_back(read_side(path));
-            problems += sides.size() > 1 ? mismatch(sides.front(), sides.back()) : "";
-        }
-        if (!problems.empty()) {
-            fmt::print(stderr, "{}", problems);
+        const std::vector<Side> sides = read_sides(options.results);
+        if (sides.empty()) {
             return kBadInput;
         }
         const analysis::ComparisonReport report = compare_sides(sides);

@@ -16,6 +16,8 @@
 #include "mc/ensemble/ranks.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/describe_forecast.hpp"
+#include "mc/forecast/describe_gearbox.hpp"
+#include "mc/forecast/describe_life.hpp"
 #include "mc/forecast/effect_costs.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
@@ -26,123 +28,6 @@
 
 namespace gearpod::mc {
 namespace {
-
-std::string joined(const std::vector<std::string>& texts) {
-    return fmt::format("{}", fmt::join(texts, " "));
-}
-
-void print_planetary(const PlanetaryDrive& drive) {
-    const auto& train = drive.train();
-    print_entry("teeth (sun/planet/ring)",
-                fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
-                            train.ring_teeth, train.planets));
-    std::vector<std::string> sun, ring;
-    for (int n = 0; n < train.planets; ++n) {
-        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
-        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
-    }
-    if (!train.positions_rad.empty()) {
-        const gears::PlanetPlaces places = gears::planet_places(train);
-        std::vector<std::string> positions;
-        for (int n = 0; n < train.planets; ++n) {
-            positions.push_back(
-                fmt::format("{:.6g}", gears::planet_angle(places, n) * 180.0 / std::numbers::pi));
-        }
-        print_entry("planet positions", joined(positions) + " deg");
-    }
-    print_entry("mesh phases, sun", joined(sun));
-    print_entry("mesh phases, ring",
-                fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
-}
-
-void print_fixed_shaft(const Study& study) {
-    const int pinion = *teeth_of(study, Member::pinion), gear = *teeth_of(study, Member::gear);
-    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", pinion, gear));
-    const InstanceInputs nominal = Sampler(study).nominal();
-    const double balanced = nominal.torque_N_m * gear / pinion;
-    const double load = nominal.fixed_shaft.load_torque_N_m;
-    if (std::abs(load - balanced) > 1e-6 * balanced) {
-        print_entry("torques out of balance",
-                    fmt::format("the load takes {:g} N m, {:.4g} N m would balance the motor; the "
-                                "speed is kept, only the vibration feels the difference",
-                                load, balanced));
-    }
-}
-
-// A rack leaves no involute below its form circle: flanks that are touched deeper rub in the
-// fillet.
-void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry& mesh) {
-    for (const int which : {1, 2}) {
-        const gears::Gear& gear = mesh.gear(which);
-        const double lowest = mesh.contact_radius(which, which == 1 ? 0.0 : mesh.contact_ratio());
-        if (!gear.internal && lowest < gear.form_radius()) {
-            print_entry("fillet interference",
-                        fmt::format("the {} is touched down to a diameter of {:.4f} mm, but the "
-                                    "fillet that a rack leaves begins at {:.4f} mm (a tip circle "
-                                    "of its mate farther away avoids it)",
-                                    member_name(which == 1 ? members.driver : members.driven),
-                                    2e3 * lowest, 2e3 * gear.form_radius()));
-        }
-    }
-}
-
-// Shifts, and what follows from them; nothing for standard gears.
-void print_shifts(const Scene& scene) {
-    const Study& study = scene.study();
-    if (!shift_given(study)) {
-        return;
-    }
-    std::string shifts;
-    for (const Member member : kAllMembers) {
-        if (has_toothed_member(study.gearbox.kind, member)) {
-            const gears::Gear gear = gear_of(study, member);
-            shifts += fmt::format(
-                "{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)", shifts.empty() ? "" : "; ",
-                member_name(member), gear.profile_shift / normal_over_transverse(study.gearbox),
-                2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
-        }
-    }
-    print_entry("profile shifts", shifts);
-    print_entry("centre distance", fmt::format("{:.6g} mm", 1e3 * centre_distance_m(study)));
-    for (const SceneMesh& mesh : scene.meshes()) {
-        if (mesh.geometry) {
-            const gears::MeshGeometry& g = *mesh.geometry;
-            print_entry((mesh_name(mesh.members) + " works at").c_str(),
-                        fmt::format("{:.4f} deg, backlash {:.4f} mm, tip clearances {:.3f} and "
-                                    "{:.3f} mm",
-                                    g.working_pressure_angle() * 180.0 / std::numbers::pi,
-                                    1e3 * g.backlash(), 1e3 * g.tip_clearance(1),
-                                    1e3 * g.tip_clearance(2)));
-            print_fillet_warnings(mesh.members, g);
-        }
-    }
-}
-
-// What a helical pair's contact ratio consists of.
-std::string helical_parts(const stiffness::MeshStiffness& mesh) {
-    const double transverse = mesh.slice().contact_ratio();
-    return transverse < mesh.contact_ratio()
-               ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
-                             mesh.contact_ratio() - transverse)
-               : "";
-}
-
-void print_gearbox(const Scene& scene) {
-    print_heading("gearbox");
-    if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
-        print_planetary(*planetary);
-    } else {
-        print_fixed_shaft(scene.study());
-    }
-    print_shifts(scene);
-    for (const SceneMesh& mesh : scene.meshes()) {
-        print_entry(
-            (mesh_name(mesh.members) + " mesh").c_str(),
-            fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
-                        helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
-    }
-    print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
-}
 
 // Lengths of the steps, and where the short ones lie.
 void print_steps(const Scene& scene) {
@@ -183,20 +68,26 @@ void print_steps(const Scene& scene) {
 // computed.
 void print_false_alarms(const Study& study) {
     const double rate = study.detection.false_alarm_rate, confidence = study.detection.confidence;
-    const long healthy = study.ensemble.threshold_instances;
+    const long healthy = study.ensemble.threshold_instances,
+               records = study.ensemble.threshold_records;
     print_heading("false alarms");
     const std::string shortage =
-        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes);
+        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes, records);
     if (!shortage.empty()) {
         std::string text;
         analysis::add_wrapped(text, shortage, 2);
         fmt::print("{}", text);
         return;
     }
-    const analysis::Interval found = analysis::threshold_rate_interval(healthy, rate, confidence);
-    print_entry("rate", fmt::format("{:g}; {} healthy gearboxes fix it to between {:.2g} and "
-                                    "{:.2g} at {:g} % confidence",
-                                    rate, healthy, found.lower, found.upper, 100.0 * confidence));
+    const analysis::Interval found =
+        analysis::threshold_rate_interval(healthy * records, rate, confidence);
+    print_entry(
+        "rate",
+        fmt::format("{:g}; {}{} healthy gearboxes fix it to between {:.2g} and {:.2g} at {:g} % "
+                    "confidence{}",
+                    rate, records > 1 ? fmt::format("{} records of each of ", records) : "",
+                    healthy, found.lower, found.upper, 100.0 * confidence,
+                    records > 1 ? " if little but noise makes them differ" : ""));
 }
 
 // Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
@@ -242,10 +133,14 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                 fmt::format("about {:.0f} of the {} looked at{}", marched_meshes(scene),
                             scene.span_meshes(),
                             compares_records(study) ? ", and those of the baseline record" : ""));
-    print_entry("gearboxes",
-                fmt::format("{} graded and {} for the thresholds, {} noise levels",
-                            study.ensemble.instances, study.ensemble.threshold_instances,
-                            study.sensor.noise_levels.size()));
+    print_entry(
+        "gearboxes",
+        fmt::format("{} graded and {} for the thresholds{}, {} noise levels",
+                    study.ensemble.instances, study.ensemble.threshold_instances,
+                    study.ensemble.threshold_records > 1
+                        ? fmt::format(" ({} records of each)", study.ensemble.threshold_records)
+                        : "",
+                    study.sensor.noise_levels.size()));
     const std::optional<std::size_t> distinct = distinct_marches(scene);
     print_entry("distinct motions",
                 distinct ? fmt::format("{}; gearboxes that differ in path exponent and noise alone "
@@ -318,6 +213,7 @@ int describe_command(const DescribeOptions& options) {
         const Scene& scene = *made.scene;
         print_gearbox(scene);
         print_effects(scene);
+        print_life(scene);
         missing = "cost and forecast";
         print_cost(scene, made.choice);
         std::fflush(stdout);

@@ -1,52 +1,200 @@
 // lives STUDY: gearboxes that are measured again and again while a crack grows.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "machine/wall_clock.hpp"
+#include "mc/commands/run_agreement.hpp"
+#include "mc/commands/run_checks.hpp"
+#include "mc/commands/run_to_end.hpp"
 #include "mc/commands/support.hpp"
-#include "mc/ensemble/progress.hpp"
-#include "mc/ensemble/thread_count.hpp"
+#include "mc/ensemble/run_store.hpp"
+#include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/lives/campaign.hpp"
+#include "mc/lives/life_rows.hpp"
 #include "mc/report/lives_report.hpp"
+#include "mc/report/page.hpp"
+#include "mc/report/run_report.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/results/provenance.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+struct LivesOutputs {
+    std::string json, html, figures;  // "": none; JSON "-": standard output, then without the text
+    bool says_text = true;
+};
+
+// What the rows come to, as it was asked for. False after a message.
+bool tell(const Study& study, const Results& frame, const RowSource& rows,
+          const LivesOutputs& outputs) {
+    const Campaign campaign = campaign_of(study, frame, rows);
+    const auto monitored = monitor(study, campaign);
+    if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty()) {
+        const auto json = lives_json(study, campaign, monitored);
+        if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
+            return false;
+        }
+        if (!outputs.html.empty() || !outputs.figures.empty()) {
+            const std::string page = report_page(json_text(json), outputs.figures);
+            if (!outputs.html.empty()) {
+                write_file(outputs.html, std::as_bytes(std::span(page)));
+            }
+        }
+    }
+    if (outputs.json != "-" && outputs.says_text) {
+        fmt::print("{}", lives_text(study, campaign, monitored));
+        if (!outputs.html.empty()) {
+            fmt::print("\npage: {}\n", outputs.html);
+        }
+    }
+    return true;
+}
+
+// Rank 0's part behind the checks: the exit code.
+int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks& ranks,
+               Checkpoint& checkpoint, const Interruption& interruption) {
+    const RunOptions& run = options.run;
+    const Study& study = tiles.scene().study();
+    const BatchPlan plan = lives_plan(study);
+    Progress progress(static_cast<long>(plan.rows()), run.quiet, checkpoint.rows_done(),
+                      run.progress == "json" ? Progress::Form::json : Progress::Form::text);
+    const EnsembleOutcome outcome = run_lives(tiles, plan,
+                                              {.ranks = ranks,
+                                               .store = checkpoint,
+                                               .progress = progress,
+                                               .interruption = &interruption,
+                                               .checkpoint_s = study.ensemble.checkpoint_s});
+    progress.finish();
+    std::string trouble = outcome.failure;
+    if (trouble.empty() && outcome.interruption.empty()) {
+        interruption.let_finish();
+        try {
+            Results frame = lives_frame(study);
+            for (const auto& entry : provenance(study, ranks.size(), outcome.threads())) {
+                frame.provenance.push_back(entry);
+            }
+            frame.provenance.emplace_back("state", "complete");
+            note_run(tiles.scene(), outcome, frame);
+            const StoredRows rows(checkpoint, plan, outcome.batches);
+            const std::string path = results_path(run);
+            write_results(path, frame, rows);
+            if (!tell(study, frame, rows, {options.json, options.html, "", true})) {
+                return kBadInput;
+            }
+            if (options.json != "-") {
+                fmt::print("\nresults: {}\n", path);
+            }
+            const bool failed = count_rows(rows).failed() > 0;
+            checkpoint.remove();
+            return failed ? kSomeFailed : kDone;
+        } catch (const std::exception& error) {
+            trouble = exception_text(error);
+        }
+    }
+    if (!trouble.empty()) {
+        fmt::print(stderr, "{}\n", trouble);
+    }
+    print_kept(outcome, plan, checkpoint);
+    return kResumable;
+}
+
+// What a study's records are composed of, or nothing after a message by rank 0.
+std::unique_ptr<LifeTiles> life_tiles(const RunOptions& run, const Scene& scene,
+                                      const Ranks& ranks) {
+    try {
+        return std::make_unique<LifeTiles>(scene);
+    } catch (const SceneError& error) {
+        if (ranks.leads()) {
+            print_problems({{run.study.path, 0, error.key(), error.what(), error.remedy()}});
+        }
+    } catch (const std::exception& error) {
+        if (ranks.leads()) {
+            fmt::print(stderr, "{}\n", exception_text(error));
+        }
+    }
+    return nullptr;
+}
+
+std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study& study) {
+    try {
+        return open_checkpoint(
+            study, row_shape(lives_frame(study)), lives_plan(study), results_path(run),
+            {.resume = run.resume, .force = run.force, .quiet = run.quiet, .check = check_lives});
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+    }
+    return nullptr;
+}
+
+}  // namespace
 
 int lives_command(const LivesOptions& options) {
-    const bool writable = can_write({"--json", options.json}, {{"the study", options.study.path}});
-    const auto scene = load_scene(options.study).scene;
-    if (!scene || !writable) {
+    const RunOptions& run = options.run;
+    const Ranks ranks;
+    std::optional<std::chrono::seconds> limit;
+    const bool good_limit = check_time_limit(run, limit);
+    const Interruption interruption(limit);
+    const StudyScene made = load_scene_together(ranks, run.study, interruption);
+    const std::unique_ptr<LifeTiles> tiles = made ? life_tiles(run, *made.scene, ranks) : nullptr;
+    std::unique_ptr<Checkpoint> checkpoint;
+    if (ranks.leads()) {
+        const FileRole study{"the study", run.study.path}, results{"--out", results_path(run)},
+            json{"--json", options.json};
+        const bool good_json = can_write(json, {study, results});
+        const bool good_page = can_write({"--html", options.html}, {study, results, json});
+        const bool good_out = check_output(run), good_progress = check_progress(run);
+        if (tiles && good_limit && good_json && good_page && good_out && good_progress) {
+            checkpoint = lives_checkpoint(run, made.scene->study());
+        }
+    }
+    const std::string refusal =
+        std::to_string(!made && left_off(made.problems) ? kResumable : kBadInput);
+    const std::string order = ranks.from_leader(checkpoint ? "go" : refusal);
+    if (order != "go") {
+        return std::stoi(order);
+    }
+    if (!ranks.leads()) {
+        MemoryRows nothing(0);
+        Progress silent(1, true);
+        run_lives(
+            *tiles, lives_plan(made.scene->study()),
+            {.ranks = ranks, .store = nothing, .progress = silent, .interruption = &interruption});
+        return std::stoi(ranks.from_leader(""));
+    }
+    const int code = lead_lives(options, *tiles, ranks, *checkpoint, interruption);
+    ranks.from_leader(std::to_string(code));
+    return code;
+}
+
+int report_lives(const ReportOptions& options) {
+    if (!options.csv.empty() || !options.condition.empty() || options.alarm_cost) {
+        fmt::print(stderr,
+                   "{}: holds lives, and --csv, --by and expected costs are for what `run` wrote; "
+                   "leave them out\n",
+                   options.results);
         return kBadInput;
     }
     try {
-        const Study& study = scene->study();
-        const auto lives =
-            static_cast<long>(study.ensemble.instances + study.ensemble.threshold_instances) +
-            study.life.healthy_lives;
-        Progress progress(lives, options.quiet);
-        const Campaign campaign =
-            run_campaign(*scene, thread_count(study), [&](long count) { progress.advance(count); });
-        progress.finish();
-        const auto monitored = monitor(study, campaign);
-        if (!options.json.empty()) {
-            const auto json = lives_json(study, campaign, monitored);
-            if (!write_text_to(options.json, json_text(json, 2) + "\n")) {
-                return kBadInput;
-            }
-        }
-        if (options.json != "-") {
-            fmt::print("{}", lives_text(study, campaign, monitored));
-        }
-        return campaign.failed > 0 ? kSomeFailed : kDone;
-    } catch (const SceneError& error) {
-        print_problems({{options.study.path, 0, error.key(), error.what(), error.remedy()}});
+        const Results frame = read_frame(options.results);
+        const FileRows rows(options.results, frame);
+        check_lives(options.results, frame, rows);
+        const auto study = read_study_text(frame.provenance_value("study"), options.results).study;
+        return tell(*study, frame, rows, {options.json, options.html, options.figures, true})
+                   ? kDone
+                   : kBadInput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;
     }
-    return kBadInput;
 }
 
 }  // namespace gearpod::mc

@@ -40,8 +40,7 @@ PartFile read_part_file(const std::string& path) {
         throw std::runtime_error(path + ": its study cannot be read:\n" + format(reading.problems));
     }
     check_results(path, frame, rows);
-    const Ensemble& ensemble = reading.study->ensemble;
-    const BatchPlan plan(ensemble.threshold_instances, ensemble.instances, part_of(frame));
+    const BatchPlan plan(reading.study->ensemble, part_of(frame));
     PartFile file{path, std::move(frame), *std::move(reading.study), plan, 0};
     while (file.batches < plan.batches() && plan.rows_before(file.batches + 1) <= rows.rows()) {
         ++file.batches;
@@ -52,7 +51,7 @@ PartFile read_part_file(const std::string& path) {
 // Rows of a whole ensemble's batch, "rows 16 to 31".
 std::string rows_text(const BatchPlan& whole, std::size_t batch) {
     const Batch place = whole.batch(batch);
-    return fmt::format("rows {} to {}", place.first_row, place.first_row + place.count - 1);
+    return fmt::format("rows {} to {}", place.first_row, place.first_row + place.rows() - 1);
 }
 
 class Merge {
@@ -82,10 +81,7 @@ class Merge {
                           read_study_text(first.frame.provenance_value("study"), first.path));
     }
 
-    BatchPlan whole() const {
-        const Ensemble& ensemble = files_.front().study.ensemble;
-        return {ensemble.threshold_instances, ensemble.instances};
-    }
+    BatchPlan whole() const { return BatchPlan(files_.front().study.ensemble); }
 
     void fill(RowStore& store) const {
         for (const PartFile& file : files_) {

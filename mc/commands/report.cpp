@@ -23,16 +23,44 @@
 namespace gearpod::mc {
 namespace {
 
-// JSON, tables, page and figures, as far as they are asked for; false after a message.
+// No table goes to a file that is something else, by whatever name; false after a message.
+bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>& tables) {
+    const std::vector<FileRole> others{{"the results file", options.results},
+                                       {"--json", options.json},
+                                       {"--html", options.html},
+                                       {"--pdf", options.pdf}};
+    bool good = true;
+    for (const CsvTable& table : tables) {
+        const std::string path = table_path(options.csv, table);
+        for (const FileRole& other : others) {
+            if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
+                fmt::print(stderr, "--csv {}: is {} as well, which it would overwrite\n", path,
+                           other.role);
+                good = false;
+            }
+        }
+    }
+    return good;
+}
+
+// JSON, tables, page, sheet and figures, as far as they are asked for; false after a message.
 bool write_files(const ReportOptions& options, const Results& results, const RowSource& rows,
                  const std::optional<analysis::Reliability>& reliability) {
     nlohmann::json json = report_json(results, rows, reliability);
     json["results"] = options.results;
+    const auto tables = options.csv.empty() ? std::vector<CsvTable>{} : report_tables(json);
+    if (!can_write_tables(options, tables)) {
+        return false;
+    }
     if (!options.json.empty() && !write_text_to(options.json, json_text(json, 2) + "\n")) {
         return false;
     }
     if (!options.csv.empty()) {
-        write_tables(options.csv, report_tables(json));
+        write_tables(options.csv, tables);
+    }
+    if (!options.pdf.empty()) {
+        const std::string sheet = report_summary(json_text(json));
+        write_file(options.pdf, std::as_bytes(std::span(sheet)));
     }
     if (!options.html.empty() || !options.figures.empty()) {
         const std::string page = report_page(json_text(json), options.figures);
@@ -63,22 +91,27 @@ bool read_costs(const ReportOptions& options, std::optional<analysis::Costs>& co
 }  // namespace
 
 int report_command(const ReportOptions& options) {
-    const FileRole read{"the results file", options.results}, json{"--json", options.json};
+    const FileRole read{"the results file", options.results}, json{"--json", options.json},
+        html{"--html", options.html};
     const bool json_good = can_write(json, {read});
+    const bool pdf_good = can_write({"--pdf", options.pdf}, {read, json, html});
     std::optional<analysis::Costs> costs;
     const bool costs_good = read_costs(options, costs);
-    if (!can_write({"--html", options.html}, {read, json}) || !json_good || !costs_good) {
+    if (!can_write(html, {read, json}) || !json_good || !pdf_good || !costs_good) {
         return kBadInput;
     }
     try {
         Results results = read_frame(options.results);
+        if (results.provenance_value("kind") == kLivesKind) {
+            return report_lives(options);
+        }
         const FileRows rows(options.results, results);
         check_results(options.results, results, rows);
         results.detection = detect_all(results, rows);
         const auto reliability = reliability_of(results, rows, options.condition, thread_count(),
                                                 kMostAssessedValues, costs);
-        if (!options.json.empty() || !options.html.empty() || !options.csv.empty() ||
-            !options.figures.empty()) {
+        if (!options.json.empty() || !options.html.empty() || !options.pdf.empty() ||
+            !options.csv.empty() || !options.figures.empty()) {
             if (!write_files(options, results, rows, reliability)) {
                 return kBadInput;
             }
@@ -94,8 +127,10 @@ int report_command(const ReportOptions& options) {
                        printable(state));
         }
         fmt::print("{}", results_text(results, rows, reliability));
-        const std::pair<const char*, const std::string&> written[] = {
-            {"page", options.html}, {"tables", options.csv}, {"figures", options.figures}};
+        const std::pair<const char*, const std::string&> written[] = {{"page", options.html},
+                                                                      {"sheet", options.pdf},
+                                                                      {"tables", options.csv},
+                                                                      {"figures", options.figures}};
         for (const auto& [what, where] : written) {
             if (!where.empty()) {
                 fmt::print("\n{}: {}\n", what, where);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <set>
 
 #include "analysis/report/detection_text.hpp"
@@ -62,7 +63,8 @@ class Run {
     int run(const Interruption& interruption) {
         if (const std::string shortage = analysis::sample_shortage(
                 study_.ensemble.threshold_instances, study_.detection.false_alarm_rate,
-                study_.detection.confidence, analysis::Subject::gearboxes);
+                study_.detection.confidence, analysis::Subject::gearboxes,
+                study_.ensemble.threshold_records);
             !shortage.empty()) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
         }
@@ -74,7 +76,7 @@ class Run {
             }
         }
         Progress progress(
-            static_cast<long>(plan_.rows()), options_.quiet, rows_done(),
+            static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
             options_.progress == "json" ? Progress::Form::json : Progress::Form::text);
         const EnsembleOutcome outcome = run_batches(scene_, plan_,
                                                     {.ranks = ranks_,
@@ -89,13 +91,7 @@ class Run {
     }
 
   private:
-    long rows_done() const {
-        long rows = 0;
-        for (std::size_t batch = 0; batch < plan_.batches(); ++batch) {
-            rows += checkpoint_->has(batch) ? static_cast<long>(plan_.batch(batch).count) : 0;
-        }
-        return rows;
-    }
+    bool says_results() const { return !options_.quiet && options_.says_results; }
 
     // What the file says about its rows.
     Results frame(const RowSource& rows, const std::string& state) const {
@@ -164,9 +160,7 @@ class Run {
         if (!whole) {
             interruption.let_finish();
         }
-        for (const CrewTimes& crew : outcome.crews) {
-            threads_ += crew.threads;
-        }
+        threads_ += outcome.threads();
         const std::string path = results_path(options_);
         std::string trouble = outcome.failure, text;
         const StoredRows rows(*checkpoint_, plan_, outcome.batches);
@@ -180,7 +174,7 @@ class Run {
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});
                 write_results(path, all, rows);
-                if (whole && !options_.quiet) {
+                if (whole && says_results()) {
                     text = text_of(all, rows);
                 }
             } catch (const std::exception& error) {
@@ -195,7 +189,7 @@ class Run {
         }
         const RowCounts counts = count_rows(rows);
         checkpoint_->remove();
-        if (!options_.quiet) {
+        if (says_results()) {
             fmt::print("{}\n", text);
             print_failures(counts, scene_.max_meshes());
             print_times(outcome);
@@ -227,18 +221,18 @@ class Run {
                        watch_.text(), watch_.rows_left().value_or(0));
         }
         fmt::print("results: {}\n", path);
+        if (part_.empty()) {
+            const auto page = std::filesystem::path(path).replace_extension(".html").string();
+            fmt::print("next, its page: gearpod report {} --html {}\n", path, page);
+        } else {
+            fmt::print("next, with all parts: gearpod merge {} ... --out WHOLE.h5\n", path);
+        }
     }
 
     // With a checkpoint left to go on from.
     int stop_short(const EnsembleOutcome& outcome, bool saved) {
-        const long done = rows_done();
         if (!options_.quiet || !saved) {
-            fmt::print(
-                stderr,
-                "{}{} of {} gearboxes are finished and kept in {}; continue with "
-                "--resume\n",
-                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
-                done, plan_.rows(), checkpoint_->path());
+            print_kept(outcome, plan_, *checkpoint_);
         }
         return kResumable;
     }
@@ -272,6 +266,13 @@ void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
 
 }  // namespace
 
+void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
+                const Checkpoint& checkpoint) {
+    fmt::print(stderr, "{}{} of {} gearboxes are finished and kept in {}; continue with --resume\n",
+               outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
+               checkpoint.rows_done(), plan.rows(), checkpoint.path());
+}
+
 int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& ranks,
                std::unique_ptr<Checkpoint> checkpoint, double setup_s,
                const Interruption& interruption) {
@@ -279,11 +280,15 @@ int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& r
 }
 
 int run_command(const RunOptions& options) {
+    const Ranks ranks;
+    return run_study(options, ranks);
+}
+
+int run_study(const RunOptions& options, const Ranks& ranks) {
     const auto start = WallClock::now();
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(options, limit);
     const Interruption interruption(limit);
-    const Ranks ranks;
     const StudyScene made = load_scene_together(ranks, options.study, interruption);
     const auto& scene = made.scene;
     const bool too_late = !scene && left_off(made.problems);

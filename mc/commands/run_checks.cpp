@@ -22,8 +22,7 @@ std::string results_path(const RunOptions& options) {
 }
 
 BatchPlan plan_of(const RunOptions& options, const Study& study) {
-    return {study.ensemble.threshold_instances, study.ensemble.instances,
-            read_part(options.part).value_or(Part{})};
+    return BatchPlan(study.ensemble, read_part(options.part).value_or(Part{}));
 }
 
 bool check_time_limit(const RunOptions& options, std::optional<std::chrono::seconds>& limit) {
@@ -66,13 +65,10 @@ bool check_part(const RunOptions& options, const Study& study) {
         return false;
     }
     if (plan_of(options, study).batches() == 0) {
-        fmt::print(
-            stderr,
-            "--part {}: the study's gearboxes make {} tiles of {}, this part has none; take "
-            "fewer parts\n",
-            options.part,
-            BatchPlan(study.ensemble.threshold_instances, study.ensemble.instances).batches(),
-            kBatchRows);
+        fmt::print(stderr,
+                   "--part {}: the study's gearboxes make {} tiles of {}, this part has none; take "
+                   "fewer parts\n",
+                   options.part, BatchPlan(study.ensemble).batches(), kBatchRows);
         return false;
     }
     return true;
@@ -94,7 +90,7 @@ bool check_signals(const RunOptions& options, const Study& study) {
                    "`simulate --instance`\n");
         return false;
     }
-    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
     const auto outside = std::find_if(options.signals.begin(), options.signals.end(),
                                       [&](long row) { return row < 0 || row >= rows; });
     if (outside == options.signals.end()) {

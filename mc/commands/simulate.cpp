@@ -9,6 +9,7 @@
 #include "mc/files/hdf5_data.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/results/batch_rows.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace gearpod::mc {
@@ -89,7 +90,7 @@ int simulate_command(const SimulateOptions& options) {
         return kBadInput;
     }
     const Study& study = scene->study();
-    const long rows = study.ensemble.threshold_instances + study.ensemble.instances;
+    const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
     const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
     if (options.instance < 0 || options.instance >= rows || meshes > scene->signal_meshes()) {
         fmt::print(stderr, "--instance is a row of the results, 0 to {}; --meshes is at most {}\n",

@@ -77,7 +77,7 @@ std::string why_no_results_name(const std::string& path) {
                                                               {".htm", "report {} --html F.html"},
                                                               {".png", "report {} --figures DIR"},
                                                               {".svg", "report {} --figures DIR"},
-                                                              {".pdf", "report {} --html F.html"},
+                                                              {".pdf", "report {} --pdf F.pdf"},
                                                               {".xlsx", "report {} --csv DIR"},
                                                               {".mat", ""},
                                                               {".toml", ""}};

@@ -10,11 +10,11 @@
 
 namespace gearpod::mc {
 
-BatchCrew::BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads)
-    : first_([this, &task, &plan, threads] {
+BatchCrew::BatchCrew(const BatchComputers& computers, const BatchPlan& plan, int threads)
+    : first_([this, &computers, &plan, threads] {
           machine::run_team(threads, [&](int granted) {
               note_size(granted);
-              work(task, plan);
+              work(computers, plan);
           });
       }) {
     std::unique_lock lock(mutex_);
@@ -97,19 +97,19 @@ void BatchCrew::hand_in(FinishedBatch finished) {
 }
 
 // A thread's life. An exception would end it, and its batch would never come back.
-void BatchCrew::work(const BatchTask& task, const BatchPlan& plan) noexcept {
+void BatchCrew::work(const BatchComputers& computers, const BatchPlan& plan) noexcept {
     const auto birth = WallClock::now();
-    std::optional<BatchWorker> worker;
+    BatchComputer compute;
     Seconds seconds;
     while (const auto batch = next_batch()) {
         FinishedBatch finished;
         finished.batch = *batch;
         const auto start = WallClock::now();
         try {
-            if (!worker) {
-                worker.emplace(task);
+            if (!compute) {
+                compute = computers();
             }
-            finished.rows = worker->compute(plan.batch(*batch), seconds);
+            finished.rows = compute(plan.batch(*batch), seconds);
         } catch (const machine::Stopped&) {
             finished.stopped = true;
         } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,12 +31,18 @@ struct CrewTimes {
     int threads = 0;
 };
 
+// Computes batches one after another on one thread, the same bits whatever was computed before;
+// adds its time to the seconds.
+using BatchComputer = std::function<BatchRows(const Batch&, Seconds&)>;
+// One for a thread that asks; threads ask at the same time.
+using BatchComputers = std::function<BatchComputer()>;
+
 // The thread that makes the crew is none of the team: it is free for messages and files, and the
 // team has the places of OMP_PLACES for itself. Waiting costs no processor time.
 class BatchCrew {
   public:
     // A team of so many threads, or as many of them as OpenMP grants.
-    BatchCrew(const BatchTask& task, const BatchPlan& plan, int threads);
+    BatchCrew(const BatchComputers& computers, const BatchPlan& plan, int threads);
     BatchCrew(const BatchCrew&) = delete;
     BatchCrew& operator=(const BatchCrew&) = delete;
     ~BatchCrew();
@@ -52,7 +59,7 @@ class BatchCrew {
 
   private:
     void note_size(int threads);
-    void work(const BatchTask& task, const BatchPlan& plan) noexcept;
+    void work(const BatchComputers& computers, const BatchPlan& plan) noexcept;
     std::optional<std::size_t> next_batch();
     void hand_in(FinishedBatch finished);
 

@@ -17,6 +17,8 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     noise += other.noise;
     features += other.features;
     meshes += other.meshes;
+    gearboxes += other.gearboxes;
+    records += other.records;
     return *this;
 }
 
@@ -31,19 +33,21 @@ BatchWorker::BatchWorker(const BatchTask& task)
 
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     std::vector<GearboxId> ids;
-    for (std::size_t i = 0; i < batch.count; ++i) {
+    for (std::size_t i = 0; i < batch.gearboxes; ++i) {
         ids.push_back({batch.group, batch.first_index + i});
     }
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
     for (std::size_t first = 0; first < ids.size(); first += lanes) {
-        add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), rows, seconds);
+        add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), batch.records,
+                 rows, seconds);
     }
     return rows;
 }
 
 // As many gearboxes as there are lanes.
-void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seconds& seconds) {
+void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
+                           Seconds& seconds) {
     const GearboxTile computed =
         run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
                       task_.scene.study().numerics.lanes, false, &task_.marches);
@@ -54,7 +58,12 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seco
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::leave_if_stopped();
         const LaneSignals own = std::move(signals[lane]);  // freed when its row is done
-        add_row(ids[lane], computed, lane, own, rows);
+        GearboxId id = ids[lane];
+        const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
+        for (id.repeat = 0; id.repeat < records; ++id.repeat) {
+            rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+            add_features(id, computed, lane, own, rows);
+        }
     }
     const double spent_s = seconds_since(start);
     const double noise = features_.noise_s() - noise_before;
@@ -63,10 +72,8 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seco
          spent_s - noise,     computed.meshes};
 }
 
-void BatchWorker::add_row(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
-                          const LaneSignals& signals, BatchRows& rows) {
-    const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
-    rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+void BatchWorker::add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
+                               const LaneSignals& signals, BatchRows& rows) {
     const Status status = computed.status[lane];
     rows.status.push_back(static_cast<int>(status));
 

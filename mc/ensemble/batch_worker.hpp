@@ -17,6 +17,7 @@ namespace gearpod::mc {
 struct Seconds {
     double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
     long meshes = 0;  // no time: mesh periods marched, each of as many gearboxes as there are lanes
+    long gearboxes = 0, records = 0;  // of lives, no time: how many were computed
 
     Seconds& operator+=(const Seconds& other);
     double sum() const { return sampling + stiffness + march + signals + noise + features; }
@@ -51,9 +52,10 @@ class BatchWorker {
     BatchRows compute(const Batch& batch, Seconds& seconds);
 
   private:
-    void add_rows(std::span<const GearboxId> ids, BatchRows& rows, Seconds& seconds);
-    void add_row(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
-                 const LaneSignals& signals, BatchRows& rows);
+    void add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
+                  Seconds& seconds);
+    void add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,
+                      const LaneSignals& signals, BatchRows& rows);
 
     const BatchTask& task_;
     InstanceFeatures features_;

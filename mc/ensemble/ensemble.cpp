@@ -1,7 +1,7 @@
 #include "mc/ensemble/ensemble.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
@@ -33,9 +33,10 @@ Results results_frame(const Study& study) {
 namespace {
 
 // Why this rank has left off what all need before the first batch, or "".
-std::string prepare(const Scene& scene, const EnsembleRun& run, std::optional<BatchTask>& task) {
+std::string prepare(const std::function<BatchComputers()>& make, const EnsembleRun& run,
+                    BatchComputers& computers) {
     try {
-        task.emplace(scene);
+        computers = make();
     } catch (const machine::Stopped&) {
         const std::string reason = run.interruption == nullptr ? "" : run.interruption->reason({});
         return reason.empty() ? "the time limit" : reason;
@@ -45,9 +46,10 @@ std::string prepare(const Scene& scene, const EnsembleRun& run, std::optional<Ba
 
 }  // namespace
 
-EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
-    std::optional<BatchTask> task;
-    for (const std::string& reason : run.ranks.gather(prepare(scene, run, task))) {
+EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const EnsembleRun& run,
+                            const std::function<BatchComputers()>& make) {
+    BatchComputers computers;
+    for (const std::string& reason : run.ranks.gather(prepare(make, run, computers))) {
         if (!reason.empty()) {
             EnsembleOutcome outcome;
             outcome.interruption = reason;
@@ -58,17 +60,29 @@ EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const Ens
             return outcome;
         }
     }
-    const int threads = std::max(
-        1, static_cast<int>(std::min<std::size_t>(
-               static_cast<std::size_t>(thread_count(scene.study(), run.ranks.on_this_machine())),
-               plan.batches())));
-    BatchCrew crew(*task, plan, threads);
+    const int threads =
+        std::max(1, static_cast<int>(std::min<std::size_t>(
+                        static_cast<std::size_t>(thread_count(study, run.ranks.on_this_machine())),
+                        plan.batches())));
+    BatchCrew crew(computers, plan, threads);
     return run.ranks.leads() ? lead(crew, plan, run) : follow(crew, run);
+}
+
+EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run) {
+    return run_batches(scene.study(), plan, run, [&scene]() -> BatchComputers {
+        const auto task = std::make_shared<const BatchTask>(scene);
+        return [task]() -> BatchComputer {
+            const auto worker = std::make_shared<BatchWorker>(*task);
+            return [task, worker](const Batch& batch, Seconds& seconds) {
+                return worker->compute(batch, seconds);
+            };
+        };
+    });
 }
 
 Results run_ensemble(const Scene& scene, Progress& progress) {
     const Study& study = scene.study();
-    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const BatchPlan plan(study.ensemble);
     MemoryRows store(plan.batches());
     const Ranks alone;
     const EnsembleOutcome outcome =
@@ -87,10 +101,9 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& results) {
 }
 
 std::vector<Timing> timing_of(const EnsembleOutcome& outcome) {
-    Seconds work;
+    const Seconds work = outcome.work();
     double waiting = 0.0;
     for (const CrewTimes& crew : outcome.crews) {
-        work += crew.work;
         waiting += crew.waiting;
     }
     return {{"sampling_thread_s", work.sampling}, {"stiffness_thread_s", work.stiffness},

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mc/ensemble/ensemble_run.hpp"
@@ -14,6 +15,11 @@ namespace gearpod::mc {
 // Rank 0 deals batches out in order as they are asked for and stores them. The outcome is rank 0's,
 // in the others empty.
 EnsembleOutcome run_batches(const Scene& scene, const BatchPlan& plan, const EnsembleRun& run);
+
+// The same of whatever makes up the study's batches. `make` is called once in every rank, before
+// the first batch.
+EnsembleOutcome run_batches(const Study& study, const BatchPlan& plan, const EnsembleRun& run,
+                            const std::function<BatchComputers()>& make);
 
 // The same in memory and in this process, with all columns filled in. Detection and provenance are
 // left to the caller.

@@ -33,6 +33,22 @@ struct EnsembleOutcome {
     std::vector<CrewTimes> crews;  // by rank
     double wall_s = 0.0;
     double output_s = 0.0;  // rank 0's writing of batches
+
+    // Of all ranks.
+    int threads() const {
+        int all = 0;
+        for (const CrewTimes& crew : crews) {
+            all += crew.threads;
+        }
+        return all;
+    }
+    Seconds work() const {
+        Seconds all;
+        for (const CrewTimes& crew : crews) {
+            all += crew.work;
+        }
+        return all;
+    }
 };
 
 }  // namespace gearpod::mc

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "mc/ensemble/ensemble.hpp"
+#include "mc/results/layout.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -26,9 +27,9 @@ std::string impossible(const Results& frame) {
     for (const double level : frame.noise_levels) {
         if (!std::isfinite(level) || level < 0.0 || level <= before) {
             return fmt::format(
-                "/noise_levels holds {:g}, and must be finite, not negative and "
+                "/{} holds {:g}, and must be finite, not negative and "
                 "ascending",
-                level);
+                columns_name(frame), level);
         }
         before = level;
     }
@@ -88,8 +89,8 @@ std::string unlike_study(const Results& frame, const Results& own) {
 class RowCheck {
   public:
     // `healthy`: rows of the threshold group, if a study says so.
-    RowCheck(const RowShape& shape, std::optional<std::size_t> healthy)
-        : shape_(shape), healthy_(healthy) {}
+    RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool open_instances)
+        : shape_(shape), healthy_(healthy), open_(open_instances) {}
 
     void look_at(const RowBlock& block) {
         for (std::size_t i = 0; i < block.count() && why_.empty(); ++i) {
@@ -103,8 +104,9 @@ class RowCheck {
                 why_ = fmt::format("/instances/group of row {} is not the study's", row);
             }
             const double* values = block.values.data() + i * shape_.values();
-            if (!std::all_of(values, values + shape_.parameters,
-                             [](double value) { return std::isfinite(value); })) {
+            if (!std::all_of(values, values + shape_.parameters, [&](double value) {
+                    return std::isfinite(value) || (open_ && std::isnan(value));
+                })) {
                 why_ = fmt::format("/instances of row {} holds a number that is not finite", row);
             }
             if (std::any_of(values + shape_.parameters, values + shape_.values(),
@@ -118,22 +120,21 @@ class RowCheck {
   private:
     const RowShape shape_;
     const std::optional<std::size_t> healthy_;
+    const bool open_;
     std::string why_;
 };
 
 }  // namespace
 
-void check_results(const std::string& path, const Results& frame, const RowSource& rows) {
+void check_like(const std::string& path, const Results& frame, const RowSource& rows,
+                const std::optional<ExpectedResults>& expected) {
     std::string why = impossible(frame);
-    const auto study = read_study_text(frame.provenance_value("study"), path).study;
     std::optional<std::size_t> healthy;
-    if (why.empty() && study) {
-        why = unlike_study(frame, results_frame(*study));
+    if (why.empty() && expected) {
+        why = unlike_study(frame, expected->frame);
         const auto part = read_part(frame.provenance_value("part"));
-        const BatchPlan plan(study->ensemble.threshold_instances, study->ensemble.instances,
-                             part.value_or(Part{}));
-        healthy = plan.threshold_rows();
-        const std::size_t most = plan.rows();
+        healthy = expected->plan.threshold_rows();
+        const std::size_t most = expected->plan.rows();
         if (why.empty() && !part) {
             why = "its attribute part is none";
         }
@@ -143,13 +144,27 @@ void check_results(const std::string& path, const Results& frame, const RowSourc
         }
     }
     if (why.empty()) {
-        RowCheck check(row_shape(frame), healthy);
+        RowCheck check(row_shape(frame), healthy, expected && expected->open_instances);
         rows.visit([&](const RowBlock& block) { check.look_at(block); });
         why = check.why();
     }
     if (!why.empty()) {
-        throw std::runtime_error(path + ": is no results file that `run` wrote: " + why);
+        throw std::runtime_error(fmt::format("{}: is no results file that `{}` wrote: {}", path,
+                                             expected ? expected->command : "run", why));
     }
+}
+
+void check_results(const std::string& path, const Results& frame, const RowSource& rows) {
+    if (frame.provenance_value("kind") == kLivesKind) {
+        throw std::runtime_error(path + ": holds lives, which `report` alone reads");
+    }
+    const auto study = read_study_text(frame.provenance_value("study"), path).study;
+    std::optional<ExpectedResults> expected;
+    if (study) {
+        const auto part = read_part(frame.provenance_value("part"));
+        expected = {results_frame(*study), BatchPlan(study->ensemble, part.value_or(Part{}))};
+    }
+    check_like(path, frame, rows, expected);
 }
 
 }  // namespace gearpod::mc

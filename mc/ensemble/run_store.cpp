@@ -2,12 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
 #include "mc/ensemble/batch_worker.hpp"
-#include "mc/ensemble/results_check.hpp"
 #include "mc/files/atomic_file.hpp"
+#include "mc/gearbox/healthy_reference.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/results_file.hpp"
@@ -37,33 +38,76 @@ void BatchFiller::add(const RowBlock& block) {
                             values + static_cast<std::ptrdiff_t>(shape_.values()));
         const std::size_t batch = plan_.batch_of_row(block.first + row);
         const Batch place = plan_.batch(batch);
-        if (block.first + row + 1 == place.first_row + place.count) {
+        if (block.first + row + 1 == place.first_row + place.rows()) {
             store_.write(number_(batch), rows_);
             rows_ = {};
         }
     }
 }
 
+std::string why_not_grown(const Results& old, const std::string& path, const Study& study,
+                          const Part& part) {
+    const auto there = read_study_text(old.provenance_value("study"), path).study;
+    Study as_there = study;
+    const auto healthy = there ? there->ensemble.threshold_instances : 0;
+    // Features that trend compare with the first healthy gearboxes: these must have been there.
+    if (part.whole() && healthy >= HealthyReference::kRecords &&
+        healthy < study.ensemble.threshold_instances) {
+        as_there.ensemble.threshold_instances = healthy;
+    }
+    return difference(identity_of(old, path), run_identity(as_there, row_shape(old), part));
+}
+
 namespace {
 
+// The rows of one group of a block, under the numbers that they have in a plan with `shift` more
+// rows before them.
+RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
+    RowBlock out;
+    const std::size_t width = block.count() == 0 ? 0 : block.values.size() / block.count();
+    for (std::size_t row = 0; row < block.count(); ++row) {
+        if (block.group[row] == static_cast<int>(group)) {
+            out.first = out.status.empty() ? block.first + row + shift : out.first;
+            out.group.push_back(block.group[row]);
+            out.status.push_back(block.status[row]);
+            const auto values = block.values.begin() + static_cast<std::ptrdiff_t>(row * width);
+            out.values.insert(out.values.end(), values,
+                              values + static_cast<std::ptrdiff_t>(width));
+        }
+    }
+    return out;
+}
+
 std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::string& path,
-                                 const RunIdentity& identity, const BatchPlan& plan) {
+                                 const RunIdentity& identity, const Study& study,
+                                 const BatchPlan& plan, const StoreOptions& options) {
     const Results old = read_frame(results_path);
     const FileRows rows(results_path, old);
-    const std::string why = difference(identity_of(old, results_path), identity);
+    const std::string why = why_not_grown(old, results_path, study, options.part);
     if (!why.empty()) {
         throw std::runtime_error(results_path + ": cannot be continued: it " + why);
     }
-    if (rows.rows() > plan.rows()) {
-        throw std::runtime_error(
-            fmt::format("{}: cannot be continued: it has {} gearboxes, more than the {} asked for; "
-                        "raise --instances",
-                        results_path, rows.rows(), plan.rows()));
+    options.check(results_path, old, rows);
+    std::size_t healthy = 0;
+    rows.visit([&](const RowBlock& block) {
+        healthy += static_cast<std::size_t>(
+            std::count(block.group.begin(), block.group.end(), static_cast<int>(Group::threshold)));
+    });
+    if (rows.rows() - healthy > plan.graded_rows()) {
+        throw std::runtime_error(fmt::format(
+            "{}: cannot be continued: it has {} graded gearboxes, more than the {} asked for; "
+            "raise --instances",
+            results_path, rows.rows() - healthy, plan.graded_rows()));
     }
-    check_results(results_path, old, rows);
     auto checkpoint = Checkpoint::create(path, identity, plan);
-    BatchFiller filler(*checkpoint, plan, identity.shape, [](std::size_t batch) { return batch; });
-    rows.visit([&](const RowBlock& block) { filler.add(block); });
+    const auto same_number = [](std::size_t batch) { return batch; };
+    // One for each group: the last batch of either may have to be filled up, so is left out.
+    BatchFiller thresholds(*checkpoint, plan, identity.shape, same_number),
+        graded(*checkpoint, plan, identity.shape, same_number);
+    rows.visit([&](const RowBlock& block) {
+        thresholds.add(of_group(block, Group::threshold, 0));
+        graded.add(of_group(block, Group::graded, plan.threshold_rows() - healthy));
+    });
     checkpoint->sync();
     return checkpoint;
 }
@@ -104,8 +148,13 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan&
                                             const std::string& results_path,
                                             const StoreOptions& options) {
     const Study& study = scene.study();
-    const RunIdentity identity =
-        run_identity(study, row_shape(Sampler(study), study), options.part);
+    return open_checkpoint(study, row_shape(Sampler(study), study), plan, results_path, options);
+}
+
+std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,
+                                            const BatchPlan& plan, const std::string& results_path,
+                                            const StoreOptions& options) {
+    const RunIdentity identity = run_identity(study, shape, options.part);
     const std::string path = checkpoint_path(results_path);
     std::unique_ptr<Checkpoint> checkpoint;
     std::string from;
@@ -114,7 +163,7 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan&
         checkpoint = Checkpoint::resume(path, identity, plan);
     } else if (options.resume && Checkpoint::exists(behind_links(results_path))) {
         from = results_path;
-        checkpoint = grow(results_path, path, identity, plan);
+        checkpoint = grow(results_path, path, identity, study, plan, options);
     } else {
         const std::string why =
             options.force ? "" : why_precious(behind_links(results_path), identity);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "mc/ensemble/results_check.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
@@ -18,6 +19,11 @@ std::string checkpoint_path(const std::string& results_path);
 
 // What a results file's rows are the rows of; `path` stands for it in messages.
 RunIdentity identity_of(const Results& results, const std::string& path);
+// Why finished results cannot grow into those of the study, as text to follow the file's name, or
+// "". They may have fewer gearboxes of either group; a part's threshold sample stays as it is,
+// since with another one the parts would be others.
+std::string why_not_grown(const Results& old, const std::string& path, const Study& study,
+                          const Part& part);
 // Which of its ensemble's rows it has.
 Part part_of(const Results& results);
 
@@ -26,9 +32,15 @@ struct StoreOptions {
     bool force = false;  // a run that begins anew may overwrite what is not of this study
     bool quiet = false;  // else says on stderr what it continues
     Part part = {};
+    // Of finished results that are to grow.
+    std::function<void(const std::string&, const Results&, const RowSource&)> check = check_results;
 };
 
 // Throws std::runtime_error naming the file and the reason.
+std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& shape,
+                                            const BatchPlan& plan, const std::string& results_path,
+                                            const StoreOptions& options);
+// The same of a run's rows.
 std::unique_ptr<Checkpoint> open_checkpoint(const Scene& scene, const BatchPlan& plan,
                                             const std::string& results_path,
                                             const StoreOptions& options);

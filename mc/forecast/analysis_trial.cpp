@@ -157,8 +157,13 @@ std::vector<std::size_t> level_order(std::size_t levels) {
     return order;
 }
 
+// Areas and curves rest on gearboxes, whatever records they have.
+std::size_t gearboxes_of(const BatchPlan& plan) {
+    return plan.threshold_gearboxes() + plan.graded_rows();
+}
+
 std::size_t values_of(const Study& study, const BatchPlan& plan) {
-    return plan.rows() * study.features.use.size() * study.sensor.noise_levels.size();
+    return gearboxes_of(plan) * study.features.use.size() * study.sensor.noise_levels.size();
 }
 
 double seconds_of_analysis(Results results, int threads, bool assessed) {
@@ -199,7 +204,7 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
         }
     }
     for (std::size_t i = 0; i < rows; ++i) {
-        const GearboxId id = id_of_row(study, static_cast<long>(i * plan.rows() / rows));
+        const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
         const std::vector<double> parameters = sampler.row(id.group, id.index);
         Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
                       parameter_id("analysis.trial"));
@@ -239,7 +244,9 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
     if (calibration.gearboxes.empty()) {
         return trial;
     }
-    trial.rows = std::min(plan.rows(), kTrialRows);
+    trial.rows = std::min(gearboxes_of(plan), kTrialRows);
+    Study gearboxes = study;
+    gearboxes.ensemble.threshold_records = 1;
     const std::vector<std::size_t> order = level_order(levels);
     const auto start = WallClock::now();
     while (trial.levels < levels && (trial.levels == 0 || trial.trial_s < budget_s)) {
@@ -249,12 +256,12 @@ AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration
         std::vector<std::size_t> now(first, first + static_cast<std::ptrdiff_t>(count));
         std::sort(now.begin(), now.end());
         trial.total_s += seconds_of_analysis(
-            made_up_results(study, calibration, plan, trial.rows, now), threads, assessed);
+            made_up_results(gearboxes, calibration, plan, trial.rows, now), threads, assessed);
         trial.levels += count;
         trial.trial_s = seconds_since(start);
     }
     trial.total_s *= static_cast<double>(levels) / static_cast<double>(trial.levels) *
-                     static_cast<double>(plan.rows()) / static_cast<double>(trial.rows);
+                     static_cast<double>(gearboxes_of(plan)) / static_cast<double>(trial.rows);
     return trial;
 }
 

@@ -19,6 +19,8 @@ std::size_t at(Group group) {
     return static_cast<std::size_t>(group);
 }
 
+constexpr std::size_t kTriedRecords = 4;  // of a gearbox; further ones cost as much
+
 // All tiles of a plan, one after another: first one of each group, then here and there, so that any
 // first part of them is spread over the ensemble. They are counted, not listed.
 class SpreadTiles {
@@ -26,7 +28,7 @@ class SpreadTiles {
     SpreadTiles(const BatchPlan& plan, std::size_t lanes)
         : plan_(plan),
           lanes_(lanes),
-          healthy_(tiles(plan.threshold_rows())),
+          healthy_(tiles(plan.threshold_gearboxes())),
           all_(healthy_ + tiles(plan.graded_rows())),
           // Near the golden section of the whole, and without a common divisor.
           stride_(std::max<std::size_t>(1, all_ / 1000 * 618 + all_ % 1000 * 618 / 1000)) {
@@ -68,8 +70,8 @@ class SpreadTiles {
         const std::size_t before = healthy ? 0 : plan_.threshold_batches();
         const Batch batch = plan_.batch(before + own / each);
         const std::size_t first = own % each * lanes_;
-        return {batch.group, batch.first_index + first, batch.first_row + first,
-                std::min(lanes_, batch.count - first)};
+        return {batch.group, batch.first_index + first, batch.first_row + first * batch.records,
+                std::min(lanes_, batch.gearboxes - first), std::min(batch.records, kTriedRecords)};
     }
 
     const BatchPlan plan_;
@@ -148,7 +150,7 @@ class Mean {
     void add(const MeasuredTile& tile) {
         work_ += tile.work;
         rest_ += tile.wall_s - tile.work.sum();
-        rows_ += tile.tile.count;
+        rows_ += tile.tile.rows();
         ++tiles_;
     }
     bool empty() const { return tiles_ == 0; }
@@ -193,7 +195,7 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
     for (const MeasuredTile& one : all) {
         const GroupCost& group = cost[at(one.tile.group)];
         if (one.first) {
-            sum += one.wall_s - (one.reused ? group.reused : group.fresh).seconds(one.tile.count);
+            sum += one.wall_s - (one.reused ? group.reused : group.fresh).seconds(one.tile.rows());
             ++threads;
         }
     }
@@ -251,8 +253,9 @@ void measure(const Scene& scene, const BatchPlan& plan, double budget_s, RunCali
         if (one.again) {
             continue;
         }
-        for (std::size_t i = 0; i < one.tile.count; ++i) {
-            result.gearboxes.push_back({one.tile.group, one.tile.first_index + i});
+        for (std::size_t i = 0; i < one.tile.rows(); ++i) {
+            result.gearboxes.push_back({one.tile.group, one.tile.first_index + i / one.tile.records,
+                                        Record::judged, i % one.tile.records});
         }
         result.rows.status.insert(result.rows.status.end(), one.rows.status.begin(),
                                   one.rows.status.end());

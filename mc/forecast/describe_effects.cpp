@@ -6,10 +6,12 @@
 #include <numbers>
 #include <set>
 
+#include "mc/forecast/undamped.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "stiffness/foundation/foundation_models.hpp"
 
@@ -65,6 +67,24 @@ void print_foundation_warnings(const Study& study) {
                  gear_of(study, member), profile_of(study), study.effects.foundation,
                  body_radius_m(study, member))) {
             fmt::print("  warning: {}: {}\n", member_name(member), warning);
+        }
+    }
+}
+
+// "sun-planet mesh times 0.84 (ISO 6336-1's C_R: sun 0.84)".
+void print_blanks(const Study& study) {
+    for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+        std::vector<std::string> blanks;
+        for (const Member member : {mesh.driver, mesh.driven}) {
+            if (study.gearbox.bodies[member].web_m) {
+                blanks.push_back(
+                    fmt::format("{} {:.4g}", member_name(member), blank_factor(study, member)));
+            }
+        }
+        if (!blanks.empty()) {
+            print_entry("rim and web",
+                        fmt::format("{} mesh times {:.4g} (ISO 6336-1's C_R: {})", mesh_name(mesh),
+                                    blank_factor(study, mesh), fmt::join(blanks, ", ")));
         }
     }
 }
@@ -142,6 +162,7 @@ void print_meshes(const Study& study) {
         if (e.foundation != Foundation::none) {
             print_entry("foundation", choice(study, "effects", "foundation"));
             print_foundation_warnings(study);
+            print_blanks(study);
         }
         if (e.contact == Contact::load_dependent) {
             print_entry("contact", "stiffens with the force it carries at the nominal torque");
@@ -258,7 +279,7 @@ void print_sensor(const Study& study) {
 }
 
 bool sensor_noise(const Study& study) {
-    return study.sensor.noise_m_s2 > 0.0 || random(study, "sensor.noise_m_s2");
+    return sensor_noise_m_s2(study) > 0.0 || random(study, noise_key(study));
 }
 bool encoder_noise(const Study& study) {
     return study.sensor.encoder_noise_rad > 0.0 || random(study, "sensor.encoder_noise_arcsec");
@@ -291,10 +312,13 @@ void print_left_out(const Scene& scene) {
         print_entry("fault", "fault.kind = \"none\"");
     }
     if (!e.quasi_static() && !sensor_noise(study)) {
-        print_entry("sensor noise", "sensor.noise_m_s2 is 0");
+        print_entry("sensor noise", fmt::format("{} is 0", noise_key(study)));
     }
     if (!encoder_noise(study)) {
         print_entry("encoder noise", "sensor.encoder_noise_arcsec is 0");
+    }
+    if (const std::string without = undamped(study); !without.empty()) {
+        print_entry("damping", "0 of " + without);
     }
     if (!std::isfinite(scene.decay_meshes())) {
         fmt::print("  nothing damps the vibration: no gearbox will settle on an orbit\n");
@@ -333,8 +357,11 @@ void print_effects(const Scene& scene) {
     if (!study.effects.quasi_static()) {
         print_sensor(study);
         if (sensor_noise(study)) {
-            print_entry("sensor noise", fmt::format("{:g} m/s^2 rms times the noise level",
-                                                    study.sensor.noise_m_s2));
+            print_entry(
+                "sensor noise",
+                fmt::format("{:.4g} m/s^2 rms times the noise level, {}", sensor_noise_m_s2(study),
+                            noise_by_density(study) ? "white before the low-pass and limited by it"
+                                                    : "white whatever the low-pass"));
         }
     }
     if (encoder_noise(study)) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "machine/dispatch.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/describe_effects.hpp"
@@ -25,8 +27,10 @@ std::string measured_text(const RunCalibration& calibration, const AnalysisTrial
         return "a mesh period alone, and how many the damping asks for: a batch of gearboxes takes "
                "too long";
     }
-    std::string text = fmt::format("{} gearboxes in {:.1f} s", calibration.gearboxes.size(),
-                                   calibration.wall_s + calibration.task_s);
+    std::string text =
+        fmt::format("{} gearboxes in {:.1f} s",
+                    std::ranges::count(calibration.gearboxes, 0U, &GearboxId::repeat),
+                    calibration.wall_s + calibration.task_s);
     if (calibration.recorded < calibration.to_record) {
         text +=
             fmt::format(" over {} of {} mesh periods", calibration.recorded, calibration.to_record);
@@ -50,7 +54,7 @@ std::string shares_text(const Seconds& work, double thread_s) {
 
 void print_forecast(const Scene& scene, double setup_s) {
     const Study& study = scene.study();
-    const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
+    const BatchPlan plan(study.ensemble);
     const int threads = thread_count(study);
     const RunCalibration calibration = calibrate_run(scene, plan, threads, kBudget_s);
     const AnalysisTrial trial = try_analysis(study, calibration, plan, threads, kBudget_s);

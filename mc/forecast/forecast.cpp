@@ -35,8 +35,8 @@ class Tiles {
 // Calls visit(cost, rows) for the tiles of a batch.
 template <class Visit>
 void each_tile(const Batch& batch, std::size_t lanes, Tiles& tiles, Visit visit) {
-    for (std::size_t first = 0; first < batch.count; first += lanes) {
-        visit(tiles.next(), std::min(lanes, batch.count - first));
+    for (std::size_t first = 0; first < batch.gearboxes; first += lanes) {
+        visit(tiles.next(), std::min(lanes, batch.gearboxes - first) * batch.records);
     }
 }
 

@@ -28,19 +28,28 @@ double lap(WallClock::time_point& start) {
     return seconds;
 }
 
-lockstep::TileSettings tile_settings(const Scene& scene, bool with_motion) {
+// What of a march is wanted besides its records, and what it may start from.
+struct MarchWishes {
+    bool with_motion = false;
+    bool keep_states = false;
+    const std::vector<lockstep::TileState>* healthy = nullptr;
+};
+
+lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wishes) {
     const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
     settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
     settings.march_meshes = n.horizon == Horizon::march ? scene.recorded_meshes() : 0;
     settings.run_in_meshes = run_in_meshes(scene);
-    settings.with_motion = with_motion;
+    settings.with_motion = wishes.with_motion;
+    settings.keep_states = wishes.keep_states;
+    settings.healthy = wishes.healthy;
     return settings;
 }
 
 template <int W>
-void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
+void march(const Scene& scene, std::span<const GearboxId> ids, const MarchWishes& wishes,
            GearboxTile& tile) {
     auto start = WallClock::now();
     std::vector<dynamics::GearboxInputs> inputs;
@@ -56,7 +65,7 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     const auto tooth_errors = draw_tooth_errors(scene, ids, tile.inputs);
     faults.tooth_errors = tooth_errors ? &*tooth_errors : nullptr;
     tile.stiffness_s = lap(start);
-    auto settings = tile_settings(scene, with_motion);
+    auto settings = tile_settings(scene, wishes);
     const auto excitation = draw_excitation(scene, ids, tile.inputs);
     settings.excitation = excitation ? &*excitation : nullptr;
     const double processor_start = thread_processor_s();
@@ -72,9 +81,10 @@ void march(const Scene& scene, std::span<const GearboxId> ids, bool with_motion,
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 
-void march(const Scene& scene, std::span<const GearboxId> ids, int lanes, bool with_motion,
+void march(const Scene& scene, std::span<const GearboxId> ids, const MarchWishes& wishes,
            GearboxTile& tile) {
-    with_lane_count(lanes, [&](auto width) { march<width()>(scene, ids, with_motion, tile); });
+    with_lane_count(static_cast<int>(tile.inputs.size()),
+                    [&](auto width) { march<width()>(scene, ids, wishes, tile); });
 }
 
 Status status_of(const Scene& scene, const InstanceInputs& instance, lockstep::LaneStatus status) {
@@ -143,23 +153,19 @@ void amplify(std::span<const InstanceInputs> inputs, lockstep::TileResult& march
     }
 }
 
-// What the sensors see of a tile that has been marched.
-void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 GearboxTile& tile) {
+void add_status(const Scene& scene, std::span<const GearboxId> ids, GearboxTile& tile) {
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
+}
+
+// What the sensors see of a tile that has been marched.
+void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+                 GearboxTile& tile) {
+    add_status(scene, ids, tile);
     auto start = WallClock::now();
     amplify(tile.inputs, tile.march);
-    tile.views = {static_cast<int>(tile.inputs.size()),
-                  dynamics::sources(scene.plan().layout),
-                  scene.samples_per_mesh(),
-                  {},
-                  {}};
-    for (const lockstep::MeshRecord& record : tile.march.records) {
-        tile.views.accel.push_back(record.acceleration.data());
-        tile.views.te.push_back(record.te.data());
-    }
+    tile.views = views_of(scene, tile);
     // A gearbox without inertia shakes no sensor.
     if (!scene.study().effects.quasi_static()) {
         std::vector<double> exponents;
@@ -176,15 +182,14 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
 }
 
 void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 bool with_motion, const MarchCache* marches, GearboxTile& tile) {
-    const int lanes = static_cast<int>(tile.inputs.size());
-    const MarchCache* const kept = with_motion ? nullptr : marches;
+                 const MarchWishes& wishes, const MarchCache* marches, GearboxTile& tile) {
+    const MarchCache* const kept = wishes.with_motion ? nullptr : marches;
     auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
         tile.march = *before;
         tile.march_s = lap(start);
     } else {
-        march(scene, ids, lanes, with_motion, tile);
+        march(scene, ids, wishes, tile);
         if (kept != nullptr) {
             kept->keep(tile.inputs, tile.march);
         }
@@ -197,7 +202,7 @@ GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signal
                         const MarchCache* marches) {
     GearboxTile tile =
         sampled_tile(sampler, ids, lockstep::lanes_for(scene.plan().precision, fewest));
-    run_sampled(scene, path, ids, with_motion, marches, tile);
+    run_sampled(scene, path, ids, {.with_motion = with_motion}, marches, tile);
     return tile;
 }
 
@@ -253,13 +258,36 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
 
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                      int fewest) {
+                      int fewest, bool keep_states) {
     GearboxTile tile;
     tile.inputs = std::move(inputs);
     tile.inputs.resize(
         static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest)),
         tile.inputs.back());
-    run_sampled(scene, path, ids, false, nullptr, tile);
+    run_sampled(scene, path, ids, {.keep_states = keep_states}, nullptr, tile);
+    return tile;
+}
+
+signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
+    signals::TileSignals views{static_cast<int>(tile.inputs.size()),
+                               dynamics::sources(scene.plan().layout),
+                               scene.samples_per_mesh(),
+                               {},
+                               {}};
+    for (const lockstep::MeshRecord& record : tile.march.records) {
+        views.accel.push_back(record.acceleration.data());
+        views.te.push_back(record.te.data());
+    }
+    return views;
+}
+
+GearboxTile run_changes(const Scene& scene, std::span<const GearboxId> ids,
+                        std::vector<InstanceInputs> inputs,
+                        const std::vector<lockstep::TileState>& healthy) {
+    GearboxTile tile;
+    tile.inputs = std::move(inputs);
+    march(scene, ids, {.healthy = &healthy}, tile);
+    add_status(scene, ids, tile);
     return tile;
 }
 

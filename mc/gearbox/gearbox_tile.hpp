@@ -54,10 +54,19 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
                           const MarchCache* marches = nullptr);
 
 // The judged records of gearboxes with these inputs, whatever the study's distributions say,
-// without baselines.
+// without baselines. `keep_states` as in lockstep::TileSettings.
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                      int fewest);
+                      int fewest, bool keep_states = false);
+
+// Of gearboxes with these inputs, as many as there were lanes, the meshes that their faults change,
+// marched from the states that were kept of the same without: inputs, march and status alone.
+GearboxTile run_changes(const Scene& scene, std::span<const GearboxId> ids,
+                        std::vector<InstanceInputs> inputs,
+                        const std::vector<lockstep::TileState>& healthy);
+
+// Of what was recorded of the tile's march, which must outlive them.
+signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 
 // As run_gearboxes from a march made elsewhere, of as many lanes as it has a status.
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,

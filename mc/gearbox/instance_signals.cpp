@@ -6,7 +6,9 @@
 #include "machine/wall_clock.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/noise.hpp"
 #include "signals/noise/encoder_noise.hpp"
+#include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {
@@ -27,11 +29,25 @@ class Stopwatch {
 
 }  // namespace
 
-std::vector<double> sample_noise(const Scene& scene, std::span<const double> clean,
-                                 const signals::NoiseDraw& draw, const GearboxId& id) {
+std::vector<double> low_pass_noise(const Scene& scene, const InstanceInputs& inputs,
+                                   std::size_t samples, Philox& engine) {
+    const double sample_s =
+        dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
+    std::vector<double> unit(samples);
+    signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s).draw(engine, unit);
+    return unit;
+}
+
+std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
+                                 std::span<const double> clean, const signals::NoiseDraw& draw,
+                                 const GearboxId& id) {
+    if (noise_by_density(scene.study())) {
+        Philox engine = noise_stream(scene.study(), id, "noise.sensor");
+        return low_pass_noise(scene, inputs, clean.size(), engine);
+    }
     // A gearbox has a stream for its sensor noise, one for its encoder noise, and this one for the
     // directions that spell a drawn sensor noise out sample by sample.
-    Philox engine = record_stream(scene.study(), id, "noise.sensor.direction");
+    Philox engine = noise_stream(scene.study(), id, "noise.sensor.direction");
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -46,10 +62,20 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
     }
 }
 
+int InstanceSignals::meshes() const {
+    return needs_samples_                     ? scene_.signal_meshes()
+           : noise_by_density(scene_.study()) ? scene_.span_meshes()
+                                              : 0;
+}
+
 InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
+    : InstanceSignals(scene, needs, scene.span().ring_teeth) {}
+
+InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs, int turns)
     : scene_(scene),
-      sensor_noise_(scene.span().ring_teeth),
-      windowing_(scene.span(), scene.samples_per_mesh(), scene.study().features.tukey_taper),
+      span_{scene.span().planet_teeth, turns, scene.span().carrier_meshes},
+      sensor_noise_(turns),
+      windowing_(span_, scene.samples_per_mesh(), scene.study().features.tukey_taper),
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       analysis_(scene, needs),
       needs_samples_(needs_samples(needs)),
@@ -61,16 +87,30 @@ bool InstanceSignals::senses_noise(const InstanceInputs& inputs) const {
     return highest_level_ * inputs.noise_m_s2 > 0.0;
 }
 
+void InstanceSignals::draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                        const GearboxId& id) {
+    const std::size_t bins = gearbox.folded.size();
+    const bool by_density = noise_by_density(scene_.study());
+    if (!by_density) {
+        Philox engine = noise_stream(scene_.study(), id, "noise.sensor");
+        sensor_noise_.draw(engine, bins, noise_.sensor);
+    }
+    if (!gearbox.sensor.empty()) {
+        noise_.samples = sample_noise(scene_, inputs, gearbox.sensor, noise_.sensor, id);
+    }
+    if (by_density) {
+        const std::size_t span = bins * static_cast<std::size_t>(span_.ring_teeth);
+        noise_.sensor = signals::draw_of_samples(std::span(gearbox.sensor).first(span),
+                                                 std::span(noise_.samples).first(span), bins);
+    }
+}
+
 void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
                                  const GearboxId& id) {
     const Stopwatch watch(noise_s_);
     const std::size_t bins = gearbox.folded.size();
     if (bins > 0 && senses_noise(inputs)) {
-        Philox sensor = record_stream(scene_.study(), id, "noise.sensor");
-        sensor_noise_.draw(sensor, bins, noise_.sensor);
-        if (!gearbox.sensor.empty()) {
-            noise_.samples = sample_noise(scene_, gearbox.sensor, noise_.sensor, id);
-        }
+        draw_sensor_noise(gearbox, inputs, id);
     } else {
         noise_.sensor.along.assign(bins, 0.0);
         noise_.sensor.across.assign(bins, 0.0);
@@ -78,8 +118,8 @@ void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInput
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Philox encoder = record_stream(scene_.study(), id, "noise.encoder");
-        signals::draw_encoder_noise(encoder, scene_.span().ring_teeth, noise_.encoder);
+        Philox encoder = noise_stream(scene_.study(), id, "noise.encoder");
+        signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }
 
@@ -115,7 +155,7 @@ void InstanceSignals::sensor_features(double noise, features::FeatureInput& inpu
     if (needs_samples_) {
         samples_ = gearbox_->sensor;
         add_noise(noise_.samples, noise, samples_);
-        analysis_.sensor(samples_, scene_.span().ring_teeth, offset, input);
+        analysis_.sensor(samples_, span_.ring_teeth, offset, input);
     }
 }
 
@@ -138,7 +178,7 @@ features::FeatureInput InstanceSignals::at(std::size_t level) {
     te_features(factor * encoder_rms_, input);
     input.te_turn = te_;
     input.te_amplitude = amplitude_;
-    input.planet_teeth = scene_.span().planet_teeth;
+    input.planet_teeth = span_.planet_teeth;
     input.te_harmonics = scene_.study().features.te_harmonics;
     input.tooth_rms = tooth_rms_;
     return input;

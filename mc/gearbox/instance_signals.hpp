@@ -17,8 +17,14 @@ namespace gearpod::mc {
 
 // The unit noise of every sample of a gearbox's noise-free sensor signal, which begins with the
 // span: there it folds to what `draw` says, and beyond it is drawn sample by sample.
-std::vector<double> sample_noise(const Scene& scene, std::span<const double> clean,
-                                 const signals::NoiseDraw& draw, const GearboxId& id);
+// Noise given by its density is drawn sample by sample throughout, and `draw` follows from it.
+std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
+                                 std::span<const double> clean, const signals::NoiseDraw& draw,
+                                 const GearboxId& id);
+// The unit noise behind the low-pass of a sensor whose noise is given by density. Where the speed
+// fluctuates, samples count as spaced evenly.
+std::vector<double> low_pass_noise(const Scene& scene, const InstanceInputs& inputs,
+                                   std::size_t samples, Philox& engine);
 // samples[i] += sigma * unit[i]
 void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
 
@@ -34,9 +40,12 @@ class InstanceSignals {
   public:
     // For features with these needs.
     InstanceSignals(const Scene& scene, unsigned needs);
+    // The same of signals folded over so many turns of a planet, not over the scene's span: for
+    // features that look at no samples. At least 3.
+    InstanceSignals(const Scene& scene, unsigned needs, int turns);
 
     // Mesh periods of sensor signal that LaneSignals must hold, perhaps none.
-    int meshes() const { return needs_samples_ ? scene_.signal_meshes() : 0; }
+    int meshes() const;
 
     // The next gearbox, which must live as long as at() is asked for it: with noise drawn for it,
     // or with that noise.
@@ -52,6 +61,8 @@ class InstanceSignals {
   private:
     // Whether any level adds noise to the sensor.
     bool senses_noise(const InstanceInputs& inputs) const;
+    void draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                           const GearboxId& id);
     // Zeros for what no level adds.
     void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
     void load_signals(const LaneSignals& gearbox, const InstanceInputs& inputs);
@@ -60,6 +71,7 @@ class InstanceSignals {
     void te_features(double noise, features::FeatureInput& input);
 
     const Scene& scene_;
+    const signals::SpanLayout span_;
     signals::SensorNoise sensor_noise_;
     signals::Windowing windowing_;
     signals::OrderSpectrum spectrum_;

@@ -20,7 +20,8 @@ static_assert(std::is_trivially_copyable_v<InstanceInputs> &&
 std::string key_of(std::span<const InstanceInputs> lanes) {
     std::string key;
     for (InstanceInputs inputs : lanes) {
-        inputs.path_exponent = inputs.gain = inputs.noise_m_s2 = inputs.encoder_noise_rad = 0.0;
+        inputs.path_exponent = inputs.gain = inputs.tone_level = 0.0;
+        inputs.noise_m_s2 = inputs.encoder_noise_rad = 0.0;
         key.append(reinterpret_cast<const char*>(&inputs), sizeof inputs);
     }
     return key;
@@ -64,7 +65,7 @@ MarchCounts count_marches(const Scene& scene, const BatchPlan& plan, double moti
     // More distinct ones than that do not come again before they are many.
     constexpr std::size_t kMostDistinct = 2000;
     const auto lanes = static_cast<std::size_t>(scene.study().numerics.lanes);
-    const std::array<std::size_t, 2> rows{plan.threshold_rows(), plan.graded_rows()};
+    const std::array<std::size_t, 2> rows{plan.threshold_gearboxes(), plan.graded_rows()};
     const std::size_t distinct = distinct_marches(scene).value_or(kMostDistinct + 1);
     MarchCounts counts;
     std::set<std::string> keys;

@@ -25,11 +25,11 @@ constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
 constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s
 
-// 0, 1, 2, ... over `rate`.
-std::vector<double> counted(std::size_t samples, double rate) {
-    std::vector<double> values(samples);
-    for (std::size_t i = 0; i < samples; ++i) {
-        values[i] = static_cast<double>(i) / rate;
+std::vector<double> scaled(std::vector<double> values, double factor) {
+    if (factor != 1.0) {
+        for (double& value : values) {
+            value *= factor;
+        }
     }
     return values;
 }
@@ -77,9 +77,7 @@ class Reading {
         const double ratio = speed_of_lines(measured);
         stop_at_problems();
         if (ratio != 1.0) {
-            for (double& value : phase) {
-                value *= ratio;
-            }
+            phase = scaled(std::move(phase), ratio);
             measured.tracking += fmt::format(", times {:.5f} after the mesh lines", ratio);
             resample(sensor, te, phase, measured);
         }
@@ -144,14 +142,18 @@ class Reading {
         return factor.value_or(1.0);
     }
 
+    // A column that was asked for.
+    std::vector<double> present(const std::string& name, Quantity quantity) {
+        if (!file_->has(name)) {
+            reject_missing(name);
+            return {};
+        }
+        return column(name, quantity);
+    }
+
     // A column of finite numbers as long as the others.
     std::vector<double> column(const std::string& name, Quantity quantity) {
-        std::vector<double> values = file_->read(name);
-        if (const double times = factor(name, quantity); times != 1.0) {
-            for (double& value : values) {
-                value *= times;
-            }
-        }
+        std::vector<double> values = scaled(file_->read(name), factor(name, quantity));
         reject_column(name, bad_values(values));
         if (values.size() < 2) {
             reject(fmt::format("column {} has {} sample(s)", name, values.size()));
@@ -211,6 +213,9 @@ class Reading {
         if (!wanted_.tachometer.empty()) {
             return phases_of_pulses(how);
         }
+        if (!wanted_.encoder.empty()) {
+            return phases_of_angle(how);
+        }
         if (file_->has(kPhase) && wanted_.sampling_Hz <= 0.0) {
             how = "column mesh_phase";
             return rising(column(kPhase, Quantity::phase));
@@ -223,13 +228,10 @@ class Reading {
         if (!file_->has(kSpeed)) {
             how = fmt::format("constant speed, {:.6g} Hz at the mesh",
                               scene_.nominal_mesh_frequency_Hz());
-            for (double& value : phase) {
-                value *= scene_.nominal_mesh_frequency_Hz();
-            }
-            return phase;
+            return scaled(std::move(phase), scene_.nominal_mesh_frequency_Hz());
         }
         const std::vector<double> speed_rpm = column(kSpeed, Quantity::speed);
-        check_direction(speed_rpm);
+        reject_column(kSpeed, turning_about(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
                   : "column speed_rpm, which is negative: turning backwards";
@@ -238,11 +240,7 @@ class Reading {
 
     // Of a tachometer; the samples between its first pulse and its last are left.
     std::vector<double> phases_of_pulses(std::string& how) {
-        if (!file_->has(wanted_.tachometer)) {
-            reject_missing(wanted_.tachometer);
-            return {};
-        }
-        const std::vector<double> heights = column(wanted_.tachometer, Quantity::phase);
+        const std::vector<double> heights = present(wanted_.tachometer, Quantity::phase);
         const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
         reject_column(wanted_.tachometer, pulses.problem);
         if (!problems_.empty()) {
@@ -251,15 +249,28 @@ class Reading {
         how = fmt::format("{} pulses of column {}, {:g} a turn", pulses.at.size(),
                           wanted_.tachometer, wanted_.pulses_per_turn);
         PulseCount counted = count_pulses(pulses.at);
-        // A turn a second is as many meshes as radians a second.
-        const double meshes_per_pulse =
-            std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
-            (2.0 * std::numbers::pi) / wanted_.pulses_per_turn;
-        for (double& phase : counted.count) {
-            phase *= meshes_per_pulse;
-        }
         first_sample_ = counted.first;
-        return std::move(counted.count);
+        return scaled(std::move(counted.count), meshes_per_turn() / wanted_.pulses_per_turn);
+    }
+
+    // Of an encoder; samples before its first count and behind its last are cut.
+    std::vector<double> phases_of_angle(std::string& how) {
+        std::vector<double> written = present(wanted_.encoder, Quantity::angle);
+        if (!problems_.empty()) {
+            return {};
+        }
+        ShaftAngle angle = shaft_angle(std::move(written));
+        reject_column(wanted_.encoder, angle.problem);
+        how = fmt::format("angles of column {}", wanted_.encoder);
+        first_sample_ = angle.first;
+        return scaled(std::move(angle.rad), meshes_per_turn() / (2.0 * std::numbers::pi));
+    }
+
+    // Of the member whose speed the study gives.
+    double meshes_per_turn() const {
+        // A turn a second is as many meshes as radians a second.
+        return std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
+               (2.0 * std::numbers::pi);
     }
 
     void keep(std::vector<double>& signal, std::size_t count) const {
@@ -305,33 +316,19 @@ class Reading {
                                   measured.losses_noticed));
     }
 
-    // A gearbox that turns about passes its meshes again, and loads its other flanks.
-    void check_direction(const std::vector<double>& speed_rpm) {
-        const auto other = std::find_if(speed_rpm.begin(), speed_rpm.end(),
-                                        [&](double rpm) { return rpm * speed_rpm.front() < 0.0; });
-        if (other != speed_rpm.end()) {
-            reject(fmt::format("column {} changes its sign at sample {}; cut the recording there",
-                               kSpeed, other - speed_rpm.begin() + 1));
-        }
-    }
-
-    // Trapezoidal rule. Backwards is as good as forwards.
+    // Backwards is as good as forwards.
     std::vector<double> integrated(const std::vector<double>& time,
                                    const std::vector<double>& speed_rpm) {
         if (!problems_.empty()) {
             return {};
         }
-        const auto frequency_Hz = [&](double rpm) {
-            return std::abs(scene_.drive().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
-                   (2.0 * std::numbers::pi);
-        };
-        std::vector<double> phase(time.size(), 0.0);
-        for (std::size_t i = 1; i < time.size(); ++i) {
-            phase[i] =
-                phase[i - 1] + 0.5 * (time[i] - time[i - 1]) *
-                                   (frequency_Hz(speed_rpm[i - 1]) + frequency_Hz(speed_rpm[i]));
+        std::vector<double> frequency_Hz;
+        for (const double rpm : speed_rpm) {
+            frequency_Hz.push_back(
+                std::abs(scene_.drive().mesh_frequency_rad_s(std::abs(rpm) * kRpm)) /
+                (2.0 * std::numbers::pi));
         }
-        return rising(std::move(phase));
+        return rising(integral(time, frequency_Hz));
     }
 
     std::vector<double> rising(std::vector<double> phase) {

@@ -27,6 +27,7 @@ struct SignalColumns {
     std::string sensor_unit = {};         // where the file says none; "": m/s^2
     std::string tachometer = {};  // pulses of the member whose speed the study gives; "": none
     double pulses_per_turn = 1.0;
+    std::string encoder = {};  // angle of that member; "": none
     SpeedCheck speed = SpeedCheck::refuse;
 };
 
@@ -48,6 +49,7 @@ struct MeasuredSignal {
 //                          averages, which go on from their beginning
 //     column mesh_phase    mesh periods
 //     a tachometer         its pulses, counted; what is not between the first and the last is cut
+//     an encoder           its angle, unwrapped
 //     column speed_rpm     of the member whose speed the study gives, integrated over the time
 //     otherwise            the study's speed, which is then constant
 //

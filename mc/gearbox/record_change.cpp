@@ -26,19 +26,6 @@ std::size_t turn_samples(const Scene& scene) {
            static_cast<std::size_t>(scene.samples_per_mesh());
 }
 
-// The draw that a noise of every sample comes to; Z is 0 where the signal is.
-signals::NoiseDraw draw_of(std::span<const double> signal, std::span<const double> noise,
-                           std::size_t bins) {
-    const std::vector<double> squares = signals::fold_of_squares(signal, bins);
-    signals::NoiseDraw draw{signals::fold_of_products(signal, noise, bins),
-                            signals::fold_of_squares(noise, bins)};
-    for (std::size_t b = 0; b < bins; ++b) {
-        draw.along[b] = squares[b] > 0.0 ? draw.along[b] / std::sqrt(squares[b]) : 0.0;
-        draw.across[b] = std::max(0.0, draw.across[b] - draw.along[b] * draw.along[b]);
-    }
-    return draw;
-}
-
 }  // namespace
 
 LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record) {
@@ -54,8 +41,8 @@ NoiseOfInstance noise_of_change(const Scene& scene, const LaneSignals& change,
     NoiseOfInstance noise;
     noise.samples = less(record.samples, baseline.samples);
     noise.encoder = less(record.encoder, baseline.encoder);
-    noise.sensor =
-        draw_of(folding(scene, change.sensor), folding(scene, noise.samples), turn_samples(scene));
+    noise.sensor = signals::draw_of_samples(folding(scene, change.sensor),
+                                            folding(scene, noise.samples), turn_samples(scene));
     return noise;
 }
 

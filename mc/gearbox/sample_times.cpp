@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "machine/upper_median.hpp"
 #include "signals/spectra/lost_samples.hpp"
@@ -170,6 +171,91 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
                             length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
     }
     return out;
+}
+
+namespace {
+
+// Goes on behind each turn, and upwards.
+void unwrap(std::vector<double>& angle) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    double turns = 0.0, before = angle.front();
+    for (double& value : angle) {
+        turns -= std::round((value - before) / kTurn);
+        before = value;
+        value += turns * kTurn;
+    }
+    if (angle.back() < angle.front()) {
+        for (double& value : angle) {
+            value = -value;
+        }
+    }
+}
+
+}  // namespace
+
+ShaftAngle shaft_angle(std::vector<double> column) {
+    unwrap(column);
+    ShaftAngle angle;
+    const auto fall = std::adjacent_find(column.begin(), column.end(), std::greater<>());
+    const auto samples = [](auto from, auto to) { return static_cast<std::size_t>(to - from); };
+    if (fall != column.end()) {
+        angle.problem = fmt::format(
+            "turns back by {:.3g} rad from sample {} to the next; cut the "
+            "recording there",
+            *fall - *(fall + 1), samples(column.begin(), fall) + 1);
+        return angle;
+    }
+    if (std::adjacent_find(column.begin(), column.end()) == column.end()) {
+        angle.rad = std::move(column);
+        return angle;
+    }
+    // Half a sample before a count's first one the shaft is half-way to it.
+    std::vector<double> at, half_way;
+    for (std::size_t i = 1; i < column.size(); ++i) {
+        if (column[i] > column[i - 1]) {
+            at.push_back(static_cast<double>(i) - 0.5);
+            half_way.push_back(0.5 * (column[i] + column[i - 1]));
+        }
+    }
+    if (at.size() < 3) {
+        angle.problem = fmt::format("changes at {} sample(s) alone", at.size());
+        return angle;
+    }
+    angle.first = static_cast<std::size_t>(std::ceil(at.front()));
+    std::size_t k = 0;
+    for (auto i = static_cast<double>(angle.first); i <= at.back(); i += 1.0) {
+        while (i > at[k + 1]) {
+            ++k;
+        }
+        angle.rad.push_back(
+            std::lerp(half_way[k], half_way[k + 1], (i - at[k]) / (at[k + 1] - at[k])));
+    }
+    return angle;
+}
+
+std::vector<double> counted(std::size_t samples, double rate) {
+    std::vector<double> values(samples);
+    for (std::size_t i = 0; i < samples; ++i) {
+        values[i] = static_cast<double>(i) / rate;
+    }
+    return values;
+}
+
+std::string turning_about(std::span<const double> speed) {
+    const auto other =
+        std::ranges::find_if(speed, [&](double value) { return value * speed.front() < 0.0; });
+    return other == speed.end()
+               ? ""
+               : fmt::format("changes its sign at sample {}; cut the recording there",
+                             other - speed.begin() + 1);
+}
+
+std::vector<double> integral(std::span<const double> time, std::span<const double> rate) {
+    std::vector<double> sum(time.size(), 0.0);
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        sum[i] = sum[i - 1] + 0.5 * (time[i] - time[i - 1]) * (rate[i - 1] + rate[i]);
+    }
+    return sum;
 }
 
 void close_turn(const std::vector<std::vector<double>*>& signals, std::vector<double>& phase,

@@ -1,5 +1,5 @@
 // When the samples of a recording were taken: columns of time as they are written, pulses of a
-// tachometer, and what tells that samples are missing or were cut off.
+// tachometer, angles of an encoder, and what tells that samples are missing or were cut off.
 #pragma once
 
 #include <span>
@@ -33,6 +33,26 @@ struct PulseCount {
     std::vector<double> count;
 };
 PulseCount count_pulses(const std::vector<double>& pulses);
+
+// Angles of a shaft, rad, at the samples from `first` on, rising; or what is wrong with them.
+struct ShaftAngle {
+    std::size_t first = 0;
+    std::vector<double> rad;
+    std::string problem;
+};
+// Of an encoder's angle, which may begin anew after a turn and may fall: turning backwards. Where
+// samples repeat a count, the angle is between two counts when it changes, and linear in between.
+ShaftAngle shaft_angle(std::vector<double> column);
+
+// 0, 1, 2, ... over `rate`.
+std::vector<double> counted(std::size_t samples, double rate);
+
+// "" unless a speed changes its sign: a gearbox that turns about passes its meshes again, and loads
+// its other flanks.
+std::string turning_about(std::span<const double> speed);
+
+// Of a rate over the time from the first sample on, by the trapezoidal rule.
+std::vector<double> integral(std::span<const double> time, std::span<const double> rate);
 
 // Whole turns of so many samples, as averages are kept, go on from their beginning: without that a
 // finer grid's points behind the last sample would be lost, and the last mesh with them. Adds some

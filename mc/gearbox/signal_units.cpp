@@ -26,7 +26,8 @@ constexpr Unit kAngles[] = {{"rad", 1.0},
                             {"deg", kDegree},
                             {"°", kDegree, false},
                             {"arcmin", kDegree / 60.0},
-                            {"arcsec", kDegree / 3600.0}};
+                            {"arcsec", kDegree / 3600.0},
+                            {"turns", 2.0 * std::numbers::pi}};
 constexpr Unit kTimes[] = {
     {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6, false}, {"min", 60.0}};
 constexpr Unit kSpeeds[] = {

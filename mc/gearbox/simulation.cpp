@@ -53,7 +53,7 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
                 Simulation& out) {
     const InstanceInputs& inputs = tile.inputs[0];
     const auto clean = lane_signals(scene, path, tile, 0, scene.signal_meshes()).sensor;
-    const auto noise = sample_noise(scene, clean, features.noise().sensor, id);
+    const auto noise = sample_noise(scene, inputs, clean, features.noise().sensor, id);
     const auto first = [&](const std::vector<double>& all) {
         return std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
     };
@@ -96,9 +96,11 @@ std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
 }  // namespace
 
 GearboxId id_of_row(const Study& study, long row) {
-    const long thresholds = study.ensemble.threshold_instances;
+    const long records = study.ensemble.threshold_records;
+    const long thresholds = study.ensemble.threshold_instances * records;
     return row < thresholds
-               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row)}
+               ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
+                           Record::judged, static_cast<std::uint64_t>(row % records)}
                : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
 }
 

@@ -128,7 +128,9 @@ signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
     }
     for (const Tone& tone : wanted) {
         tones.frequency_Hz.insert(tones.frequency_Hz.end(), lanes, tone.frequency_Hz);
-        tones.amplitude_m_s2.insert(tones.amplitude_m_s2.end(), lanes, tone.amplitude_m_s2);
+        for (const InstanceInputs& one : inputs) {
+            tones.amplitude_m_s2.push_back(one.tone_level * tone.amplitude_m_s2);
+        }
     }
     return tones;
 }

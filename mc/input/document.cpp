@@ -183,6 +183,20 @@ bool overridden(const Entry& entry) {
            std::any_of(entry.value.entries.begin(), entry.value.entries.end(), overridden);
 }
 
+// Drops the correlations of a random input.
+void uncorrelate(Entry& random, const std::string& key) {
+    for (Entry& entry : random.value.entries) {
+        if (entry.name == "correlations") {
+            std::erase_if(entry.value.elements, [&](const Value& pair) {
+                const Entry* between = pair.find("between");
+                return between != nullptr &&
+                       std::ranges::any_of(between->value.elements,
+                                           [&](const Value& one) { return one.text == key; });
+            });
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -271,7 +285,12 @@ void drop_overridden_random(Value& document) {
         }
         std::erase_if(section.value.entries, [&](const Entry& key) {
             const Entry* value = plain->value.find(key.name);
-            return value != nullptr && value->position.file == kOverrideFile && !overridden(key);
+            const bool dropped =
+                value != nullptr && value->position.file == kOverrideFile && !overridden(key);
+            if (dropped) {
+                uncorrelate(*random, section.name + "." + key.name);
+            }
+            return dropped;
         });
     }
 }

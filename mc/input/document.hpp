@@ -41,7 +41,8 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
 void apply_override(Value& document, const std::string& assignment, Problems& problems);
 
 // Drops random.section.key wherever an override set section.key and none set anything of
-// random.section.key: the value given is meant for all gearboxes.
+// random.section.key, and the correlations that name it: the value given is meant for all
+// gearboxes.
 void drop_overridden_random(Value& document);
 
 // The whole file; a problem if it cannot be read.

@@ -19,11 +19,13 @@ void add(std::span<const double> values, double factor, std::vector<double>& sum
 
 }  // namespace
 
-ComposedSignals::ComposedSignals(std::span<const LaneSignals* const> basis, std::size_t bins)
-    : count_(basis.size()) {
+ComposedSignals::ComposedSignals(std::span<const LaneSignals* const> basis, std::size_t bins,
+                                 bool folds)
+    : bins_(bins), count_(basis.size()) {
     for (std::size_t k = 0; k < count_; ++k) {
+        samples_.emplace_back(basis[k]->sensor);
         te_turns_.push_back(basis[k]->te_turn);
-        for (std::size_t l = k; l < count_; ++l) {
+        for (std::size_t l = k; folds && l < count_; ++l) {
             products_.push_back(
                 signals::fold_of_products(basis[k]->sensor, basis[l]->sensor, bins));
         }
@@ -32,11 +34,11 @@ ComposedSignals::ComposedSignals(std::span<const LaneSignals* const> basis, std:
 
 LaneSignals ComposedSignals::at(std::span<const double> coefficients) const {
     LaneSignals sum;
-    sum.folded.assign(products_.front().size(), 0.0);
+    sum.folded.assign(products_.empty() ? 0 : bins_, 0.0);
     std::size_t product = 0;
     for (std::size_t k = 0; k < count_; ++k) {
         add(te_turns_[k], coefficients[k], sum.te_turn);
-        for (std::size_t l = k; l < count_; ++l, ++product) {
+        for (std::size_t l = k; product < products_.size() && l < count_; ++l, ++product) {
             const double twice = k == l ? 1.0 : 2.0;
             add(products_[product], twice * coefficients[k] * coefficients[l], sum.folded);
         }
@@ -46,6 +48,23 @@ LaneSignals ComposedSignals::at(std::span<const double> coefficients) const {
         value = std::max(0.0, value);
     }
     return sum;
+}
+
+void ComposedSignals::add_turns(std::span<const double> coefficients, std::size_t first,
+                                std::size_t turns, std::vector<double>& folded) const {
+    const std::size_t all = samples_.front().size() / bins_;
+    folded.resize(bins_, 0.0);
+    std::vector<double> turn(bins_);
+    for (std::size_t i = 0; i < turns; ++i) {
+        const std::size_t begin = (first + i) % all * bins_;
+        std::ranges::fill(turn, 0.0);
+        for (std::size_t k = 0; k < count_; ++k) {
+            add(samples_[k].subspan(begin, bins_), coefficients[k], turn);
+        }
+        for (std::size_t b = 0; b < bins_; ++b) {
+            folded[b] += turn[b] * turn[b];
+        }
+    }
 }
 
 }  // namespace gearpod::mc

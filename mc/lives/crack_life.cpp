@@ -1,5 +1,6 @@
 #include "mc/lives/crack_life.hpp"
 
+#include <algorithm>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <numbers>
@@ -17,6 +18,14 @@ stiffness::RootCrack root_crack(const Scene& scene) {
     const FaultPlace place = fault_places(study.fault).front();
     return {scene.meshes()[place.mesh].geometry.value(), profile_of(study), place.gear,
             crack_angle_rad(study), study.gearbox.face_width_m.value()};
+}
+
+// Linear between the points of a curve, whose ends go on beyond it.
+double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {
+    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - at.begin());
+    const double share = (x - at[i - 1]) / (at[i] - at[i - 1]);
+    return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
 }  // namespace
@@ -53,12 +62,30 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
         record.noise = std::exp(life.noise_scatter * unit(engine));
         history.records.push_back(record);
     }
+    if (life.speed_scatter > 0.0) {
+        Philox speeds = gearbox_stream(study, id, "life.speeds");
+        boost::random::normal_distribution<double> of_speed;
+        for (LifeRecord& record : history.records) {
+            record.speed = std::exp(life.speed_scatter * of_speed(speeds));
+        }
+    }
     history.first_cracked = history.records.size();
     if (cracked) {
         history.first_cracked = static_cast<std::size_t>(study.monitoring.baseline_records);
-        grow(inputs, history);
+        life.curve_h.empty() ? grow(inputs, history) : follow_curve(inputs, history);
     }
     return history;
+}
+
+double CrackLife::force_N(const InstanceInputs& inputs, const LifeRecord& record) const {
+    InstanceInputs loaded = inputs;
+    loaded.torque_N_m *= record.torque;
+    return scene_.drive().mesh_force_N(loaded);
+}
+
+bool CrackLife::breaks(const InstanceInputs& inputs, const LifeRecord& record) const {
+    const auto& toughness = scene_.study().life.fracture_toughness_Pa_m05;
+    return toughness && force_N(inputs, record) * range_per_force(record.depth_m) >= *toughness;
 }
 
 void CrackLife::grow(const InstanceInputs& inputs, LifeHistory& history) const {
@@ -73,24 +100,48 @@ void CrackLife::grow(const InstanceInputs& inputs, LifeHistory& history) const {
     for (std::size_t i = history.first_cracked; i < history.records.size(); ++i) {
         LifeRecord& record = history.records[i];
         record.depth_m = growth.depth_after(damage);
-        InstanceInputs loaded = inputs;
-        loaded.torque_N_m *= record.torque;
-        const double force = scene_.drive().mesh_force_N(loaded);
-        const bool breaks =
-            life.fracture_toughness_Pa_m05 &&
-            force * range_per_force(record.depth_m) >= *life.fracture_toughness_Pa_m05;
-        if (breaks) {
+        if (breaks(inputs, record)) {
             history.end_hours = record.hours;
             history.records.resize(i);
             return;
         }
-        const double more = growth.damage_of(force, cycles);
+        const double more = growth.damage_of(force_N(inputs, record), cycles * record.speed);
         if (damage + more >= whole) {
             history.end_hours = record.hours + *life.interval_h * (whole - damage) / more;
             history.records.resize(i + 1);
             return;
         }
         damage += more;
+    }
+}
+
+void CrackLife::follow_curve(const InstanceInputs& inputs, LifeHistory& history) const {
+    const Life& life = scene_.study().life;
+    if (history.first_cracked >= history.records.size()) {
+        return;
+    }
+    const double begin_h = history.records[history.first_cracked].hours;
+    const double end_h =
+        begin_h +
+        interpolated(life.curve_depth_m, life.curve_h, *life.last_depth_m) / inputs.curve_pace;
+    for (std::size_t i = history.first_cracked; i < history.records.size(); ++i) {
+        LifeRecord& record = history.records[i];
+        if (record.hours >= end_h) {
+            history.end_hours = end_h;
+            history.records.resize(i);
+            return;
+        }
+        record.depth_m = std::min(*life.last_depth_m,
+                                  interpolated(life.curve_h, life.curve_depth_m,
+                                               (record.hours - begin_h) * inputs.curve_pace));
+        if (breaks(inputs, record)) {
+            history.end_hours = record.hours;
+            history.records.resize(i);
+            return;
+        }
+    }
+    if (history.records.back().hours + *life.interval_h >= end_h) {
+        history.end_hours = end_h;
     }
 }
 

@@ -14,7 +14,7 @@ namespace gearpod::mc {
 struct LifeRecord {
     double hours = 0.0;
     double depth_m = 0.0;  // 0: no crack yet
-    double torque = 1.0, gain = 1.0, noise = 1.0;
+    double torque = 1.0, speed = 1.0, gain = 1.0, noise = 1.0;
 };
 
 struct LifeHistory {
@@ -23,9 +23,9 @@ struct LifeHistory {
     std::optional<double> end_hours;  // when the tooth went; empty while it holds
 };
 
-// Growth at the root of the study's faulty tooth by Paris' law: the torque of a record acts until
-// the next one. The force is the static one of the mesh, shared evenly by the planets. The study
-// must have a life.
+// Growth at the root of the study's faulty tooth by Paris' law, or along the study's curve: the
+// torque and speed of a record act until the next one. The force is the static one of the mesh,
+// shared evenly by the planets. The study must have a life.
 class CrackLife {
   public:
     explicit CrackLife(const Scene& scene);
@@ -40,7 +40,11 @@ class CrackLife {
     LifeHistory history(const GearboxId& id, const InstanceInputs& inputs, bool cracked) const;
 
   private:
+    // Both end the history when the tooth goes.
     void grow(const InstanceInputs& inputs, LifeHistory& history) const;
+    void follow_curve(const InstanceInputs& inputs, LifeHistory& history) const;
+    bool breaks(const InstanceInputs& inputs, const LifeRecord& record) const;
+    double force_N(const InstanceInputs& inputs, const LifeRecord& record) const;
 
     const Scene& scene_;
     stiffness::RootCrack crack_;

@@ -1,6 +1,7 @@
 #include "mc/lives/life_tile.hpp"
 
 #include <algorithm>
+#include <boost/random/uniform_int_distribution.hpp>
 #include <cmath>
 
 #include "machine/stop.hpp"
@@ -8,8 +9,6 @@
 #include "mc/gearbox/instance_signals.hpp"
 #include "mc/lives/composed_signals.hpp"
 #include "mc/scene/feature_needs.hpp"
-#include "mc/scene/scene_error.hpp"
-#include "mc/study/fluctuations.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {
@@ -23,48 +22,13 @@ bool compares_change(const LaneFeatures& features) {
     });
 }
 
-void check_composable(const Study& study) {
-    const auto reject = [](const char* key, const std::string& what, const char* remedy) {
-        throw SceneError(key, what, remedy);
-    };
-    if (!study.life.interval_h) {
-        reject("life.interval_h", "missing: how often a gearbox is measured", "add [life]");
+// How much of each of factors_about() makes up another factor.
+std::vector<double> shares_of(const std::vector<double>& factors, double factor) {
+    if (factors.size() == 1) {
+        return {1.0};
     }
-    for (const features::Feature* feature : used_features(study)) {
-        const bool own = feature->compared == features::Compared::baseline;
-        if (own || (feature->needs & ~features::kChange) != 0) {
-            reject("features.use",
-                   "\"" + std::string(feature->name) +
-                       (own ? "\": a life has its own baseline (monitoring.baseline_records)"
-                            : "\" looks at samples, and records are composed of folded squares"),
-                   "use te_..., sensor_rms, window_ratio, window_z, change_window_ratio or "
-                   "change_window_z");
-        }
-    }
-    if (study.effects.quasi_static()) {
-        reject("effects.motion", "without inertia there is no sensor to compose records for",
-               "use motion = \"translational-torsional\" or \"torsional\"");
-    }
-    if (study.sensor.noise_levels.size() != 1) {
-        reject("sensor.noise_levels", "a life has one noise", "use noise_levels = [1]");
-    }
-    if (draws_fluctuations(study) || !study.sensor.tones.empty()) {
-        reject("life.interval_h",
-               "records are composed of steady signals, and the study has fluctuations, gravity or "
-               "tones that begin anew in each",
-               "leave them out");
-    }
-}
-
-// Rms of signal - (a share_a + b share_b).
-double rms_apart(std::span<const double> signal, std::span<const double> a, double share_a,
-                 std::span<const double> b, double share_b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        const double miss = signal[i] - share_a * a[i] - share_b * b[i];
-        sum += miss * miss;
-    }
-    return std::sqrt(sum / static_cast<double>(signal.size()));
+    const double high = (factor - factors[0]) / (factors[1] - factors[0]);
+    return {1.0 - high, high};
 }
 
 // Streams of a record's own, far behind those of all gearboxes. The first record's are the
@@ -85,8 +49,9 @@ class LifeTiles::Lane {
           inputs_(tiles.inputs(id)),
           features_(used_features(tiles.scene_.study())),
           compares_(compares_change(features_)),
-          record_(tiles.scene_, 0),
-          change_(tiles.scene_, 0) {
+          span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
+          record_(tiles.scene_, 0, span_.turns * span_.recordings),
+          change_(tiles.scene_, 0, span_.turns * span_.recordings) {
         life_.history = tiles.crack_.history(id, inputs_, cracked);
         life_.values.assign(features_.size(),
                             std::vector<double>(life_.history.records.size(), 0.0));
@@ -101,29 +66,36 @@ class LifeTiles::Lane {
     bool failed() const { return life_.status != Status::ok; }
 
     // The pattern that changes are counted from: as many records as the baseline has, before the
-    // first one, each at its torque, averaged.
+    // first one, each at its torque and speed, averaged. Recordings that are short count as many
+    // as make up the span, which is heard once at least.
     void learn(const std::vector<LaneSignals>& healthy) {
         if (!compares_) {
             return;
         }
         const Study& study = tiles_.scene_.study();
         const auto records = static_cast<double>(std::max(1, study.monitoring.baseline_records));
+        const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
         noise_.sensor.resize(healthy.front().sensor.size());
         noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
         Philox engine = gearbox_stream(study, id_, "life.pattern.noise");
         signals::draw_normals(engine, std::span(noise_.sensor));
         const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
-                             std::sqrt(records) *
+                             std::sqrt(std::max(1.0, records * spans)) *
                              std::exp(study.life.noise_scatter * study.life.noise_scatter);
         for (double& value : noise_.sensor) {
             value *= sigma;
         }
-        Philox torques = gearbox_stream(study, id_, "life.pattern.torque");
-        std::vector<double> unit(static_cast<std::size_t>(records));
-        signals::draw_normals(torques, std::span(unit));
+        const auto draws = [&](const char* purpose) {
+            Philox own = gearbox_stream(study, id_, purpose);
+            std::vector<double> unit(static_cast<std::size_t>(records));
+            signals::draw_normals(own, std::span(unit));
+            return unit;
+        };
+        const auto torques = draws("life.pattern.torque"), speeds = draws("life.pattern.speed");
         pattern_.assign(healthy.size(), 0.0);
-        for (const double one : unit) {
-            const auto shares = tiles_.shares(std::exp(study.life.torque_scatter * one));
+        for (std::size_t i = 0; i < torques.size(); ++i) {
+            const auto shares = tiles_.shares({std::exp(study.life.torque_scatter * torques[i]),
+                                               std::exp(study.life.speed_scatter * speeds[i])});
             for (std::size_t t = 0; t < shares.size(); ++t) {
                 pattern_[t] += inputs_.gain * shares[t] / records;
             }
@@ -131,7 +103,7 @@ class LifeTiles::Lane {
     }
 
     // Records whose depth lies in (low, high], with `low` 0 those without a crack too. Signals by
-    // torque at no depth, at low and at high; those at high may be empty if none lies above low.
+    // load at no depth, at low and at high; those at high may be empty if none lies above low.
     void listen(double low, double high, const std::vector<LaneSignals>& healthy,
                 const std::vector<LaneSignals>& at_low, const std::vector<LaneSignals>& at_high) {
         std::vector<std::size_t> here;
@@ -160,7 +132,7 @@ class LifeTiles::Lane {
         }
         const std::size_t bins = static_cast<std::size_t>(tiles_.scene_.span().planet_teeth) *
                                  static_cast<std::size_t>(tiles_.scene_.samples_per_mesh());
-        const ComposedSignals composed(basis, bins);
+        const ComposedSignals composed(basis, bins, span_.turns >= span_.all_turns);
         for (const std::size_t r : here) {
             machine::leave_if_stopped();
             add_record(r, low, high, composed, basis.size());
@@ -171,7 +143,7 @@ class LifeTiles::Lane {
     void add_record(std::size_t r, double low, double high, const ComposedSignals& composed,
                     std::size_t parts) {
         const LifeRecord& record = life_.history.records[r];
-        const std::vector<double> shares = tiles_.shares(record.torque);
+        const std::vector<double> shares = tiles_.shares({record.torque, record.speed});
         const double deep = record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
         std::vector<double> coefficients(parts, 0.0);
         const std::size_t n = shares.size();
@@ -185,7 +157,8 @@ class LifeTiles::Lane {
         InstanceInputs inputs = inputs_;
         inputs.noise_m_s2 *= record.noise;
         inputs.encoder_noise_rad *= record.noise;
-        LaneSignals own = composed.at(coefficients);
+        const std::vector<std::size_t> starts = starts_of(r);
+        LaneSignals own = heard(composed, coefficients, starts);
         for (double& value : own.te_turn) {
             value /= inputs_.gain * record.gain;  // of the sensor alone
         }
@@ -197,7 +170,7 @@ class LifeTiles::Lane {
                 coefficients[t] -= pattern_[t];
             }
             coefficients.back() = -1.0;
-            changed = composed.at(coefficients);
+            changed = heard(composed, coefficients, starts);
             change_.load(changed, inputs, record_id(id_, r, true));
             change = change_.at(0);
             input.change = &change;
@@ -208,19 +181,55 @@ class LifeTiles::Lane {
         }
     }
 
+    // The turns with which a record's recordings begin; none where they hold all turns.
+    std::vector<std::size_t> starts_of(std::size_t r) const {
+        std::vector<std::size_t> starts;
+        if (!span_.whole()) {
+            Philox engine =
+                gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false), "life.starts");
+            boost::random::uniform_int_distribution<std::size_t> turn(
+                0, static_cast<std::size_t>(span_.all_turns) - 1);
+            for (int i = 0; i < span_.recordings; ++i) {
+                starts.push_back(turn(engine));
+            }
+        }
+        return starts;
+    }
+
+    // Folded over all that a record's recordings take in.
+    LaneSignals heard(const ComposedSignals& composed, std::span<const double> coefficients,
+                      const std::vector<std::size_t>& starts) const {
+        const int spans = span_.turns / span_.all_turns * span_.recordings;
+        LaneSignals sum = composed.at(coefficients);
+        for (double& value : sum.folded) {
+            value *= spans;
+        }
+        for (const std::size_t start : starts) {
+            composed.add_turns(coefficients, start,
+                               static_cast<std::size_t>(span_.turns % span_.all_turns), sum.folded);
+        }
+        return sum;
+    }
+
     const LifeTiles& tiles_;
     const GearboxId id_;
     const InstanceInputs inputs_;
     const LaneFeatures features_;
     const bool compares_;
+    const RecordSpan span_;
     InstanceSignals record_, change_;
     GearboxLife life_;
     LaneSignals noise_;            // of the pattern
     std::vector<double> pattern_;  // coefficients of the healthy signals
 };
 
+std::vector<double> factors_about(double scatter) {
+    return scatter == 0.0 ? std::vector<double>{1.0}
+                          : std::vector<double>{std::exp(-1.5 * scatter), std::exp(1.5 * scatter)};
+}
+
 LifeTiles::LifeTiles(const Scene& scene)
-    : scene_((check_composable(scene.study()), scene)),
+    : scene_((check_composable(scene), scene)),
       sampler_(scene.study()),
       path_(path_grid(scene)),
       crack_(scene) {}
@@ -239,42 +248,36 @@ double LifeTiles::depth(int step) const {
     return *scene_.study().life.last_depth_m * step / scene_.study().life.depth_steps;
 }
 
-std::vector<double> LifeTiles::torques() const {
-    const double scatter = scene_.study().life.torque_scatter;
-    if (scatter == 0.0) {
-        return {1.0};
+std::vector<LifeTiles::Load> LifeTiles::loads() const {
+    std::vector<Load> all;
+    for (const double torque : factors_about(scene_.study().life.torque_scatter)) {
+        for (const double speed : factors_about(scene_.study().life.speed_scatter)) {
+            all.push_back({torque, speed});
+        }
     }
-    return {std::exp(-1.5 * scatter), std::exp(1.5 * scatter)};
+    return all;
 }
 
-std::vector<double> LifeTiles::shares(double torque) const {
-    const std::vector<double> marched = torques();
-    if (marched.size() == 1) {
-        return {1.0};
+std::vector<double> LifeTiles::shares(const Load& load) const {
+    const Life& life = scene_.study().life;
+    std::vector<double> all;
+    for (const double torque : shares_of(factors_about(life.torque_scatter), load.torque)) {
+        for (const double speed : shares_of(factors_about(life.speed_scatter), load.speed)) {
+            all.push_back(torque * speed);
+        }
     }
-    const double high = (torque - marched[0]) / (marched[1] - marched[0]);
-    return {1.0 - high, high};
+    return all;
 }
 
-std::vector<LaneSignals> LifeTiles::march(std::span<const GearboxId> ids, double depth_m,
-                                          double torque, std::vector<Status>& status) const {
+HealthyMarch LifeTiles::march(std::span<const GearboxId> ids, const Load& load) const {
     std::vector<InstanceInputs> all;
     for (const GearboxId& id : ids) {
         all.push_back(inputs(id));
-        all.back().fault_size = depth_m;
-        all.back().torque_N_m *= torque;
-        all.back().fixed_shaft.load_torque_N_m *= torque;
-        all.back().gain = 1.0;  // each record has its own
+        all.back().torque_N_m *= load.torque;
+        all.back().fixed_shaft.load_torque_N_m *= load.torque;
+        all.back().speed_rad_s *= load.speed;
     }
-    const GearboxTile tile = run_given(scene_, path_, ids, all, static_cast<int>(lanes()));
-    auto signals = all_lane_signals(scene_, path_, tile, scene_.span_meshes());
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        if (tile.status[lane] != Status::ok) {
-            status[lane] = tile.status[lane];
-            signals[lane] = {};
-        }
-    }
-    return signals;
+    return {scene_, path_, ids, std::move(all), static_cast<int>(lanes())};
 }
 
 std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cracked,
@@ -289,19 +292,20 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
     for (const GearboxId& id : ids) {
         lanes.emplace_back(*this, id, cracked);
     }
-    std::vector<Status> status(ids.size(), Status::ok);
-    // [lane][torque]
+    std::vector<HealthyMarch> marches;
+    for (const Load& load : loads()) {
+        marches.push_back(march(ids, load));
+    }
+    // [lane][load]
     const auto at_depth = [&](double depth_m) {
         std::vector<std::vector<LaneSignals>> all(ids.size());
-        for (const double torque : torques()) {
-            auto marched = march(ids, depth_m, torque, status);
+        for (const HealthyMarch& one : marches) {
+            HealthyMarch::Signals marched = depth_m > 0.0 ? one.with_fault(depth_m) : one.healthy();
             for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-                all[lane].push_back(std::move(marched[lane]));
-            }
-        }
-        for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-            if (status[lane] != Status::ok && !lanes[lane].failed()) {
-                lanes[lane].fail(status[lane]);
+                all[lane].push_back(std::move(marched.lane[lane]));
+                if (marched.status[lane] != Status::ok && !lanes[lane].failed()) {
+                    lanes[lane].fail(marched.status[lane]);
+                }
             }
         }
         return all;
@@ -332,42 +336,6 @@ std::vector<GearboxLife> LifeTiles::run(std::span<const GearboxId> ids, bool cra
     costs.gearbox_count += static_cast<long>(ids.size());
     lap(costs.gearboxes);
     return lives;
-}
-
-InterpolationErrors LifeTiles::interpolation_errors(std::span<const GearboxId> ids) const {
-    const int last = scene_.study().life.depth_steps - 1;
-    const std::vector<double> torque = torques();
-    InterpolationErrors errors;
-    errors.first_m = 0.5 * depth(1);
-    errors.last_m = 0.5 * (depth(last) + depth(last + 1));
-    std::vector<Status> status(ids.size(), Status::ok);
-    const auto healthy = march(ids, 0.0, torque[0], status);
-    const auto first = march(ids, depth(1), torque[0], status);
-    const auto before = march(ids, depth(last), torque[0], status);
-    const auto behind = march(ids, depth(last + 1), torque[0], status);
-    const auto in_first = march(ids, errors.first_m, torque[0], status);
-    const auto in_last = march(ids, errors.last_m, torque[0], status);
-    const auto between = march(ids, 0.0, 1.0, status);
-    const auto loaded = torque.size() > 1 ? march(ids, 0.0, torque[1], status) : between;
-    const std::vector<double> share = shares(1.0);
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        if (status[lane] != Status::ok) {
-            continue;
-        }
-        const auto& none = healthy[lane].sensor;
-        const auto take = [](double& largest, double error) { largest = std::max(largest, error); };
-        take(errors.first, rms_apart(in_first[lane].sensor, none, 0.5, first[lane].sensor, 0.5) /
-                               rms_apart(in_first[lane].sensor, none, 1.0, none, 0.0));
-        take(errors.last,
-             rms_apart(in_last[lane].sensor, before[lane].sensor, 0.5, behind[lane].sensor, 0.5) /
-                 rms_apart(in_last[lane].sensor, none, 1.0, none, 0.0));
-        if (torque.size() > 1) {
-            take(errors.torque,
-                 rms_apart(between[lane].sensor, none, share[0], loaded[lane].sensor, share[1]) /
-                     rms_apart(between[lane].sensor, none, 0.0, none, 0.0));
-        }
-    }
-    return errors;
 }
 
 }  // namespace gearpod::mc

@@ -2,12 +2,14 @@
 // each of a few depths and torques, their records composed.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "mc/gearbox/gearbox_tile.hpp"
+#include "mc/gearbox/healthy_march.hpp"
 #include "mc/lives/crack_life.hpp"
+#include "mc/lives/record_span.hpp"
 #include "mc/results/results_file.hpp"
 
 namespace gearpod::mc {
@@ -18,14 +20,23 @@ struct GearboxLife {
     std::vector<std::vector<double>> values;  // [feature][record]; none of a gearbox that failed
 };
 
-// What interpolation takes, the largest of some gearboxes, rms over the span: in the middle of the
-// first and the last step of depth, over what the crack changes there, and without a crack between
-// the torques, over the signal.
+// What interpolation takes, rms over the span: in the middle of the first and the last step of
+// depth, over what the crack changes there, and without a crack at the gearbox's own torque and
+// speed, between those that are marched, over the signal. NaN where it was not looked at.
 struct InterpolationErrors {
-    double first_m = 0.0, first = 0.0;  // depth, error
-    double last_m = 0.0, last = 0.0;
-    double torque = 0.0;  // 0 where all records have one torque
+    double first = std::numeric_limits<double>::quiet_NaN();
+    double last = std::numeric_limits<double>::quiet_NaN();
+    double load = std::numeric_limits<double>::quiet_NaN();  // 0 where all records have one
+
+    // Of both the larger one.
+    void take(const InterpolationErrors& other);
 };
+// Factors on a gearbox's torque, or speed, at which it is marched for records that scatter so.
+std::vector<double> factors_about(double scatter);
+
+// The depths of the first two, m.
+double first_interpolated_m(const Life& life);
+double last_interpolated_m(const Life& life);
 
 // How long what belongs to gearboxes and what belongs to records took, seconds of processor time.
 struct LifeCosts {
@@ -41,21 +52,26 @@ class LifeTiles {
     std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked,
                                  LifeCosts& costs) const;
 
-    InterpolationErrors interpolation_errors(std::span<const GearboxId> ids) const;
+    // By gearbox; of those that failed NaN.
+    std::vector<InterpolationErrors> interpolation_errors(std::span<const GearboxId> ids) const;
 
+    const Scene& scene() const { return scene_; }
     // Gearboxes in lockstep.
     std::size_t lanes() const;
 
   private:
     class Lane;
-    // Sensor and transmission error of every gearbox at a depth and a factor on its torque.
-    std::vector<LaneSignals> march(std::span<const GearboxId> ids, double depth_m, double torque,
-                                   std::vector<Status>& status) const;
+    // Factors on a gearbox's torque and speed.
+    struct Load {
+        double torque = 1.0, speed = 1.0;
+    };
+    // Of every gearbox.
+    HealthyMarch march(std::span<const GearboxId> ids, const Load& load) const;
     InstanceInputs inputs(const GearboxId& id) const;
     double depth(int step) const;
-    // Of factors on the torque: those that are marched, and how much of each makes up another.
-    std::vector<double> torques() const;
-    std::vector<double> shares(double torque) const;
+    // Those that are marched, and how much of each makes up another.
+    std::vector<Load> loads() const;
+    std::vector<double> shares(const Load& load) const;
 
     const Scene& scene_;
     const Sampler sampler_;

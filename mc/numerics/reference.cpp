@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "machine/thread_clock.hpp"
+#include "mc/numerics/ladder.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -47,9 +49,29 @@ class Refinement {
     const Rung& rung() const { return done_; }
     // How far the last halving moved the result.
     double last_change() const { return change_; }
+    // Of the next march, in steps of rk4 a mesh period; and what such a step took in the last one.
+    double next_cost() const {
+        return step_cost(study_, rung_.integrator, {}).value_or(1.0) * rung_.steps;
+    }
+    double cost_s() const { return has_result() ? last_s_ / (0.5 * next_cost()) : 0.0; }
+    void stop() { scene_.reset(); }
+
+    // Steps until halving them again would move the result by the agreement asked for, in steps of
+    // rk4; infinite before the first halving.
+    double expected_cost() const {
+        const auto step = step_cost(study_, rung_.integrator, {});
+        if (!step || !has_result() || !(change_ > 0.0)) {
+            return INFINITY;
+        }
+        const double order = order_ > 0.0 ? order_ : 2.0;
+        return *step * last_->steps * last_->tile_meshes *
+               std::pow(std::max(1.0, change_ / request_.agreement), 1.0 / order);
+    }
 
     void march(const Pilot& pilot) {
+        const double start_s = thread_processor_s();
         PilotRecord record = pilot.run(*scene_);
+        last_s_ = thread_processor_s() - start_s;
         done_ = rung_;
         best_ = record;
         order_ = 0.0;
@@ -87,8 +109,35 @@ class Refinement {
     const ReferenceRequest request_;
     std::optional<Scene> scene_;  // none: stopped
     std::optional<PilotRecord> last_, best_;
-    double change_ = 0.0, order_ = 0.0;
+    double change_ = 0.0, order_ = 0.0, last_s_ = 0.0;
 };
+
+bool two_have_results(const std::vector<Refinement>& methods) {
+    return std::count_if(methods.begin(), methods.end(),
+                         [](const Refinement& m) { return m.has_result(); }) >= 2;
+}
+
+// The two that promise to agree soonest; all, while any has not halved its steps.
+void keep_two(std::vector<Refinement>& methods) {
+    std::vector<double> costs;
+    for (const Refinement& method : methods) {
+        if (!method.stopped()) {
+            costs.push_back(method.expected_cost());
+        }
+    }
+    if (costs.size() <= 2) {
+        return;
+    }
+    std::nth_element(costs.begin(), costs.begin() + 1, costs.end());
+    if (!std::isfinite(costs[1])) {
+        return;
+    }
+    for (Refinement& method : methods) {
+        if (!method.stopped() && method.expected_cost() > costs[1]) {
+            method.stop();
+        }
+    }
+}
 
 // Whether both computed the same gearboxes, and any at all.
 bool comparable(const PilotRecord& a, const PilotRecord& b) {
@@ -156,17 +205,25 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
     }
     Reference reference;
     double least = INFINITY;
+    const double end_s = thread_processor_s() + request.seconds;
+    double cost_s = 0.0;
     const auto marching = [&] {
         return std::any_of(methods.begin(), methods.end(),
                            [](const Refinement& m) { return !m.stopped(); });
     };
     while (!reference.reached && marching()) {
         for (Refinement& method : methods) {
+            if (thread_processor_s() + cost_s * method.next_cost() > end_s &&
+                (method.has_result() || two_have_results(methods))) {
+                method.stop();
+            }
             if (!method.stopped()) {
                 method.march(pilot);
+                cost_s = std::max(cost_s, method.cost_s());
             }
         }
         choose_pair(methods, request, least, reference);
+        keep_two(methods);
     }
     if (!std::isfinite(least)) {
         throw SceneError("numerics.integrator",

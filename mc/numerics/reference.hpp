@@ -2,6 +2,7 @@
 // until both agree.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "mc/numerics/pilot.hpp"
@@ -14,6 +15,8 @@ struct ReferenceRequest {
     double settle_tolerance = 1e-11;
     // No march of more steps, over all mesh periods of the pilot's tile.
     double most_tile_steps = 2e7;
+    // Processor time: no march that would end later.
+    double seconds = std::numeric_limits<double>::infinity();
 };
 
 struct Reference {
@@ -26,7 +29,9 @@ struct Reference {
     bool reached = false;  // the agreement asked for
 };
 
-// Signals to `agreement`. Throws SceneError if no two methods march the study.
+// Signals to `agreement`. All methods march with their own steps and half of them; the two that
+// then promise to agree soonest, by their orders and the cost of their steps, go on. Throws
+// SceneError if no two methods march the study.
 Reference converged_reference(const Study& study, const Pilot& pilot,
                               const ReferenceRequest& request);
 

@@ -19,6 +19,13 @@ CLI::Option* add_study(CLI::App& command, StudyOptions& options);
 void add_shorthand(CLI::App& command, const char* name, const char* key, const char* doc,
                    StudyOptions& options);
 
+// Where a run keeps its results and how long it may take; `resume` and `force` say what these do.
+void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);
+void add_progress(CLI::App& command, RunOptions& run);
+
+void add_new(CLI::App& app, NewOptions& options, int& code);
+void add_sweep(CLI::App& app, SweepOptions& options, int& code);
+void add_lives(CLI::App& app, LivesOptions& options, int& code);
 void add_features(CLI::App& app, FeaturesOptions& features, int& code);
 void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
 void add_pod(CLI::App& app, PodOptions& pod, int& code);

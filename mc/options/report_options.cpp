@@ -9,6 +9,8 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     needs_name(command->add_option("--json", report.json,
                                    "write JSON to a file, or to - for the terminal"));
     needs_name(command->add_option("--html", report.html, "write a page with figures to a file"));
+    needs_name(command->add_option("--pdf", report.pdf,
+                                   "write the answer with its limits on one sheet to a file"));
     needs_name(command->add_option("--csv", report.csv, "write every table into a folder"));
     needs_name(command->add_option("--figures", report.figures,
                                    "write the page's figures into a folder, as SVG and PNG"));

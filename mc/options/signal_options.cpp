@@ -13,6 +13,9 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
     command
         .add_option("--pulses-per-turn", columns.pulses_per_turn, "of the tachometer (default: 1)")
         ->check(CLI::Range(1.0, 1e5));
+    command.add_option("--encoder", columns.encoder,
+                       "column of an encoder's angle, of that member: rad, or deg, turns, ... in "
+                       "brackets behind the name");
     command
         .add_option_function<std::string>(
             "--speed",
@@ -84,7 +87,8 @@ void add_features(CLI::App& app, FeaturesOptions& features, int& code) {
 void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
     auto* command = app.add_subcommand(
         "calibrate",
-        "what tooth errors, background, gain and path exponent make the study's healthy gearboxes "
+        "what tooth errors, background, tones, gain and path exponent make the study's healthy "
+        "gearboxes "
         "look like measured ones: approximate Bayesian computation on the recordings' features, "
         "with regression adjustment, from draws of stated prior ranges");
     add_study(*command, calibrate.study);
@@ -103,8 +107,10 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code) {
             "KEY=LOW:HIGH or KEY=LOW:HIGH:log, a random input of the study and the range "
             "that its value is drawn from, evenly or evenly in the logarithm; as often as "
             "there are (default: gearbox.tooth_quality=2:11, or pitch_error_um where the "
-            "study has one; sensor.noise_m_s2 from 1 to 105 % of the recordings' rms, log; "
-            "sensor.gain=0.05:20:log; sensor.path_exponent=-0.2:0.4)")
+            "study has one; sensor.noise_m_s2, or the density in its place, from 1 to 105 % of the "
+            "recordings' rms, log; "
+            "sensor.gain=0.05:20:log; sensor.path_exponent=-0.2:0.4; with tones "
+            "sensor.tone_level=0.01:20:log)")
         ->allow_extra_args(false);
     command
         ->add_option("--feature", calibrate.feature,

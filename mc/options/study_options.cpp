@@ -31,4 +31,20 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
         doc);
 }
 
+void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force) {
+    needs_name(
+        command.add_option("--out", run.out, "results file (default: the study's name with .h5)"));
+    command.add_flag("--resume", run.resume, resume);
+    command.add_flag("--force", run.force, force);
+    command
+        .add_option("--time-limit", run.time_limit,
+                    "finish, save and exit with 4 before this time is over")
+        ->type_name("HH:MM:SS");
+}
+
+void add_progress(CLI::App& command, RunOptions& run) {
+    command.add_option("--progress", run.progress, "json: progress as an object a line on stderr")
+        ->type_name("json");
+}
+
 }  // namespace gearpod::mc

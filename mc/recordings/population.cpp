@@ -81,6 +81,9 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
 
 Population read_population(const std::string& path, double noise_level, const Study& study) {
     const Results results = read_results(path);
+    if (results.provenance_value("kind") == kLivesKind) {
+        refuse(path, "holds lives; compare with the results of `run`");
+    }
     check_teeth(path, results, study);
     Population population;
     population.file = path;

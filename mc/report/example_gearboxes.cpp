@@ -160,11 +160,12 @@ class Examples {
 
     // Of a part of an ensemble: its own rows.
     GearboxId id_of(std::size_t row) const {
-        const Ensemble& ensemble = scene_.study().ensemble;
-        const BatchPlan plan(ensemble.threshold_instances, ensemble.instances,
+        const BatchPlan plan(scene_.study().ensemble,
                              read_part(frame_.provenance_value("part")).value_or(Part{}));
         const Batch batch = plan.batch(plan.batch_of_row(row));
-        return {batch.group, batch.first_index + row - batch.first_row};
+        const std::size_t within = row - batch.first_row;
+        return {batch.group, batch.first_index + within / batch.records, Record::judged,
+                within % batch.records};
     }
 
     Json run(const ExampleRow& row) {
@@ -217,7 +218,7 @@ class Examples {
         const int samples = scene_.samples_per_mesh();
         const auto clean = lane_signals(scene_, path_, tile, 0, scene_.span_meshes()).sensor;
         auto noisy = clean;
-        add_noise(sample_noise(scene_, clean, features_.noise().sensor, id),
+        add_noise(sample_noise(scene_, tile.inputs[0], clean, features_.noise().sensor, id),
                   noise_level() * tile.inputs[0].noise_m_s2, noisy);
         const std::size_t turn =
             static_cast<std::size_t>(layout.planet_teeth) * static_cast<std::size_t>(samples);

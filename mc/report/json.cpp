@@ -14,6 +14,7 @@
 #include "mc/results/layout.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -107,7 +108,7 @@ Json noise_json(const Results& frame, const std::optional<Study>& study) {
     if (study) {
         json["encoder_rad"] = study->sensor.encoder_noise_rad;
         if (!study->effects.quasi_static()) {
-            json["sensor_m_s2"] = study->sensor.noise_m_s2;
+            json["sensor_m_s2"] = sensor_noise_m_s2(*study);
         }
     }
     return json;

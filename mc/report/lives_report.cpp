@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/json_values.hpp"
+#include "analysis/report/text_lines.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/study/assumptions.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -24,12 +27,57 @@ std::string number_or_dash(double value) {
     return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
 }
 
+LifeJson numbers_json(const std::vector<double>& values) {
+    LifeJson all = LifeJson::array();
+    for (const double value : values) {
+        all.push_back(analysis::number(value));
+    }
+    return all;
+}
+
+LifeJson trade_offs_json(const Study& study, const Campaign& campaign,
+                         const std::vector<MonitoredFeature>& monitored) {
+    LifeJson all = LifeJson::array();
+    for (const TradeOff& trade : trade_offs(study, campaign, monitored)) {
+        LifeJson points = LifeJson::array();
+        for (const TradeOff::Point& point : trade.points) {
+            points.push_back({{"stated_per_1000_h", point.stated_per_1000_h},
+                              {"per_1000_h", analysis::number(point.per_1000_h)},
+                              {"share", analysis::number(point.share)},
+                              {"depth_50_m", analysis::number(point.depth_50_m)},
+                              {"depth_90_m", analysis::number(point.depth_90_m)}});
+        }
+        all.push_back(
+            {{"feature", trade.feature}, {"detector", trade.detector}, {"points", points}});
+    }
+    return all;
+}
+
+LifeJson fans_json(const Study& study, const Campaign& campaign) {
+    LifeJson all = LifeJson::array();
+    for (const FeatureFan& fan : fans(study, campaign)) {
+        LifeJson lives = LifeJson::array();
+        for (const std::vector<double>& life : fan.lives) {
+            lives.push_back(numbers_json(life));
+        }
+        all.push_back({{"feature", fan.feature},
+                       {"healthy_05", numbers_json(fan.low)},
+                       {"healthy_50", numbers_json(fan.median)},
+                       {"healthy_95", numbers_json(fan.high)},
+                       {"lives", lives}});
+    }
+    return all;
+}
+
 LifeJson interval_json(const analysis::Interval& interval) {
     return {analysis::number(interval.lower), analysis::number(interval.upper)};
 }
 
 std::string costs_text(const Campaign& campaign) {
     const LifeCosts& costs = campaign.costs;
+    if (costs.gearbox_count == 0) {
+        return "";  // all had been computed before
+    }
     return fmt::format(
         "processor time: {:.3g} s a gearbox, {:.3g} ms a record ({} gearboxes, {} records)\n",
         costs.gearboxes / static_cast<double>(std::max(1L, costs.gearbox_count)),
@@ -41,7 +89,7 @@ std::string row_text(const MonitoredFeature& one, const Study& study) {
     const analysis::LifeAnswers& a = one.answers;
     const analysis::FalseAlarms& f = a.false_alarms;
     return fmt::format(
-        "{:<20}{:<12}{:>10}{:>22}{:>20}{:>8}{:>16}{:>9}{:>9}\n", one.feature, one.detector,
+        "{:<20}{:<12}{:>10}{:>22}{:>20}{:>9}{:>19}{:>9}{:>9}\n", one.feature, one.detector,
         number_or_dash(a.threshold.value),
         fmt::format("{} [{}, {}]", number_or_dash(f.per_1000_h), number_or_dash(f.bounds.lower),
                     number_or_dash(f.bounds.upper)),
@@ -62,19 +110,25 @@ std::string lives_text(const Study& study, const Campaign& campaign,
         "{} cracks grow from {:g} to {:g} mm, a record each {:g} h: {} teeth go within {} records\n"
         "thresholds: {} healthy lives, {:g} false alarms in 1000 h; false alarms: {} other healthy "
         "lives\n",
-        campaign.cracked.size(), 1e3 * *study.life.first_depth_m, 1e3 * *study.life.last_depth_m,
+        campaign.cracked.size(), 1e3 * crack_begin_m(study.life), 1e3 * *study.life.last_depth_m,
         *study.life.interval_h, ended, study.life.records, campaign.setting.size(),
         study.monitoring.false_alarms_per_1000_h, campaign.healthy.size());
+    if (const std::string holds = assumptions(study); !holds.empty()) {
+        analysis::add_wrapped(out, holds, 2);
+    }
+    out += "a record: " + printable(campaign.record) + "\n";
     if (campaign.failed > 0) {
         out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
     }
     const InterpolationErrors& off = campaign.interpolation;
     out += fmt::format(
         "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
-        "{:.2g} of it at {:.3g} mm; between torques by {:.2g} of the signal\n",
-        off.first, 1e3 * off.first_m, off.last, 1e3 * off.last_m, off.torque);
+        "{:.2g} of it at {:.3g} mm; between the torques and speeds that are marched by {:.2g} of "
+        "the signal\n",
+        off.first, 1e3 * first_interpolated_m(study.life), off.last,
+        1e3 * last_interpolated_m(study.life), off.load);
     out += costs_text(campaign) + "\n";
-    out += fmt::format("{:<20}{:<12}{:>10}{:>22}{:>20}{:>8}{:>16}{:>9}{:>9}\n", "feature",
+    out += fmt::format("{:<20}{:<12}{:>10}{:>22}{:>20}{:>9}{:>19}{:>9}{:>9}\n", "feature",
                        "detector", "threshold", "false alarms/1000 h", "found before end",
                        "mm 50 %", "90 % (95 % conf.)", "warn h", "9 in 10");
     for (const MonitoredFeature& one : monitored) {
@@ -119,7 +173,8 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
                            {"depth_90_m", analysis::number(a.size_90.value)},
                            {"depth_90_bound_m", analysis::number(a.size_90.bound)},
                            {"warning_50_h", analysis::number(a.warning_50)},
-                           {"warning_90_h", analysis::number(a.warning_90)}});
+                           {"warning_90_h", analysis::number(a.warning_90)},
+                           {"alarm_h", numbers_json(a.alarm_hours)}});
     }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();
@@ -133,21 +188,32 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
                          {"hours", hours},
                          {"depth_m", depths}});
     }
-    return {{"title", study.title},
+    return {{"kind", "lives"},
+            {"title", study.title},
+            {"assumptions", assumptions(study)},
+            {"interval_h", *study.life.interval_h},
+            {"record", printable(campaign.record)},
+            {"baseline_records", study.monitoring.baseline_records},
+            {"first_depth_m", crack_begin_m(study.life)},
+            {"last_depth_m", *study.life.last_depth_m},
+            {"healthy_lives",
+             {{"setting", campaign.setting.size()}, {"counting", campaign.healthy.size()}}},
             {"false_alarms_per_1000_h", study.monitoring.false_alarms_per_1000_h},
             {"failed", campaign.failed},
             {"interpolation",
-             {{"first_depth_m", off.first_m},
+             {{"first_depth_m", first_interpolated_m(study.life)},
               {"first", analysis::number(off.first)},
-              {"last_depth_m", off.last_m},
+              {"last_depth_m", last_interpolated_m(study.life)},
               {"last", analysis::number(off.last)},
-              {"torque", analysis::number(off.torque)}}},
+              {"load", analysis::number(off.load)}}},
             {"costs",
              {{"gearboxes", campaign.costs.gearbox_count},
               {"gearbox_s", campaign.costs.gearboxes},
               {"records", campaign.costs.record_count},
               {"record_s", campaign.costs.records}}},
             {"monitored", watched},
+            {"trade_offs", trade_offs_json(study, campaign, monitored)},
+            {"fans", fans_json(study, campaign)},
             {"lives", lives}};
 }
 

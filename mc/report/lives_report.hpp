@@ -12,13 +12,19 @@ namespace gearpod::mc {
 std::string lives_text(const Study& study, const Campaign& campaign,
                        const std::vector<MonitoredFeature>& monitored);
 
-// {"title", "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m",
-// "first", "last_depth_m", "last", "torque"}, "costs": {"gearboxes", "gearbox_s", "records",
-// "record_s"}, "monitored": [{"feature", "detector", "threshold", "threshold_hours",
-// "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion", "expected"}, "ended",
-// "found", "share", "share_bounds", "depth_50_m", "depth_50_bound_m", "depth_90_m",
-// "depth_90_bound_m", "warning_50_h", "warning_90_h"}], "lives": [{"status", "end_h", "hours",
-// "depth_m"}]}; null where that many are not found, or there is nothing to say.
+// {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",
+// "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
+// "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
+// "last_depth_m", "last", "load"}, "costs":
+// {"gearboxes", "gearbox_s", "records", "record_s"}, "monitored": [{"feature", "detector",
+// "threshold", "threshold_hours", "false_alarms": {"count", "hours", "per_1000_h", "bounds",
+// "dispersion", "expected"}, "ended", "found", "share", "share_bounds", "depth_50_m",
+// "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h", "alarm_h"
+// (by life that did not fail)}], "trade_offs": [{"feature", "detector", "points":
+// [{"stated_per_1000_h", "per_1000_h", "share", "depth_50_m", "depth_90_m"}]}], "fans":
+// [{"feature", "healthy_05", "healthy_50", "healthy_95" (by record), "lives": [deviations]}],
+// "lives": [{"status", "end_h", "hours", "depth_m"}]}; null where that many are not found, or there
+// is nothing to say.
 nlohmann::json lives_json(const Study& study, const Campaign& campaign,
                           const std::vector<MonitoredFeature>& monitored);
 

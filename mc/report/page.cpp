@@ -87,9 +87,8 @@ int run(const std::vector<std::string>& words, FILE* input, FILE* output) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace
-
-std::string report_page(const std::string& json, const std::string& figures) {
+// What build_page.py makes of the JSON with further arguments.
+std::string made_of(const std::string& json, const std::vector<std::string>& arguments) {
     const std::string python = from_environment("GEARPOD_PYTHON", "/usr/bin/python3");
     const std::filesystem::path folder =
         from_environment("GEARPOD_REPORT_DIR", report_folder().string());
@@ -102,15 +101,24 @@ std::string report_page(const std::string& json, const std::string& figures) {
     const TemporaryFile input = temporary_file(json), output = temporary_file("");
     // -B: no compiled files beside the sources; -s: no packages of the user's own.
     std::vector<std::string> words{python, "-Bs", program, "-"};
-    if (!figures.empty()) {
-        words.insert(words.end(), {"--figures", figures});
-    }
+    words.insert(words.end(), arguments.begin(), arguments.end());
     const int code = run(words, input.get(), output.get());
     std::string page = content(output.get());
     if (code != 0 || page.empty()) {
         fail(python + " " + program + " ended with " + std::to_string(code));
     }
     return page;
+}
+
+}  // namespace
+
+std::string report_page(const std::string& json, const std::string& figures) {
+    return made_of(json, figures.empty() ? std::vector<std::string>{}
+                                         : std::vector<std::string>{"--figures", figures});
+}
+
+std::string report_summary(const std::string& json) {
+    return made_of(json, {"--pdf"});
 }
 
 }  // namespace gearpod::mc

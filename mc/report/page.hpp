@@ -1,4 +1,5 @@
-// The HTML page of a report, made by the Python program in analysis/report.
+// The HTML page of a report, and its summary on one sheet, made by the Python program in
+// analysis/report.
 #pragma once
 
 #include <string>
@@ -12,5 +13,9 @@ namespace gearpod::mc {
 //
 // Into the folder `figures`, unless it is "", go its figures too, each as SVG and PNG.
 std::string report_page(const std::string& json, const std::string& figures = "");
+
+// PDF of one sheet: the answer, how it depends on noise, what limits it. Only of report_json().
+// Throws as report_page() does.
+std::string report_summary(const std::string& json);
 
 }  // namespace gearpod::mc

@@ -9,6 +9,7 @@
 #include "analysis/report/text_lines.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/report/alarms_over_time.hpp"
+#include "mc/report/feature_values.hpp"
 #include "mc/report/monitoring_over_time.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
@@ -83,8 +84,11 @@ std::string results_text(const Results& frame, const RowSource& rows,
         analysis::add_wrapped(text, holds, 2);
         text += "\n";
     }
-    text += analysis::detection_text(frame.detection, frame.request, subject_of(frame)) + "\n" +
-            reliability_text(reliability, frame);
+    const std::string values = feature_values_text(frame, rows);
+    text += (values.empty()
+                 ? analysis::detection_text(frame.detection, frame.request, subject_of(frame))
+                 : values) +
+            "\n" + reliability_text(reliability, frame);
     const std::string times = alarms_text(frame, alarms_over_time(frame, rows), reliability);
     text += times.empty() ? "" : "\n" + times;
     if (const auto monitoring = monitoring_over_time(frame, rows)) {
@@ -120,10 +124,7 @@ void print_failures(const RowCounts& rows, int max_meshes) {
 }
 
 void print_times(const EnsembleOutcome& outcome) {
-    int threads = 0;
-    for (const CrewTimes& crew : outcome.crews) {
-        threads += crew.threads;
-    }
+    const int threads = outcome.threads();
     const std::size_t ranks = outcome.crews.size();
     fmt::print("where the time went ({} rank{}, {} thread{} in all, {:.1f} s):\n", ranks,
                ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", outcome.wall_s);

@@ -290,6 +290,10 @@ std::vector<CsvTable> report_tables(const nlohmann::json& report) {
     return std::move(tables).with_rows();
 }
 
+std::string table_path(const std::string& folder, const CsvTable& table) {
+    return (std::filesystem::path(folder) / (table.name + ".csv")).string();
+}
+
 std::vector<std::string> write_tables(const std::string& folder,
                                       const std::vector<CsvTable>& tables) {
     std::error_code failed;
@@ -307,7 +311,7 @@ std::vector<std::string> write_tables(const std::string& folder,
         for (const std::string& row : table.rows) {
             text += row + '\n';
         }
-        names.push_back((std::filesystem::path(folder) / (table.name + ".csv")).string());
+        names.push_back(table_path(folder, table));
         write_file(names.back(), std::as_bytes(std::span(text)));
     }
     return names;

@@ -18,6 +18,9 @@ struct CsvTable {
 // failures, provenance.
 std::vector<CsvTable> report_tables(const nlohmann::json& report);
 
+// Of a table in the folder.
+std::string table_path(const std::string& folder, const CsvTable& table);
+
 // Into the folder, which is made if it is not there. The names of the files. Throws
 // std::runtime_error as write_file() does.
 std::vector<std::string> write_tables(const std::string& folder,

@@ -31,39 +31,46 @@ std::optional<Part> read_part(const std::string& text) {
     return part;
 }
 
-BatchPlan::BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part)
+BatchPlan::BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part,
+                     int threshold_records)
     : thresholds_(static_cast<std::size_t>(threshold_instances)),
       graded_(static_cast<std::size_t>(instances)),
+      records_(static_cast<std::size_t>(threshold_records)),
       part_(part) {}
 
 Batch BatchPlan::batch(std::size_t index) const {
     const std::size_t all = number(index), thresholds = all_threshold_batches();
     const bool threshold = all < thresholds;
     const std::size_t in_group = threshold ? all : all - thresholds;
-    const std::size_t rows = threshold ? thresholds_ : graded_;
+    const std::size_t gearboxes = threshold ? thresholds_ : graded_;
     const std::size_t first = in_group * kBatchRows;
     return {threshold ? Group::threshold : Group::graded, first, rows_before(index),
-            std::min<std::size_t>(kBatchRows, rows - first)};
+            std::min<std::size_t>(kBatchRows, gearboxes - first), threshold ? records_ : 1};
 }
 
 std::size_t BatchPlan::batch_of_row(std::size_t row) const {
     // All batches are full before the threshold group's last.
     const std::size_t thresholds = threshold_batches(), before = threshold_rows();
-    return row < before ? row / kBatchRows : thresholds + (row - before) / kBatchRows;
+    return row < before ? row / (kBatchRows * records_) : thresholds + (row - before) / kBatchRows;
 }
 
-std::size_t BatchPlan::rows_before(std::size_t batches) const {
+std::size_t BatchPlan::gearboxes_before(std::size_t batches) const {
     const std::size_t until = std::min(batches, this->batches());
-    std::size_t rows = until * kBatchRows;
+    std::size_t gearboxes = until * kBatchRows;
     // All are full but the last of either group.
     const auto short_of = [&](std::size_t last, std::size_t instances) {
         const bool own = last % part_.count == part_.index && last / part_.count < until;
         return own ? (kBatchRows - instances % kBatchRows) % kBatchRows : 0;
     };
     const std::size_t thresholds = all_threshold_batches(), graded = batches_of(graded_);
-    rows -= thresholds > 0 ? short_of(thresholds - 1, thresholds_) : 0;
-    rows -= graded > 0 ? short_of(thresholds + graded - 1, graded_) : 0;
-    return rows;
+    gearboxes -= thresholds > 0 ? short_of(thresholds - 1, thresholds_) : 0;
+    gearboxes -= graded > 0 ? short_of(thresholds + graded - 1, graded_) : 0;
+    return gearboxes;
+}
+
+std::size_t BatchPlan::rows_before(std::size_t batches) const {
+    const std::size_t healthy = gearboxes_before(std::min(batches, threshold_batches()));
+    return gearboxes_before(batches) + (records_ - 1) * healthy;
 }
 
 }  // namespace gearpod::mc

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "mc/random/philox.hpp"
+#include "mc/study/study.hpp"
 
 namespace gearpod::mc {
 
-// Gearboxes of a batch, whatever the lanes: the unit of work must not depend on who does it.
+// Gearboxes of a batch, whatever the lanes: the unit of work must not depend on who does it. A
+// gearbox has a row a record, one but in the threshold group (ensemble.threshold_records).
 inline constexpr int kBatchRows = 16;
 
 // Numbers in a row: the parameters, of which the last is the fault's size, then features x noise
@@ -28,7 +30,7 @@ struct RowShape {
     bool operator==(const RowShape&) const = default;
 };
 
-// Up to kBatchRows rows.
+// Those of up to kBatchRows gearboxes.
 struct BatchRows {
     std::vector<int> status;     // Status by row
     std::vector<double> values;  // rows x RowShape::values()
@@ -36,12 +38,15 @@ struct BatchRows {
     std::size_t count() const { return status.size(); }
 };
 
-// Consecutive gearboxes of one group.
+// Consecutive gearboxes of one group, and of each its records in a row.
 struct Batch {
     Group group = Group::graded;
     std::uint64_t first_index = 0;  // in the group
     std::size_t first_row = 0;      // in the results
-    std::size_t count = 0;
+    std::size_t gearboxes = 0;
+    std::size_t records = 1;
+
+    std::size_t rows() const { return gearboxes * records; }
 };
 
 // A share of an ensemble that a run of its own computes: of every `count` batches one, so that all
@@ -62,11 +67,18 @@ std::optional<Part> read_part(const std::string& text);
 // part its own batches and rows, numbered from 0 in the same order.
 class BatchPlan {
   public:
-    BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part = {});
+    BatchPlan(std::int64_t threshold_instances, std::int64_t instances, const Part& part = {},
+              int threshold_records = 1);
+    explicit BatchPlan(const Ensemble& ensemble, const Part& part = {})
+        : BatchPlan(ensemble.threshold_instances, ensemble.instances, part,
+                    ensemble.threshold_records) {}
 
     std::size_t rows() const { return rows_before(batches()); }
     std::size_t threshold_rows() const { return rows_before(threshold_batches()); }
     std::size_t graded_rows() const { return rows() - threshold_rows(); }
+    std::size_t threshold_gearboxes() const { return threshold_rows() / records_; }
+    // Of a gearbox of the threshold group.
+    std::size_t threshold_records() const { return records_; }
     // Of the whole ensemble.
     std::size_t graded_instances() const { return graded_; }
     std::size_t batches() const { return own_of(all_threshold_batches() + batches_of(graded_)); }
@@ -86,7 +98,9 @@ class BatchPlan {
         return (first + part_.count - 1 - part_.index) / part_.count;
     }
 
-    std::size_t thresholds_, graded_;
+    std::size_t gearboxes_before(std::size_t batches) const;
+
+    std::size_t thresholds_, graded_, records_;  // gearboxes, and records of the former
     Part part_;
 };
 

@@ -28,7 +28,6 @@ constexpr int kOpenExisting = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;  // no link, 
 
 // A record's numbers, 8 bytes each.
 constexpr std::size_t kStatusAt = 2;
-constexpr std::size_t kValuesAt = kStatusAt + kBatchRows;
 
 std::string bytes_of(std::uint64_t number) {
     std::string bytes(sizeof number, '\0');
@@ -96,19 +95,26 @@ Checkpoint::Checkpoint(std::string path, Descriptor file, const RunIdentity& ide
     }
     const std::size_t end = header_.size() + kCounterBytes + kWorkerBytes;
     begin_ = static_cast<off_t>((end + kBlock - 1) / kBlock * kBlock);
-    scratch_.resize(record_bytes());
 }
 
 void Checkpoint::fail(const std::string& what) const {
     throw std::runtime_error(path_ + ": " + what);
 }
 
-std::size_t Checkpoint::record_bytes() const {
-    return 8 * (kValuesAt + kBatchRows * identity_.shape.values() + 1);
+std::size_t Checkpoint::most_rows(std::size_t batch) const {
+    return kBatchRows * (batch < plan_.threshold_batches() ? plan_.threshold_records() : 1);
+}
+
+std::size_t Checkpoint::record_bytes(std::size_t batch) const {
+    return 8 * (kStatusAt + most_rows(batch) * (1 + identity_.shape.values()) + 1);
 }
 
 off_t Checkpoint::place(std::size_t batch) const {
-    return begin_ + static_cast<off_t>(batch * record_bytes());
+    const std::size_t thresholds = std::min(batch, plan_.threshold_batches());
+    const std::size_t before =
+        (thresholds > 0 ? thresholds * record_bytes(0) : 0) +
+        (batch > thresholds ? (batch - thresholds) * record_bytes(batch) : 0);
+    return begin_ + static_cast<off_t>(before);
 }
 
 bool Checkpoint::exists(const std::string& path) {
@@ -276,7 +282,7 @@ void Checkpoint::scan() {
     const std::uint64_t synced = synced_before();
     std::size_t damaged = 0, partial = 0;
     for (std::size_t batch = 0; batch < plan_.batches(); ++batch) {
-        std::fill(scratch_.begin(), scratch_.end(), std::byte{});
+        scratch_.assign(record_bytes(batch), std::byte{});
         if (read_at(file_.get(), scratch_, place(batch)) < 0) {
             fail(fmt::format("cannot be read ({})", std::strerror(errno)));
         }
@@ -287,9 +293,9 @@ void Checkpoint::scan() {
         const bool whole = number_at(record, 0) == kBatchMark &&
                            number_at(record, record.size() - 8) == record_sum(batch, record);
         const std::uint64_t rows = number_at(record, 8);
-        if (!whole || rows > plan_.batch(batch).count) {
+        if (!whole || rows > plan_.batch(batch).rows()) {
             ++damaged;
-        } else if (rows < plan_.batch(batch).count) {
+        } else if (rows < plan_.batch(batch).rows()) {
             ++partial;  // the last one of a smaller ensemble: filling it up costs no more
         } else {
             done_[batch] = true;
@@ -311,7 +317,7 @@ void Checkpoint::scan() {
 }
 
 BatchRows Checkpoint::read(std::size_t batch) const {
-    std::vector<std::byte> buffer(record_bytes());
+    std::vector<std::byte> buffer(record_bytes(batch));
     const ssize_t got = read_at(file_.get(), buffer, place(batch));
     const std::string_view record = view(buffer);
     if (got < static_cast<ssize_t>(buffer.size()) ||
@@ -319,17 +325,18 @@ BatchRows Checkpoint::read(std::size_t batch) const {
         fail(fmt::format("tile {} was damaged after it had been written", batch));
     }
     BatchRows rows;
-    const std::size_t count = plan_.batch(batch).count;
+    const std::size_t count = plan_.batch(batch).rows();
     for (std::size_t i = 0; i < count; ++i) {
         rows.status.push_back(static_cast<int>(number_at(record, 8 * (kStatusAt + i))));
     }
     rows.values.resize(count * identity_.shape.values());
-    std::memcpy(rows.values.data(), buffer.data() + 8 * kValuesAt, 8 * rows.values.size());
+    std::memcpy(rows.values.data(), buffer.data() + 8 * (kStatusAt + most_rows(batch)),
+                8 * rows.values.size());
     return rows;
 }
 
 void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
-    std::fill(scratch_.begin(), scratch_.end(), std::byte{});
+    scratch_.assign(record_bytes(batch), std::byte{});
     const auto put = [&](std::size_t place, std::uint64_t number) {
         std::memcpy(scratch_.data() + 8 * place, &number, 8);
     };
@@ -338,7 +345,8 @@ void Checkpoint::write(std::size_t batch, const BatchRows& rows) {
     for (std::size_t i = 0; i < rows.count(); ++i) {
         put(kStatusAt + i, static_cast<std::uint64_t>(rows.status[i]));
     }
-    std::memcpy(scratch_.data() + 8 * kValuesAt, rows.values.data(), 8 * rows.values.size());
+    std::memcpy(scratch_.data() + 8 * (kStatusAt + most_rows(batch)), rows.values.data(),
+                8 * rows.values.size());
     put(scratch_.size() / 8 - 1, record_sum(batch, view(scratch_)));
     if (!write_at(file_.get(), scratch_, place(batch))) {
         fail(fmt::format("cannot be written ({})", std::strerror(errno)));
@@ -357,6 +365,14 @@ void Checkpoint::write_counter() {
         ::fsync(file_.get()) != 0) {
         fail(fmt::format("cannot be written ({})", std::strerror(errno)));
     }
+}
+
+long Checkpoint::rows_done() const {
+    std::size_t rows = 0;
+    for (std::size_t batch = 0; batch < plan_.batches(); ++batch) {
+        rows += has(batch) ? plan_.batch(batch).rows() : 0;
+    }
+    return static_cast<long>(rows);
 }
 
 // The batches first: the counter never promises what is not there.

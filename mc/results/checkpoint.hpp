@@ -45,6 +45,7 @@ class Checkpoint final : public RowStore {
     void remove();
 
     std::size_t batches_done() const { return count_; }
+    long rows_done() const;
     const std::string& path() const { return path_; }
     // What resume() found amiss, one line each; those batches are computed again.
     const std::vector<std::string>& findings() const { return findings_; }
@@ -60,7 +61,8 @@ class Checkpoint final : public RowStore {
     std::uint64_t synced_before();
     void write_counter();
     off_t place(std::size_t batch) const;
-    std::size_t record_bytes() const;
+    std::size_t most_rows(std::size_t batch) const;
+    std::size_t record_bytes(std::size_t batch) const;
 
     std::string path_;
     Descriptor file_;

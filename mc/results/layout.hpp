@@ -11,6 +11,11 @@ inline constexpr const char* kStatusMeanings =
     "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
 inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
 
+// The dataset that says what a feature's columns are.
+inline const char* columns_name(const Results& frame) {
+    return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";
+}
+
 inline const char* alarm_text(analysis::Alarm alarm) {
     return alarm == analysis::Alarm::high ? "high" : "low";
 }

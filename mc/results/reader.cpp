@@ -96,7 +96,7 @@ class Reader {
     }
 
     void read_features() {
-        results_.noise_levels = numbers(root_, "noise_levels");
+        results_.noise_levels = numbers(root_, columns_name(results_));
         const Hdf5Handle group = open_group(root_, "features");
         for (const std::string& name : link_names(group.get())) {
             results_.features.push_back({name, read_text(group.get(), name, "unit"),
@@ -137,6 +137,16 @@ class Reader {
         results_.request.size.name = read_text(group.get(), ".", "size_name");
         results_.request.size.unit = read_text(group.get(), ".", "size_unit");
         results_.request.noise_levels = results_.noise_levels;
+        if (std::ranges::count(attribute_names(group.get()), "threshold_records") > 0) {
+            results_.request.threshold_records = static_cast<std::size_t>(
+                std::clamp(read_number(group.get(), ".", "threshold_records"), 1.0, 1e9));
+        }
+        if (std::ranges::count(attribute_names(group.get()), "uncertain_inputs") > 0) {
+            std::istringstream names(read_text(group.get(), ".", "uncertain_inputs"));
+            for (std::string name; names >> name;) {
+                results_.request.uncertain.push_back(name);
+            }
+        }
         for (const std::string& name : link_names(group.get())) {
             const Hdf5Handle feature = open_group(group.get(), name);
             results_.detection.push_back(feature_detection(feature.get(), name));

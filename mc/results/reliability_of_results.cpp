@@ -56,16 +56,19 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
                                                     std::optional<analysis::Costs> costs) {
     check_condition(frame, condition);
     const RowShape shape = row_shape(frame);
-    if (rows.rows() * shape.features * shape.levels > most_values) {
+    // Areas and curves rest on gearboxes: of each its first record.
+    const std::size_t records = frame.request.threshold_records;
+    if (rows.rows() / records * shape.features * shape.levels > most_values) {
         return std::nullopt;
     }
     Columns healthy(shape), graded(shape);
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
-            if (block.group[row] == kUngraded) {
+            const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
+            const bool repeats = sets_threshold && (block.first + row) % records != 0;
+            if (block.group[row] == kUngraded || repeats) {
                 continue;
             }
-            const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
             (sets_threshold ? healthy : graded)
                 .add(block.values.data() + row * shape.values(), shape);
         }
@@ -83,6 +86,9 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
             continue;
         }
         data.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
+        if (std::ranges::count(frame.request.uncertain, parameter.name) > 0) {
+            data.uncertain.push_back(data.inputs.back());
+        }
         if (parameter.name == condition) {
             data.condition.push_back(
                 {parameter.name, parameter.unit, healthy.parameters[p], graded.parameters[p]});

@@ -7,7 +7,8 @@
 //   /noise_levels          factors on the sensor and encoder noise
 //   /status                one value a gearbox, attribute `meanings`
 //   /detection             attributes false_alarm_rate, confidence, size_name (the parameter that
-//                          holds a gearbox's fault size), size_unit
+//                          holds a gearbox's fault size), size_unit; threshold_records where a
+//                          gearbox of the threshold sample has several rows, one after another
 //   /detection/<feature>/  size_low, size_high (sizes), noise_level, threshold, threshold_sample,
 //                          threshold_alarms (levels), pd, lower, upper, detected, tested, failed
 //                          (levels x sizes); attributes `alarm`, `warnings`
@@ -52,6 +53,13 @@ inline constexpr int kUngraded = 2;
 // The provenance's `kind` where the rows are measured recordings; a run's results have none.
 inline constexpr const char* kRecordingsKind = "recordings";
 
+// The same where the rows are lives: then a feature has one value a record in place of one a noise
+// level, and the file the records' /hours in place of /noise_levels. A feature's values end with
+// the life (/instances/records), NaN behind it; crack_depth, record_torque, record_speed,
+// record_gain and record_noise stand among the features. /instances/end_h is NaN of a tooth that
+// holds.
+inline constexpr const char* kLivesKind = "lives";
+
 struct ParameterResult {
     std::string name;
     std::string unit;
@@ -91,15 +99,16 @@ struct NumericalError {
     std::vector<double> rms, largest;
 };
 
-// A row is a gearbox: the threshold group in order of instance, then the graded group.
+// A row is a gearbox, or in the threshold group a record of one: that group in order of instance,
+// then the graded group.
 struct Results {
     // Root attributes in order, e.g. {"git_hash", "..."}, {"study", resolved text}, {"seed", "1"}.
     // The file's format and format_version are written and checked by this module.
     std::vector<std::pair<std::string, std::string>> provenance;
     std::vector<ParameterResult> parameters;
-    std::vector<int> group;   // Group per row
-    std::vector<int> status;  // Status per row
-    std::vector<double> noise_levels;
+    std::vector<int> group;            // Group per row
+    std::vector<int> status;           // Status per row
+    std::vector<double> noise_levels;  // of lives: hours of the records
     std::vector<FeatureResult> features;
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;

@@ -18,11 +18,11 @@ struct Sample {
     std::vector<std::size_t> row;
 };
 
-// Whose recordings the rows are, by number; a run's rows, and recordings without a name, are each
-// of a gearbox of its own.
+// Whose records the rows are, by number: as many as a run's gearbox has, one after another, or the
+// recordings of one name; those without a name are each of a gearbox of its own.
 class Gearboxes {
   public:
-    explicit Gearboxes(const Results& frame) {
+    explicit Gearboxes(const Results& frame) : records_(frame.request.threshold_records) {
         std::istringstream names(frame.provenance_value("recorded_gearboxes"));
         std::map<std::string, std::size_t> numbers;
         for (std::string name; std::getline(names, name);) {
@@ -34,12 +34,13 @@ class Gearboxes {
     std::vector<std::size_t> of(const std::vector<std::size_t>& rows) const {
         std::vector<std::size_t> numbers;
         for (const std::size_t row : rows) {
-            numbers.push_back(row < of_row_.size() ? of_row_[row] : row);
+            numbers.push_back(row < of_row_.size() ? of_row_[row] : row / records_);
         }
         return numbers;
     }
 
   private:
+    std::size_t records_;
     std::vector<std::size_t> of_row_;  // the first row of the same one
 };
 
@@ -74,7 +75,7 @@ void StoredRows::visit(const std::function<void(const RowBlock&)>& use) const {
     for (std::size_t batch = 0; batch < batches_; ++batch) {
         const Batch place = plan_.batch(batch);
         BatchRows rows = store_.read(batch);
-        use({place.first_row, std::vector<int>(place.count, static_cast<int>(place.group)),
+        use({place.first_row, std::vector<int>(place.rows(), static_cast<int>(place.group)),
              std::move(rows.status), std::move(rows.values)});
     }
 }

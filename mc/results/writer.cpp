@@ -1,5 +1,6 @@
 // write_results().
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -67,7 +68,7 @@ void create_instances(hid_t root, const Results& frame, hsize_t rows, Places& pl
 
 void create_features(hid_t root, const Results& frame, hsize_t rows, Places& places) {
     const RowShape shape = row_shape(frame);
-    write_numbers(root, "noise_levels", {shape.levels}, frame.noise_levels);
+    write_numbers(root, columns_name(frame), {shape.levels}, frame.noise_levels);
     const Hdf5Handle group = create_group(root, "features");
     for (std::size_t f = 0; f < shape.features; ++f) {
         const FeatureResult& feature = frame.features[f];
@@ -149,6 +150,14 @@ void write_detection(hid_t root, const Results& results) {
     write_number(group.get(), ".", "confidence", results.request.confidence);
     write_text(group.get(), ".", "size_name", results.request.size.name);
     write_text(group.get(), ".", "size_unit", results.request.size.unit);
+    if (!results.request.uncertain.empty()) {
+        write_text(group.get(), ".", "uncertain_inputs",
+                   fmt::format("{}", fmt::join(results.request.uncertain, " ")));
+    }
+    if (results.request.threshold_records > 1) {
+        write_number(group.get(), ".", "threshold_records",
+                     static_cast<double>(results.request.threshold_records));
+    }
     for (const analysis::FeatureDetection& detection : results.detection) {
         write_feature_detection(group.get(), detection, results.request.groups);
     }

@@ -86,9 +86,10 @@ SceneFault::SceneFault(const Study& study, const std::vector<SceneMesh>& meshes,
     for (const FaultPlace& place : fault_places(study.fault)) {
         const SceneMesh& mesh = meshes[place.mesh];
         try {
-            laws_.push_back({mesh.stiffness.get(),
-                             study.fault.kind->family(
-                                 study, {mesh.geometry, place.gear, mesh.body[place.gear - 1]})});
+            laws_.push_back(
+                {mesh.stiffness.get(),
+                 study.fault.kind->family(study, {mesh.members, mesh.geometry, place.gear,
+                                                  mesh.body[place.gear - 1], pairs.reversed})});
         } catch (const std::invalid_argument& error) {
             throw SceneError("fault.kind", error.what(), "");
         }

@@ -48,7 +48,7 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     options.tolerance = study.numerics.stiffness_tolerance;
     try {
         auto coupled = std::make_unique<const stiffness::CoupledMesh>(
-            *mesh.geometry, material_of(study), profile_of(study), options);
+            *mesh.geometry, material_of(study, mesh.members), profile_of(study), options);
         mesh.body[0] = coupled->body(1);
         mesh.body[1] = coupled->body(2);
         mesh.stiffness = std::move(coupled);
@@ -96,7 +96,7 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
                 make_coupled(study, force_N, mesh);
             } else {
                 mesh.stiffness = std::make_unique<const stiffness::AdditiveMesh>(
-                    *mesh.geometry, material_of(study), profile_of(study),
+                    *mesh.geometry, material_of(study, members), profile_of(study),
                     study.numerics.stiffness_tolerance);
             }
         }

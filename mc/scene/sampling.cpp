@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 
@@ -164,11 +165,13 @@ InstanceInputs resolve_inputs(const Study& study) {
     // No path weighs the sensor of a fixed-shaft gearbox.
     inputs.path_exponent = g.kind == GearboxKind::fixed_shaft ? 0.0 : study.sensor.path_exponent;
     inputs.gain = study.sensor.gain;
-    inputs.noise_m_s2 = study.sensor.noise_m_s2;
+    inputs.tone_level = study.sensor.tone_level;
+    inputs.noise_m_s2 = sensor_noise_m_s2(study);
     inputs.encoder_noise_rad = study.sensor.encoder_noise_rad;
     inputs.fault_size = fault_size(study);
     inputs.paris_factor = study.life.paris_factor.value_or(0.0);
     inputs.paris_exponent = study.life.paris_exponent.value_or(0.0);
+    inputs.curve_pace = study.life.curve_pace.value_or(1.0);
     return inputs;
 }
 
@@ -183,13 +186,31 @@ Philox record_stream(const Study& study, const GearboxId& id, std::string_view p
                : gearbox_stream(study, id, std::string(purpose).append(".baseline"));
 }
 
-Sampler::Sampler(const Study& study) : study_(study), turn_lengths_(turn_lengths(study.random)) {}
+Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
+    return id.repeat == 0
+               ? record_stream(study, id, purpose)
+               : record_stream(study, id,
+                               std::string(purpose) + ".repeat." + std::to_string(id.repeat));
+}
+
+Sampler::Sampler(const Study& study)
+    : study_(study), copula_(study), turn_lengths_(turn_lengths(study.random)) {}
 
 Study Sampler::draw(Group group, std::uint64_t index) const {
     Study drawn = study_;
-    for (std::size_t i = 0; i < study_.random.size(); ++i) {
+    const std::vector<double> shares = copula_.shares([&](const std::string& key) {
+        return gearbox_stream(study_, {group, index}, key);
+    });
+    for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
         const RandomInput& input = study_.random[i];
-        Philox engine = gearbox_stream(study_, {group, index}, input.key);
+        if (copula_.has(i)) {
+            std::get<NumberAccess>(key_of(input).access)
+                .set(drawn, input.distribution.quantile(shares[correlated++]) * input.to_si);
+            continue;
+        }
+        const int rows = input.distribution.rows().group;
+        Philox engine = gearbox_stream(
+            study_, {group, index}, rows > 0 ? "random.rows." + std::to_string(rows) : input.key);
         const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
@@ -251,11 +272,7 @@ std::vector<ParameterColumn> Sampler::columns() const {
             continue;
         }
         const Key& key = key_of(input);
-        std::string name(key.stem());
-        if (!key.unit.si_suffix.empty()) {
-            name += "_" + std::string(key.unit.si_suffix);
-        }
-        columns.push_back({name, std::string(key.unit.si_name)});
+        columns.push_back({key.column(), std::string(key.unit.si_name)});
     }
     columns.push_back(
         {fault_size_column(study_), std::string(fault_size_key(study_).unit.si_name)});

@@ -9,6 +9,7 @@
 
 #include "mc/random/philox.hpp"
 #include "mc/scene/planets.hpp"
+#include "mc/study/copula.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -55,11 +56,12 @@ struct InstanceInputs {
     FluctuationInstance fluctuations;
     double path_exponent;
     double gain;               // of the sensor on the gearbox's vibration
+    double tone_level;         // on the amplitudes of its tones
     double noise_m_s2;         // rms
     double encoder_noise_rad;  // rms
     double fault_size;         // 0 in the threshold group and without a fault
     // Of the law by which its crack grows, as in Life; 0 without one.
-    double paris_factor, paris_exponent;
+    double paris_factor, paris_exponent, curve_pace;
 };
 
 // Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.
@@ -70,12 +72,15 @@ struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
     Record record = Record::judged;
+    std::uint64_t repeat = 0;  // of the judged record, with other noise
 };
 
 // The random numbers for a purpose that belong to the gearbox, the same in all its records.
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 // Those that every record has of its own.
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+// Those of its noise: every repeat has its own, the first that of the record.
+Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 
 // A random input that is given rather than drawn.
 struct GivenInput {
@@ -120,6 +125,7 @@ class Sampler {
     Study draw(Group group, std::uint64_t index) const;
     InstanceInputs resolve(const Study& drawn, Group group, std::uint64_t index) const;
     Study study_;
+    Copula copula_;
     // By random input: how many instances have the same turn in succession.
     std::vector<std::uint64_t> turn_lengths_;
 };

@@ -37,12 +37,17 @@ std::string assumptions(const Study& study) {
     if (study.effects.foundation == Foundation::none && !stiffness_given(study)) {
         all.push_back("rigid gear bodies");
     }
+    const bool lives = study.life.interval_h.has_value();
     if (!torque_fluctuates(study) && !speed_fluctuates(study)) {
-        all.push_back("steady torque and speed");
+        all.push_back(lives ? "torque and speed steady in a record" : "steady torque and speed");
     }
-    std::string text =
-        fmt::format("Holds for {}, and thresholds from other gearboxes.", fmt::join(all, ", "));
-    if (compares_records(study)) {
+    if (lives) {
+        all.push_back(study.life.curve_h.empty() ? "cracks that grow by Paris' law"
+                                                 : "cracks that grow along the given curve");
+    }
+    std::string text = fmt::format("Holds for {}, and thresholds from {} gearboxes.",
+                                   fmt::join(all, ", "), lives ? "the lives of other" : "other");
+    if (compares_records(study) && !lives) {
         text += fmt::format(
             " own_ and change_ features also take a healthy record of the same gearbox, at a "
             "torque "

@@ -16,6 +16,7 @@ struct StudyDraft {
     Problems problems;
     std::map<std::string, Position> given;         // by key path, in its section
     std::map<std::string, Position> given_random;  // by key path, in [random]
+    std::vector<std::string> random_files = {};    // whose columns are drawn, in their order
     std::set<std::string> bad;                     // keys and sections whose value is not usable
     std::map<std::string, Position> sections;
 

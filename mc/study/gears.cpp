@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dynamics/helical_pair.hpp"
+#include "stiffness/foundation/gear_blank.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -273,10 +274,26 @@ stiffness::Profile profile_of(const Study& study) {
     return stiffness::Profile::root_circle;
 }
 
-stiffness::Material material_of(const Study& study) {
+double blank_factor(const Study& study, Member member) {
     const Gearbox& g = study.gearbox;
-    stiffness::Material material{g.young_modulus_Pa.value(), g.poisson_ratio.value(),
-                                 g.face_width_m.value(), study.effects.shear};
+    const MemberValues& body = g.bodies[member];
+    if (!body.rim_m || !body.web_m) {
+        return 1.0;
+    }
+    const double normal_module_m = g.transverse_module_m().value() * normal_over_transverse(g);
+    return stiffness::gear_blank_factor(*body.web_m / g.face_width_m.value(),
+                                        *body.rim_m / normal_module_m);
+}
+
+double blank_factor(const Study& study, const MeshMembers& mesh) {
+    return std::min(blank_factor(study, mesh.driver), blank_factor(study, mesh.driven));
+}
+
+stiffness::Material material_of(const Study& study, const MeshMembers& mesh) {
+    const Gearbox& g = study.gearbox;
+    stiffness::Material material{g.young_modulus_Pa.value() * blank_factor(study, mesh),
+                                 g.poisson_ratio.value(), g.face_width_m.value(),
+                                 study.effects.shear};
     stiffness::set_helix(g.helix_angle_rad, g.pressure_angle_rad, material);
     return material;
 }

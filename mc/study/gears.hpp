@@ -83,8 +83,16 @@ gears::Gear gear_of(const Study& study, Member member);
 // Where the beams of its teeth begin; of no meaning where the stiffness is given.
 stiffness::Profile profile_of(const Study& study);
 
-// What they are made of, and how wide. They must not be without a face width.
-stiffness::Material material_of(const Study& study);
+// What a mesh of rims and webs keeps of the stiffness of solid discs: the smaller of its two gears'
+// factors (stiffness/foundation/gear_blank.hpp); 1 for discs and for a ring, whose rim its own
+// elastic ring is.
+double blank_factor(const Study& study, Member member);
+double blank_factor(const Study& study, const MeshMembers& mesh);
+
+// What the teeth of a mesh are made of, and how wide. They must not be without a face width.
+// Young's modulus is that which gives the mesh what its gears' blanks leave: every part of a tooth
+// pair's stiffness grows with it.
+stiffness::Material material_of(const Study& study, const MeshMembers& mesh);
 
 // Mesh periods by which helical teeth engage later at one end of the face width than at the other.
 double overlap_ratio(const Study& study);

@@ -12,6 +12,10 @@ const RandomInput* Study::find_random(const std::string& key) const {
     return found == random.end() ? nullptr : &*found;
 }
 
+double crack_begin_m(const Life& life) {
+    return life.curve_depth_m.empty() ? life.first_depth_m.value() : life.curve_depth_m.front();
+}
+
 bool compares_records(const Study& study) {
     return std::any_of(
         study.features.use.begin(), study.features.use.end(), [](const std::string& name) {

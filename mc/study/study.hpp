@@ -13,11 +13,11 @@
 #include "dynamics/effects/mesh_damping.hpp"
 #include "gears/flank_relief.hpp"
 #include "lockstep/plan/fault_pattern.hpp"
-#include "lockstep/plan/integrator.hpp"
-#include "machine/dispatch.hpp"
 #include "mc/input/problems.hpp"
-#include "mc/study/distributions/distribution.hpp"
 #include "mc/study/fault_shapes.hpp"
+#include "mc/study/life.hpp"
+#include "mc/study/numerics.hpp"
+#include "mc/study/random_input.hpp"
 #include "signals/path/path_window.hpp"
 #include "stiffness/contact/hertz_contact.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
@@ -37,11 +37,8 @@ enum class Motion { translational_torsional, torsional, quasi_static, quasi_stat
 enum class Separation { none, one_sided, two_sided };
 using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
-using lockstep::Precision;
 using stiffness::Contact;
 using FaultSide = lockstep::PlanetSide;
-enum class StepGrid { uniform, graded };
-enum class Horizon { reuse, march };
 
 // A value for each of `kCount` enumerators.
 template <class Enum, std::size_t kCount, class Value>
@@ -70,6 +67,8 @@ struct MemberValues {
     std::optional<double> crowning_m;
     // Of the foundation: diameter of the bore, of a ring the outer one.
     std::optional<double> held_diameter_m;
+    // Of a gear that is no solid disc: its rim below the teeth's roots, and the web under it.
+    std::optional<double> rim_m, web_m;
     std::optional<double> mass_kg;
     // J, or J / r^2 (r: base radius; carrier: centre distance), or neither (solid disc).
     std::optional<double> inertia_kg_m2, inertia_over_r2_kg;
@@ -238,8 +237,10 @@ struct Sensor {
     Member position = Member::pinion;  // fixed-shaft: the bearing it sits on
     double path_exponent = 0.1;
     double gain = 1.0;        // on the gearbox's vibration, before tones and noise
-    double noise_m_s2 = 0.0;  // rms
+    double noise_m_s2 = 0.0;  // rms, white
+    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // instead; behind the low-pass
     std::vector<Tone> tones;
+    double tone_level = 1.0;  // on their amplitudes
     double encoder_sampling_Hz = 0.0;
     double encoder_noise_rad = 0.0;         // rms
     std::vector<double> noise_levels{1.0};  // factors on both noises, ascending
@@ -263,6 +264,8 @@ struct Detection {
     double confidence = 0.95;
     // Ascending; one of them, and only for a continuous fault size: a length, or a pure number.
     std::vector<double> size_edges_m, size_edges;
+    // Keys of random inputs that are one unknown value of all gearboxes, not scatter among them.
+    std::vector<std::string> uncertain_inputs;
 
     bool operator==(const Detection&) const = default;
 };
@@ -275,45 +278,6 @@ struct Monitoring {
     double false_alarms_per_1000_h = 5.0;  // of lives
 
     bool operator==(const Monitoring&) const = default;
-};
-
-// Gearboxes that are measured again and again while a crack grows; none without an interval_h.
-struct Life {
-    std::optional<double> interval_h;  // between records
-    int records = 200;                 // the most a life has, the baseline's included
-    int healthy_lives = 100;           // that count false alarms, and set no threshold
-    // The crack is there, as deep as this, when the baseline is known; and where a life ends.
-    std::optional<double> first_depth_m, last_depth_m;
-    // Paris' law: C in mm a cycle at 1 MPa m^(1/2), and m.
-    std::optional<double> paris_factor, paris_exponent;
-    std::optional<double> fracture_toughness_Pa_m05;  // at which the ligament breaks
-    int depth_steps = 8;  // depths from none to the last that are marched; between, interpolated
-    // Of a record about its gearbox's value: rms of its logarithm.
-    double torque_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
-
-    bool operator==(const Life&) const = default;
-};
-
-struct Numerics {
-    std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
-    Precision precision = Precision::double_precision;
-    StepGrid grid = StepGrid::uniform;
-    double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
-    double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
-    int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
-    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
-    // not.
-    double tolerance = 0.0;
-    bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
-    double settle_tolerance = 1e-10;
-    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
-    int max_meshes = 0;                // 0: from the damping
-    Horizon horizon = Horizon::reuse;
-    int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
-    int threads = 0;  // 0: all
-    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
-
-    bool operator==(const Numerics&) const = default;
 };
 
 // When a detection rate is known well enough to stop; never without a half_width.
@@ -329,20 +293,12 @@ struct Until {
 struct Ensemble {
     std::int64_t instances = 0;            // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
+    int threshold_records = 1;             // of each of those, with noise of their own
     std::int64_t seed = 0;                 // 0..2^63-1
     double checkpoint_s = 30.0;            // how often finished gearboxes are made safe
     Until until;
 
     bool operator==(const Ensemble&) const = default;
-};
-
-struct RandomInput {
-    std::string key;            // "gearbox.planet_bearing_stiffness_N_m"
-    std::string unit;           // of the key and of the distribution, e.g. "N/m"
-    Distribution distribution;  // in that unit
-    double to_si = 1.0;         // SI value = drawn value * to_si
-
-    bool operator==(const RandomInput&) const = default;
 };
 
 struct Study {
@@ -363,6 +319,7 @@ struct Study {
     Numerics numerics;
     Ensemble ensemble;
     std::vector<RandomInput> random;  // in the order of the schema
+    std::vector<Correlation> correlations;
 
     // The random input of that key, or nullptr.
     const RandomInput* find_random(const std::string& key) const;

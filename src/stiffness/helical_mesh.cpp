@@ -38,13 +38,13 @@ std::vector<double> helical_transitions(const MeshStiffness& spur, double overla
     return phases;
 }
 
-// mean += integral / width over the window of that width which ends at tau, for ascending tau. Of a
-// curve that repeats every mesh period, `inside` lies in the stretch of tau.
+// mean += integral / width over the window of that width which ends `late` before tau, for
+// ascending tau. Of a curve that repeats every mesh period, `inside` lies in the stretch of tau.
 void add_mean(const RunningIntegral& integral, double width, std::span<const double> tau,
-              std::span<double> mean, const double* inside = nullptr) {
+              std::span<double> mean, const double* inside = nullptr, double late = 0) {
     std::vector<double> t(tau.size()), value(tau.size());
     for (const bool end : {true, false}) {
-        const double back = end ? 0 : width;
+        const double back = end ? late : late + width;
         const double period = inside ? std::floor(*inside - back) : 0;
         std::transform(tau.begin(), tau.end(), t.begin(), [&](double at) {
             return inside ? std::clamp(at - back - period, 0.0, 1.0) : at - back;
@@ -89,6 +89,8 @@ class FaultyHelicalMesh : public FaultyMesh {
     FaultyHelicalMesh(const HelicalMesh& healthy, const ToothFault& fault)
         : healthy_(healthy),
           spur_(healthy.slice().with_fault(fault)),
+          late_(healthy.overlap_ * fault.face().begin),
+          width_(healthy.overlap_ * (fault.face().end - fault.face().begin)),
           lost_(integral([&](auto t, double inside, auto values) {
               std::vector<double> whole(t.size());
               spur_->total(t, inside, values);
@@ -101,7 +103,7 @@ class FaultyHelicalMesh : public FaultyMesh {
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override {
         healthy_.total(tau, inside, stiffness);
-        add_mean(lost_, healthy_.overlap_, tau, stiffness);
+        add_mean(lost_, width_, tau, stiffness, nullptr, late_);
     }
 
     void tooth_pair(int tooth, std::span<const double> tau, double inside,
@@ -115,7 +117,7 @@ class FaultyHelicalMesh : public FaultyMesh {
         std::call_once(teeth_known_, [&] { integrate_tooth_pairs(); });
         const std::size_t i = static_cast<std::size_t>(tooth - first_tooth());
         if (tooth >= first_tooth() && i < lost_by_tooth_.size())
-            add_mean(lost_by_tooth_[i], healthy_.overlap_, tau, stiffness);
+            add_mean(lost_by_tooth_[i], width_, tau, stiffness, nullptr, late_);
     }
 
   private:
@@ -151,6 +153,7 @@ class FaultyHelicalMesh : public FaultyMesh {
 
     const HelicalMesh& healthy_;
     std::unique_ptr<const FaultyMesh> spur_;
+    double late_, width_;  // mesh periods: of the fault's first slice, and between first and last
     RunningIntegral lost_;
     mutable std::once_flag teeth_known_;
     mutable std::vector<RunningIntegral> lost_by_tooth_;

@@ -8,9 +8,16 @@
 // likewise of one tooth pair. Hence a whole overlap ratio leaves no variation. Of the spur pair:
 // its teeth have the stiffness of the helical teeth's slices (Material, set_helix); contact and
 // coupling of neighbouring teeth are the slices' own. A fault acts in every slice as it does on the
-// spur tooth: a chip or a pit, which has a place along the face width, is so spread over it, and
-// the passage is longer by the overlap ratio. Sources of the thin slices: Smith, Gear Noise and
-// Vibration (2003); Feng et al., Mech. Mach. Theory 128 (2018).
+// spur tooth, so the passage is longer by the overlap ratio. What it takes from the spur tooth it
+// takes from those slices alone among which it lies (ToothFault::face, y from 0 to 1 of the width):
+//
+//     lost(tau) = 1 / (e_b (y_2 - y_1))  integral of lost_spur(u) du  from tau - e_b y_2 to tau -
+//     e_b y_1,
+//
+// as much in all as if it were spread over the width, and the spur tooth's loss for e_b = 0. So the
+// rest of the tooth holds up the slices of a pit or a chip as it does on a spur tooth. A chip lies
+// on the length that it has at the tip. Sources of the thin slices: Smith, Gear Noise and Vibration
+// (2003); Feng et al., Mech. Mach. Theory 128 (2018).
 //
 // Forces along the axes and tilting stay out: the gears move in the transverse plane.
 #pragma once

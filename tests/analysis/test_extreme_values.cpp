@@ -75,7 +75,9 @@ void assess(const Kind& sizes, std::size_t count, double rate, unsigned seed) {
     request.false_alarm_rate = rate;
     request.noise_levels = {1.0};
     request.groups = {{0.0, 0.0}, {kLeast, 1e-3}, {1e-3, 2e-3}, {2e-3, kLargest}};
-    ReliabilityData data{healthy_size, graded_size, {}, {}, {}};
+    ReliabilityData data;
+    data.healthy_size = healthy_size;
+    data.graded_size = graded_size;
     std::vector<std::vector<double>> healthy(kValues.size()), graded(kValues.size());
     std::vector<FeatureDetection> detections;
     for (std::size_t f = 0; f < kValues.size(); ++f) {

@@ -132,6 +132,49 @@ TEST_CASE("31 and 30 helical teeth at 116.5 mm need the sum of shifts that ISO 2
     CHECK(tight_shift_sum(one, two, 116.5e-3) * module / 3.5 == Approx(0.6518771312).epsilon(1e-8));
 }
 
+// KHK gear technical reference, calculation of a profile shifted helical gear in the normal system:
+// m_n = 3 mm, helix 30 degrees. KHK cuts decimals off.
+TEST_CASE("12 and 60 helical teeth shifted by 0.09809 in the normal plane are KHK's") {
+    const double c = std::cos(30 * kDegree);
+    const auto helical = [&](int teeth) {
+        Gear gear = standard(teeth, 3 / c, std::atan(std::tan(20 * kDegree) / c) / kDegree);
+        gear.addendum_coefficient = c;
+        gear.dedendum_coefficient = 1.25 * c;
+        return gear;
+    };
+    const Set set(helical(12), helical(60), {0.09809 * c, 0});
+    CHECK(set.mesh.gear(1).pressure_angle_rad / kDegree == Approx(22.79588).margin(5e-6));
+    CHECK(involute(set.mesh.working_pressure_angle()) == Approx(0.023405).margin(5e-7));
+    CHECK(set.angle() == Approx(23.1126).margin(5e-5));
+    CHECK(1e3 * set.mesh.centre_distance() == Approx(125.000).margin(5e-4));
+    CHECK(2e3 * set.mesh.gear(1).pitch_radius() == Approx(41.569).margin(kLast));
+    CHECK(2e3 * set.mesh.gear(2).pitch_radius() == Approx(207.846).margin(kLast));
+    CHECK(2e3 * set.mesh.gear(1).base_radius() == Approx(38.322).margin(kLast));
+    CHECK(2e3 * set.mesh.gear(2).base_radius() == Approx(191.611).margin(kLast));
+    CHECK(set.working(1) == Approx(41.667).margin(kLast));
+    CHECK(set.working(2) == Approx(208.333).margin(kLast));
+    CHECK(set.tip(1) == Approx(48.153).margin(kLast));
+    CHECK(set.tip(2) == Approx(213.842).margin(kLast));
+    CHECK(set.root(1) == Approx(34.657).margin(kLast));
+    CHECK(set.root(2) == Approx(200.346).margin(kLast));
+}
+
+// The same in the transverse system: m_t = 3 mm, 20 degrees in the transverse plane.
+TEST_CASE("12 and 60 helical teeth shifted by 0.34462 in the transverse plane are KHK's") {
+    const Set set(standard(12, 3), standard(60, 3), {0.34462, 0});
+    CHECK(involute(set.mesh.working_pressure_angle()) == Approx(0.0183886).margin(5e-8));
+    CHECK(set.angle() == Approx(21.3975).margin(5e-5));
+    CHECK(1e3 * set.mesh.centre_distance() == Approx(109.0000).margin(5e-5));
+    CHECK(2e3 * set.mesh.gear(1).base_radius() == Approx(33.8289).margin(5e-5));
+    CHECK(2e3 * set.mesh.gear(2).base_radius() == Approx(169.1447).margin(5e-5));
+    CHECK(set.working(1) == Approx(36.3333).margin(5e-5));
+    CHECK(set.working(2) == Approx(181.6667).margin(5e-5));
+    CHECK(set.tip(1) == Approx(44.000).margin(5e-4));
+    CHECK(set.tip(2) == Approx(185.932).margin(5e-4));
+    CHECK(set.root(1) == Approx(30.568).margin(5e-4));
+    CHECK(set.root(2) == Approx(172.500).margin(5e-4));
+}
+
 // FVA information sheet 2/IV: FZG test gears, type C.
 TEST_CASE("FZG's test gears of type C work at 22.44 degrees") {
     const Set set(standard(16, 4.5), standard(24, 4.5), {0.1817, 0.1715, {}, 91.5e-3});

@@ -4,6 +4,7 @@ CASES holds the JSON that make_report_cases writes, PROGRAM is gearpod, SOURCES 
 with 77, which ctest shows as skipped, where the browser or its driver is missing.
 """
 
+import json
 import os
 import pathlib
 import shutil
@@ -13,6 +14,7 @@ import tempfile
 import unittest
 
 CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 try:
     from selenium import webdriver
@@ -26,7 +28,11 @@ for missing in (name for name in ("chromium", "chromedriver") if shutil.which(na
     print(f"skipped: no {missing} (Debian: chromium chromium-driver)")
     sys.exit(77)
 
-PHONE, DESKTOP = (390, 844), (1280, 800)
+import made_sweeps  # noqa: E402
+from in_page import CONTRASTS, OVERLAPS  # noqa: E402
+
+PHONE, TABLET, DESKTOP = (390, 844), (768, 1024), (1280, 800)
+PAPER = (680, 960)  # what A4 leaves between the browser's margins, in CSS pixels
 # In a browser of its own: a small study of every kind of gearbox.
 STUDIES = {
     "planet": ["planet-crack-ideal.toml", "--instances", "350", "--set",
@@ -63,11 +69,18 @@ class InBrowser(unittest.TestCase):
                    planet + ".louder.h5"])
         make_page([PROGRAM, "compare", planet, planet + ".louder.h5", "--html",
                    cls.pages["comparison"]])
-        for name in SHOWN:
+        tables = SOURCES / "tests" / "analysis" / "reference"
+        cls.pages["inspection"] = os.path.join(cls.folder.name, "inspection.html")
+        make_page([PROGRAM, "pod", tables / "inspections_hits.csv", "--html",
+                   cls.pages["inspection"]])
+        made = {name: CASES / f"{name}.json" for name in SHOWN}
+        for name, sweep in made_sweeps.all_of().items():
+            made[name] = pathlib.Path(cls.folder.name, name + ".json")
+            made[name].write_text(json.dumps(sweep))
+        for name, file in made.items():
             cls.pages[name] = os.path.join(cls.folder.name, name + ".html")
             text = make_page(["/usr/bin/python3", "-Bs",
-                              SOURCES / "analysis" / "report" / "build_page.py",
-                              CASES / f"{name}.json"])
+                              SOURCES / "analysis" / "report" / "build_page.py", file])
             pathlib.Path(cls.pages[name]).write_text(text)
         options = webdriver.ChromeOptions()
         for argument in ("--headless=new", "--no-sandbox", "--disable-gpu",
@@ -83,11 +96,11 @@ class InBrowser(unittest.TestCase):
         cls.browser.quit()
         cls.folder.cleanup()
 
-    def open(self, name, screen, dark=False):
+    def open(self, name, screen, dark=False, media="screen"):
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": screen[0], "height": screen[1], "deviceScaleFactor": 1,
             "mobile": screen == PHONE})
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": [
             {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
         self.browser.get("file://" + self.pages[name])
 
@@ -95,11 +108,11 @@ class InBrowser(unittest.TestCase):
         return self.browser.execute_script(text, *arguments)
 
     def on_each(self, check):
-        """Calls check(name) with every page open, on either screen."""
+        """Calls check(name) with every page open, on every screen and on paper."""
         for name in self.pages:
-            for screen in (PHONE, DESKTOP):
+            for screen in (PHONE, TABLET, DESKTOP, PAPER):
                 with self.subTest(page=name, width=screen[0]):
-                    self.open(name, screen)
+                    self.open(name, screen, media="print" if screen == PAPER else "screen")
                     check(name)
 
     def test_nothing_is_logged_and_nothing_is_loaded(self):
@@ -126,7 +139,7 @@ class InBrowser(unittest.TestCase):
 
     def test_every_chart_is_drawn_and_its_text_stays_on_it(self):
         def check(name):
-            charts = self.script("""
+            charts = self.script(OVERLAPS + """
                 return [...document.querySelectorAll('figure svg')].map(svg => {
                     const box = svg.getBoundingClientRect();
                     const out = [...svg.querySelectorAll('text')].filter(text => {
@@ -134,11 +147,12 @@ class InBrowser(unittest.TestCase):
                         return t.width > 0 && (t.left < box.left - 4 || t.right > box.right + 4
                             || t.top < box.top - 4 || t.bottom > box.bottom + 4);
                     }).map(text => text.textContent);
-                    return {width: box.width, height: box.height, out: out,
+                    return {width: box.width, height: box.height, out: out, over: over(svg),
                             marks: svg.querySelectorAll('path, use').length};});""")
             for chart in charts:
                 self.assertGreater(chart["width"], 250)
                 self.assertGreater(chart["height"], 80)
+                self.assertEqual(chart["over"], [])
                 self.assertGreater(chart["marks"], 3)
                 self.assertEqual(chart["out"], [])
             figures = self.script("return [...document.querySelectorAll('figure')]"
@@ -175,8 +189,27 @@ class InBrowser(unittest.TestCase):
         regions = [n for n in nodes if n.get("role", {}).get("value") in ("main", "navigation")]
         self.assertEqual(len(regions), 2)
 
+    def test_text_stands_out_from_what_is_behind_it(self):
+        for name in self.pages:
+            for dark in (False, True):
+                with self.subTest(page=name, dark=dark):
+                    self.open(name, DESKTOP, dark)
+                    self.script("document.querySelectorAll('details').forEach(d => d.open = true)")
+                    seen, weak = self.script(CONTRASTS)
+                    self.assertGreater(seen, 5)
+                    self.assertEqual(weak, [])
+
     def test_the_keyboard_goes_through_the_page_in_order(self):
+        for name in self.pages:
+            with self.subTest(page=name):
+                self.goes_through(name)
         self.open("planet", DESKTOP)
+        self.script("document.querySelector('figure summary').focus()")
+        ActionChains(self.browser).send_keys(Keys.ENTER).perform()
+        self.assertTrue(self.script("return document.querySelector('figure details').open"))
+
+    def goes_through(self, name):
+        self.open(name, DESKTOP)
         wanted = self.script("""
             const all = 'a[href], summary, [tabindex="0"]';
             return [...document.querySelectorAll(all)].filter(e => e.offsetParent !== null
@@ -190,9 +223,6 @@ class InBrowser(unittest.TestCase):
                 "return getComputedStyle(document.activeElement).outlineStyle"), "none")
         self.assertEqual(reached, [str(i) for i in range(len(wanted))])
         self.assertEqual(wanted[0], "A")  # past the header with one key
-        self.script("document.querySelector('figure summary').focus()")
-        ActionChains(self.browser).send_keys(Keys.ENTER).perform()
-        self.assertTrue(self.script("return document.querySelector('figure details').open"))
 
     def test_a_dark_screen_has_light_text(self):
         self.open("planet", DESKTOP, dark=True)
@@ -209,8 +239,6 @@ class InBrowser(unittest.TestCase):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
         self.assertEqual(self.script(
             "return getComputedStyle(document.querySelector('nav')).display"), "none")
-        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
-                             self.script("return document.documentElement.clientWidth"))
         printed = self.browser.execute_cdp_cmd("Page.printToPDF", {})
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         self.assertGreater(len(printed["data"]), 50000)

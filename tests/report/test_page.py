@@ -296,6 +296,16 @@ class Program(unittest.TestCase):
         for drawing in drawings:
             xml.etree.ElementTree.parse(drawing)
             self.assertEqual(drawing.with_suffix(".png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        before = pathlib.Path(self.results).read_bytes()
+        for made_, option in ((next(tables.glob("*.csv")), "--csv"), (drawings[0], "--figures")):
+            made_.unlink()
+            made_.symlink_to(self.results)
+            self.gearpod("report", self.results, option, made_.parent)
+            self.assertEqual(pathlib.Path(self.results).read_bytes(), before, option)
+            made_.unlink()
+            os.link(self.results, made_)
+            self.gearpod("report", self.results, option, made_.parent)
+            self.assertEqual(pathlib.Path(self.results).read_bytes(), before, option)
         failed = self.gearpod("report", self.results, "--figures", self.results)
         self.assertEqual(failed.returncode, 2)
         self.assertIn(self.results, failed.stderr)
@@ -340,6 +350,39 @@ class Program(unittest.TestCase):
         shown = self.gearpod("compare", a, a).stdout
         self.assertIn("the same in every gearbox: te_rms", shown)
         self.assertLessEqual(max(map(len, shown.splitlines())), 120)
+
+    def test_lives_have_a_page(self):
+        results = os.path.join(os.path.dirname(self.html()), "lives.h5")
+        life = {"life.interval_h": 5, "life.first_depth_mm": 1, "life.last_depth_mm": 4,
+                "life.depth_steps": 2, "life.paris_factor": 5e-7, "life.paris_exponent": 2.25,
+                "life.records": 60, "life.healthy_lives": 8, "monitoring.baseline_records": 8,
+                "monitoring.false_alarms_per_1000_h": 5, "sensor.noise_levels": [1],
+                "features.use": '["window_ratio","change_window_ratio"]',
+                "ensemble.instances": 8, "ensemble.threshold_instances": 8}
+        options = [text for key, value in life.items() for text in ("--set", f"{key}={value}")]
+        told = self.gearpod("lives", SOURCES / "studies" / "planet-crack-ideal.toml", "--quiet",
+                            *options, "--out", results, "--html", self.html(), "--json", "-")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        html = pathlib.Path(self.html()).read_text()
+        data = json.loads(told.stdout)
+        self.assertEqual(html, build_page.page_html(data))
+        parsed = PageHtml(html)
+        self.assertEqual(parsed.problems, [])
+        self.assertEqual(parsed.count("figure"), 3)
+        self.assertEqual(parsed.count("script"), 0)
+        ended = sum(life["end_h"] is not None for life in data["lives"])
+        self.assertGreater(ended, 0)
+        self.assertIn("Holds for identical teeth", data["assumptions"])
+        self.assertIn("the lives of other gearboxes", data["assumptions"])
+        for words_ in (data["assumptions"], f"of {ended} cracks before the tooth goes", "Warning times",
+                       "What false alarms buy", "each of the 31 teeth in all its 81 meetings"):
+            self.assertIn(words_, parsed.text())
+        self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
+        os.remove(self.html())
+        again = self.gearpod("report", results, "--html", self.html(), "--json", "-")
+        self.assertEqual(again.stdout, told.stdout)
+        self.assertEqual(pathlib.Path(self.html()).read_text(), html)
+        os.remove(self.html())
 
     def test_a_page_that_cannot_be_written_is_said_first(self):
         failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")

@@ -9,6 +9,8 @@
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/broken.hpp"
+#include "stiffness/faults/chip.hpp"
+#include "stiffness/faults/pitting.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
@@ -40,6 +42,15 @@ double by_slices(double overlap, const OfSlice& of_slice) {
     for (int i = 0; i < kSlices; ++i)
         sum += of_slice(overlap * (i + 0.5) / kSlices);
     return sum / kSlices;
+}
+
+// Pits in the middle of the profile of the planet's teeth.
+PitBand pits_at(double face_centre) {
+    PitBand band;
+    band.centre_radius_m = kPlanetRing.contact_radius(1, 0.5 * kPlanetRing.contact_ratio());
+    band.length_m = 2e-3;
+    band.face_centre = face_centre;
+    return band;
 }
 
 double faulty_total(const FaultyMesh& faulty, const MeshStiffness& mesh, double tau) {
@@ -138,6 +149,72 @@ TEST_CASE("a fault passes a helical pair slice by slice") {
             CHECK(sum == Approx(total_at(*faulty, mesh.transitions(), tau)).epsilon(1e-8));
         }
     }
+}
+
+// The slices on which a fault lies lose what the spur tooth loses, over their part of the width;
+// the others nothing.
+TEST_CASE("chips and pits act where they lie along the face width") {
+    const double face = kLiangSteel.face_width_m, overlap = 0.61;
+    const ToothChip first(kPlanetRing, face, 1), last(kPlanetRing, face, 1, {}, FaceEnd::last);
+    const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, pits_at(0.3));
+    struct Placed {
+        std::unique_ptr<const ToothFault> fault;
+        double begin, end;
+    };
+    const Placed placed[] = {{first.at(0.1 * face), 0, 0.1},
+                             {last.at(0.1 * face), 0.9, 1},
+                             {pits.at(0.4 * face), 0.1, 0.5}};
+    for (const auto& make : {additive, coupled})
+        for (const Placed& p : placed) {
+            const auto spur = make();
+            const auto spur_faulty = spur->with_fault(*p.fault);
+            const HelicalMesh mesh(make(), overlap);
+            const auto faulty = mesh.with_fault(*p.fault);
+            const auto spur_lost = [&](double tau) {
+                return total_at(*spur, tau) - faulty_total(*spur_faulty, *spur, tau);
+            };
+            double lost = 0, lost_in_all = 0;
+            for (int i = 0; i < 60; ++i) {
+                const double tau = (i + 0.5) / 60 * faulty->duration();
+                const double here =
+                    total_at(mesh, tau) - total_at(*faulty, mesh.transitions(), tau);
+                CHECK(here ==
+                      Approx(by_slices(overlap * (p.end - p.begin),
+                                       [&](double later) {
+                                           return spur_lost(tau - overlap * p.begin - later);
+                                       }))
+                          .epsilon(1e-3)
+                          .margin(1e-6 * mean_total(mesh)));
+                lost += here / 60 * faulty->duration();
+            }
+            for (int i = 0; i < 4000; ++i)
+                lost_in_all += spur_lost((i + 0.5) / 4000 * spur_faulty->duration()) / 4000 *
+                               spur_faulty->duration();
+            CHECK(lost_in_all > 0);
+            CHECK(lost == Approx(lost_in_all).epsilon(0.05));
+        }
+}
+
+TEST_CASE("a pit that hardly any helix spreads takes what it takes from a spur tooth") {
+    PitBand band = pits_at(0.8);
+    band.depth_m = 0.5e-3;
+    const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, band);
+    const auto pit = pits.at(0.2 * kLiangSteel.face_width_m);
+    const auto spur = additive();
+    const HelicalMesh mesh(additive(), 1e-4);
+    const auto spur_faulty = spur->with_fault(*pit), faulty = mesh.with_fault(*pit);
+    for (const double tau : {0.3, 0.97, 1.4})
+        CHECK(total_at(*faulty, mesh.transitions(), tau) ==
+              Approx(total_at(*spur_faulty, spur->transitions(), tau)).epsilon(2e-4));
+}
+
+TEST_CASE("pits that reach beyond the end of the face are refused") {
+    const double face = kLiangSteel.face_width_m;
+    const ToothPitting pits(kPlanetRing, kLiangSteel, Profile::root_circle, 1, pits_at(0.2));
+    CHECK(pits.problems(0.4 * face).empty());
+    const auto problems = pits.problems(0.41 * face);
+    REQUIRE(problems.size() == 1);
+    CHECK_THAT(problems[0], Catch::Contains("from the end of the face reach beyond it"));
 }
 
 TEST_CASE("deeper cracks soften a helical pair more, and a broken tooth takes its own pair away") {

@@ -32,7 +32,8 @@ def detection(results: "Results", feature: str, noise: Optional[float] = None,
     axes = _axes(axes)
     scale, label = _size_scale(results)
     table = results.detection_columns()
-    for level in results.noise_levels if noise is None else [results.noise_levels[results.level(noise)]]:
+    levels = results.noise_levels
+    for level in levels if noise is None else levels[[results.level(noise)]]:
         at = ((table["feature"] == feature) & (table["noise_level"] == level)
               & (table["size_high"] > 0) & (table["tested"] > 0))
         x = scale * 0.5 * (table["size_low"][at] + table["size_high"][at])
@@ -51,7 +52,9 @@ def _level(results: "Results", feature: str, noise: Optional[float]) -> Dict[str
         raise ValueError(f"{results.path}: too many gearboxes for curves")
     for entry in reliability["features"]:
         if entry["name"] == feature:
-            return entry["levels"][results.level(results.reference if noise is None else noise)]
+            at = results.level(results.reference if noise is None else noise)
+            level: Dict[str, Any] = entry["levels"][at]
+            return level
     raise KeyError(f"no {feature}; there are {', '.join(results.features)}")
 
 

@@ -9,6 +9,7 @@ import tempfile
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 try:
     import h5py
@@ -17,7 +18,7 @@ except ImportError as error:
 
 from .program import PathLike, call
 
-Array = np.ndarray
+Array = npt.NDArray[Any]
 FORMAT, NEWEST = "gearpod results", 2
 GROUPS = {"threshold": 0, "graded": 1, "neither": 2}
 
@@ -40,6 +41,9 @@ class Results:
                 raise ValueError(f"{self.path}: not a results file of gearpod")
             if int(self.attributes["format_version"]) > NEWEST:
                 raise ValueError(f"{self.path}: written by a newer gearpod")
+            if self.attributes.get("kind") == "lives":
+                raise ValueError(f"{self.path}: holds lives; read it with h5py (/features are "
+                                 "gearboxes x records, /hours when)")
             self.noise_levels: Array = file["noise_levels"][()]
             self.group: Array = file["instances/group"][()]
             self.status: Array = file["status"][()]
@@ -172,7 +176,8 @@ class Results:
         if name not in names:
             raise KeyError(f"no {name}; there are {', '.join(names)}")
         with h5py.File(self.path, "r") as file:
-            return file[folder][name][()]
+            values: Array = file[folder][name][()]
+        return values
 
 
 def _text(value: Union[bytes, str, Any]) -> str:

@@ -36,12 +36,10 @@ struct Beta {
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }
-    bool operator==(const Beta&) const = default;
-
-  private:
     double quantile(double p) const {
         return low + (high - low) * boost::math::ibeta_inv(alpha, beta, p);
     }
+    bool operator==(const Beta&) const = default;
 };
 
 }  // namespace gearpod::mc

@@ -31,21 +31,7 @@ struct Discrete {
         const bool both = !values.empty() && !weights.empty();  // else that is what is wrong
         return both && values.size() != weights.size() ? "values and weights must be as many" : "";
     }
-    double median() const {
-        std::vector<std::pair<double, double>> ascending;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            ascending.emplace_back(values[i], weights[i]);
-        }
-        std::sort(ascending.begin(), ascending.end());
-        double left = 0.5 * total();
-        for (const auto& [value, weight] : ascending) {
-            left -= weight;
-            if (left <= 0.0) {
-                return value;
-            }
-        }
-        return ascending.back().first;
-    }
+    double median() const { return quantile(0.5); }
     Support support() const {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         return {*low, *high, false, false};
@@ -60,6 +46,21 @@ struct Discrete {
             }
         }
         return values.back();
+    }
+    double quantile(double p) const {
+        std::vector<std::pair<double, double>> ascending;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            ascending.emplace_back(values[i], weights[i]);
+        }
+        std::sort(ascending.begin(), ascending.end());
+        double left = p * total();
+        for (const auto& [value, weight] : ascending) {
+            left -= weight;
+            if (left <= 0.0) {
+                return value;
+            }
+        }
+        return ascending.back().first;
     }
     bool operator==(const Discrete&) const = default;
 

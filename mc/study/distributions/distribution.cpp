@@ -14,6 +14,7 @@
 #include "mc/study/distributions/beta.hpp"
 #include "mc/study/distributions/constant.hpp"
 #include "mc/study/distributions/discrete.hpp"
+#include "mc/study/distributions/empirical.hpp"
 #include "mc/study/distributions/grid.hpp"
 #include "mc/study/distributions/levels.hpp"
 #include "mc/study/distributions/lognormal.hpp"
@@ -29,7 +30,7 @@ namespace gearpod::mc {
 
 // The registration line.
 using AnyLaw = std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNormal, Triangular,
-                            Weibull, Beta, Discrete, Levels, Grid>;
+                            Weibull, Beta, Discrete, Empirical, Levels, Grid>;
 
 struct DistributionKind {
     AnyLaw law;
@@ -92,6 +93,9 @@ class FieldReader {
         const Entry* entry = table_.find(field.name);
         if (entry != nullptr) {
             return convert(*entry, field.range, target);
+        }
+        if (field.optional) {
+            return true;
         }
         make_bad(target);
         return report_missing ? add(table_.position, std::string(field.name), "missing",
@@ -221,6 +225,40 @@ double Distribution::draw(Philox& engine, std::uint64_t turn) const {
     return std::visit([&](const auto& law) { return law.draw(engine, turn); }, kind_->law);
 }
 
+bool Distribution::has_quantile() const {
+    return rows().group == 0 && std::visit(
+                                    [](const auto& law) {
+                                        return requires {
+                                            law.quantile(0.5);
+                                        };
+                                    },
+                                    kind_->law);
+}
+
+double Distribution::quantile(double share) const {
+    return std::visit(
+        [&](const auto& law) {
+            if constexpr (requires { law.quantile(share); }) {
+                return law.quantile(share);
+            } else {
+                return law.median();
+            }
+        },
+        kind_->law);
+}
+
+Distribution::Rows Distribution::rows() const {
+    return std::visit(
+        [](const auto& law) -> Rows {
+            if constexpr (requires { law.rows; }) {
+                return {law.rows, law.values.size()};
+            } else {
+                return {};
+            }
+        },
+        kind_->law);
+}
+
 std::string Distribution::toml() const {
     return std::visit(
         [](const auto& law) {
@@ -289,9 +327,9 @@ std::vector<DistributionHelp> distribution_help() {
         std::string parameters;
         const auto add = [&](const auto& field) {
             const std::string range = field.range.text();
-            parameters +=
-                fmt::format("{}{} ({}{}{})", parameters.empty() ? "" : ", ", field.name,
-                            kind_text(law.*(field.member)), range.empty() ? "" : " ", range);
+            parameters += fmt::format("{}{} ({}{}{}{})", parameters.empty() ? "" : ", ", field.name,
+                                      kind_text(law.*(field.member)), range.empty() ? "" : " ",
+                                      range, field.optional ? ", optional" : "");
         };
         std::apply([&](const auto&... field) { (add(field), ...); }, law.fields());
         all.push_back({std::string(law.kName), parameters});

@@ -29,6 +29,17 @@ class Distribution {
     // One value. `levels` and `grid` give value `turn` mod count and use no randomness; for all
     // others `turn` means nothing.
     double draw(Philox& engine, std::uint64_t turn) const;
+    // Whether it has quantile(): all that neither take values in turn nor are drawn in rows.
+    bool has_quantile() const;
+    // The value that a share of the draws, 0 < share < 1, is not above.
+    double quantile(double share) const;
+    // Values that are drawn in rows: the group whose inputs draw the same place of their lists, 0
+    // if there is none, and how many places there are.
+    struct Rows {
+        int group = 0;
+        std::size_t count = 0;
+    };
+    Rows rows() const;
     // As an inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;

@@ -13,12 +13,15 @@ struct Field {
     std::string_view name;
     Type Law::*member;
     Range range = {};
+    bool optional = false;  // then the law's own value stands where there is none
 };
 
 template <class Law, class Type>
 Field(std::string_view, Type Law::*) -> Field<Law, Type>;
 template <class Law, class Type>
 Field(std::string_view, Type Law::*, Range) -> Field<Law, Type>;
+template <class Law, class Type>
+Field(std::string_view, Type Law::*, Range, bool) -> Field<Law, Type>;
 
 constexpr Range kPositiveField{0.0, std::numeric_limits<double>::infinity(), true, false};
 

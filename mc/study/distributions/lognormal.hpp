@@ -2,6 +2,7 @@
 // cv = sd / mean: sigma^2 = ln(1 + cv^2), mu = ln(median).
 #pragma once
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/random/lognormal_distribution.hpp>
 #include <cmath>
 #include <cstdint>
@@ -34,6 +35,10 @@ struct Lognormal {
     double draw(Philox& engine, std::uint64_t) const {
         const double sigma = std::sqrt(std::log1p(cv * cv));
         return boost::random::lognormal_distribution<double>(std::log(middle), sigma)(engine);
+    }
+    double quantile(double p) const {
+        const double z = -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p);
+        return middle * std::exp(std::sqrt(std::log1p(cv * cv)) * z);
     }
     bool operator==(const Lognormal&) const = default;
 };

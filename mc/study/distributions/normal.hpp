@@ -2,6 +2,7 @@
 // input with a bound may be normal if the bound is that far away.
 #pragma once
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <cstdint>
@@ -36,6 +37,9 @@ struct Normal {
             z = normal(engine);
         }
         return mean + sd * z;
+    }
+    double quantile(double p) const {
+        return mean - sd * std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p);
     }
     bool operator==(const Normal&) const = default;
 };

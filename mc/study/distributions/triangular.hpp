@@ -40,6 +40,11 @@ struct Triangular {
     double draw(Philox& engine, std::uint64_t) const {
         return boost::random::triangle_distribution<double>(low, mode, high)(engine);
     }
+    double quantile(double p) const {
+        const double width = high - low, left = (mode - low) / width;
+        return p < left ? low + std::sqrt(p * width * (mode - low))
+                        : high - std::sqrt((1.0 - p) * width * (high - mode));
+    }
     bool operator==(const Triangular&) const = default;
 };
 

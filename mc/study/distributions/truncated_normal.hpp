@@ -45,12 +45,6 @@ struct TruncatedNormal {
     double draw(Philox& engine, std::uint64_t) const {
         return quantile(boost::random::uniform_01<double>()(engine));
     }
-    bool operator==(const TruncatedNormal&) const = default;
-
-  private:
-    // Beyond, the tail probabilities come near the smallest numbers.
-    static constexpr double kFarthest = 30.0;
-
     // 0 <= p < 1.
     double quantile(double p) const {
         const double side = mean < 0.5 * low + 0.5 * high ? 1.0 : -1.0;
@@ -65,6 +59,11 @@ struct TruncatedNormal {
         const double deviation = boost::math::erfc_inv(tail) / scale;
         return std::clamp(mean + deviation, low, high);
     }
+    bool operator==(const TruncatedNormal&) const = default;
+
+  private:
+    // Beyond, the tail probabilities come near the smallest numbers.
+    static constexpr double kFarthest = 30.0;
 };
 
 }  // namespace gearpod::mc

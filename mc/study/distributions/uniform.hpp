@@ -29,6 +29,7 @@ struct Uniform {
     double draw(Philox& engine, std::uint64_t) const {
         return boost::random::uniform_real_distribution<double>(low, high)(engine);
     }
+    double quantile(double p) const { return low + p * (high - low); }
     bool operator==(const Uniform&) const = default;
 };
 

@@ -36,10 +36,8 @@ struct Weibull {
             0x1p-54;  // 0 is drawn once in 2^53 times, and never to be a value
         return quantile(std::max(kLeast, boost::random::uniform_01<double>()(engine)));
     }
-    bool operator==(const Weibull&) const = default;
-
-  private:
     double quantile(double p) const { return scale * std::pow(-std::log1p(-p), 1.0 / shape); }
+    bool operator==(const Weibull&) const = default;
 };
 
 }  // namespace gearpod::mc

@@ -11,9 +11,14 @@
 namespace gearpod::mc {
 namespace {
 
+using stiffness::FaceEnd;
+
+constexpr ChoiceName kEnds[] = {name("first", FaceEnd::first), name("last", FaceEnd::last)};
+
 struct Chip : FaultShape {
     std::optional<double> width_m;   // along the face width, at the tip
     std::optional<double> height_m;  // along the tooth
+    std::optional<FaceEnd> end;      // of helical teeth
 
     bool operator==(const Chip&) const = default;
 };
@@ -22,6 +27,7 @@ struct Chip : FaultShape {
 constexpr FaultSize kSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width that the chip takes off the face width at the tip"};
 constexpr FaultKey kOthers[] = {
     {"chip_height_mm", number<&Chip::height_m>, kMm, kPositive, Need::optional, kFaultShape, "height of the chip along the tooth, from the tip; a quarter of its width by default"},
+    {"chip_end", choice<&Chip::end>(kEnds), kNone, kAny, Need::optional, kFaultShape, "end of the face width of helical teeth that is chipped: the one that engages \"first\" (by default) or \"last\""},
 };
 // clang-format on
 
@@ -36,6 +42,7 @@ class ChipKind final : public FaultKind {
     void check(StudyDraft& draft) const override {
         const std::string height_key = "fault.chip_height_mm";
         check_on_face(draft);
+        check_helical(draft, "fault.chip_end");
         const double tooth_mm = tooth_height_m(draft.study) * kMmPerM;
         const double chip_mm =
             draft.study.fault.shapes.get<Chip>().height_m.value_or(0.0) * kMmPerM;
@@ -49,9 +56,11 @@ class ChipKind final : public FaultKind {
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
+        const Chip& chip = study.fault.shapes.get<Chip>();
+        const bool last = (chip.end == FaceEnd::last) != tooth.reversed;
         return std::make_unique<const stiffness::ToothChip>(
-            tooth.geometry.value(), *study.gearbox.face_width_m, tooth.gear,
-            study.fault.shapes.get<Chip>().height_m);
+            tooth.geometry.value(), *study.gearbox.face_width_m, tooth.gear, chip.height_m,
+            last ? FaceEnd::last : FaceEnd::first);
     }
 };
 

@@ -34,9 +34,9 @@ class CrackKind final : public FaultKind {
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
-        return std::make_unique<const stiffness::ToothCrack>(tooth.geometry.value(),
-                                                             material_of(study), profile_of(study),
-                                                             tooth.gear, crack_angle_rad(study));
+        return std::make_unique<const stiffness::ToothCrack>(
+            tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
+            crack_angle_rad(study));
     }
 };
 

@@ -10,6 +10,7 @@
 
 #include "gears/mesh_geometry.hpp"
 #include "mc/study/draft.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/keys/key.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
 #include "stiffness/teeth/tooth_fault.hpp"
@@ -39,9 +40,11 @@ struct FaultKey {
 
 // Of the mesh in which the faulty tooth acts.
 struct FaultyTooth {
+    MeshMembers mesh;
     const std::optional<gears::MeshGeometry>& geometry;  // empty where the stiffness is given
     int gear;                                            // that has the tooth, 1 or 2 of the mesh
     const stiffness::FilletFoundation* foundation;       // that gear's, or null
+    bool reversed;                                       // whether the mesh's first gear is driven
 };
 
 class FaultKind {

@@ -35,6 +35,16 @@ void check_on_face(StudyDraft& draft) {
     check_size(draft, {face_mm, fmt::format("wider than the face, {:.6g} mm", face_mm)});
 }
 
+void check_helical(StudyDraft& draft, const std::string& key) {
+    if (draft.is_given(key) && draft.all_usable({key, "gearbox.helix_angle_deg"}) &&
+        draft.study.gearbox.helix_angle_rad == 0.0) {
+        draft.reject(key,
+                     "has no place here (spur teeth touch along the whole face at once, so a "
+                     "place along it says nothing)",
+                     "remove it, or give gearbox.helix_angle_deg");
+    }
+}
+
 double tooth_height_m(const Study& study) {
     const gears::Gear gear = gear_of(study, *study.fault.member);
     return std::abs(gear.tip_radius() - gear.root_radius());

@@ -24,6 +24,9 @@ void check_size(StudyDraft& draft, const SizeLimit& limit);
 // The same for a size along the face.
 void check_on_face(StudyDraft& draft);
 
+// Rejects a place along the face of teeth that touch all of it at once.
+void check_helical(StudyDraft& draft, const std::string& key);
+
 // Of the faulty member's tooth.
 double tooth_height_m(const Study& study);
 

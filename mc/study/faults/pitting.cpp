@@ -20,6 +20,7 @@ struct Pits : FaultShape {
     std::optional<double> width_m;                      // along the face width
     std::optional<double> length_m, radius_m, depth_m;  // along the profile; centre of the band
     int teeth = 1;                                      // neighbouring pitted teeth
+    std::optional<double> face_position_m;              // of helical teeth
 
     bool operator==(const Pits&) const = default;
 };
@@ -31,6 +32,7 @@ constexpr FaultKey kOthers[] = {
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
     {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "neighbouring pitted teeth"},
+    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "middle of the pits along the face width of helical teeth, from the end that engages first; by default halfway"},
 };
 // clang-format on
 
@@ -108,6 +110,7 @@ class PittingKind final : public FaultKind {
     void check(StudyDraft& draft) const override {
         const Pits& pits = draft.study.fault.shapes.get<Pits>();
         check_on_face(draft);
+        check_helical(draft, "fault.pit_face_position_mm");
         check_teeth(draft, pits);
         check_band(draft, pits);
     }
@@ -115,9 +118,12 @@ class PittingKind final : public FaultKind {
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Pits& pits = study.fault.shapes.get<Pits>();
+        const double face_m = *study.gearbox.face_width_m;
+        const double from_first = pits.face_position_m.value_or(0.5 * face_m) / face_m;
         return std::make_unique<const stiffness::ToothPitting>(
-            tooth.geometry.value(), material_of(study), profile_of(study), tooth.gear,
-            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth});
+            tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
+            stiffness::PitBand{*pits.radius_m, *pits.length_m, *pits.depth_m, pits.teeth,
+                               tooth.reversed ? 1.0 - from_first : from_first});
     }
 };
 

@@ -156,8 +156,8 @@ class SpatialCrackKind final : public FaultKind {
         growth.height_waves = g.height_waves;
         growth.slices = g.slices;
         return std::make_unique<const stiffness::SpatialCrack>(
-            tooth.geometry.value(), material_of(study), profile_of(study), tooth.gear, growth,
-            tooth.foundation);
+            tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
+            growth, tooth.foundation);
     }
 };
 

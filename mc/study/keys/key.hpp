@@ -78,6 +78,7 @@ struct Key {
 
     std::string path() const;       // "gearbox.module_mm"
     std::string_view stem() const;  // "module"
+    std::string column() const;     // of results, in SI: "module_m"
     bool may_be_random() const {
         return std::holds_alternative<NumberAccess>(access) && fixed_because.empty();
     }

@@ -28,6 +28,8 @@ inline constexpr Unit kMPaRootM{"MPa_m05", "MPa m^(1/2)", "Pa_m05", "Pa m^(1/2)"
 inline constexpr Unit kHz{"Hz", "Hz", "Hz", "Hz", 1.0};
 inline constexpr Unit kRpm{"rpm", "rpm", "rad_s", "rad/s", kPi / 30};
 inline constexpr Unit kMPerS2{"m_s2", "m/s^2", "m_s2", "m/s^2", 1.0};
+inline constexpr Unit kMPerS2RootHz{"m_s2_per_sqrt_Hz", "m/s^2/sqrt(Hz)", "m_s2_per_sqrt_Hz",
+                                    "m/s^2/sqrt(Hz)", 1.0};
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Range kAny{};

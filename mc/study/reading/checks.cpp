@@ -10,6 +10,7 @@
 #include "mc/study/gears.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
+#include "signals/noise/low_pass_noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -97,6 +98,15 @@ void check_sampling(StudyDraft& draft) {
                         s.low_pass_Hz, 0.5 * s.sampling_Hz),
             "lower low_pass_Hz or raise sampling_Hz");
     }
+    const double finest_Hz = s.low_pass_Hz / signals::LowPassNoise::kLeast;
+    if (s.noise_density_m_s2_per_sqrt_Hz && draft.all_usable({"sensor.low_pass_Hz"}) &&
+        s.sampling_Hz > finest_Hz) {
+        draft.reject("sensor.sampling_Hz",
+                     fmt::format("{} Hz is above {:g} Hz (samples of noise behind a low-pass of {} "
+                                 "Hz are then too alike to be drawn)",
+                                 s.sampling_Hz, finest_Hz, s.low_pass_Hz),
+                     "lower it, or give sensor.noise_m_s2 in place of the density");
+    }
     if (draft.all_usable({"sensor.encoder_sampling_Hz"}) && s.encoder_sampling_Hz > s.sampling_Hz) {
         draft.reject(
             "sensor.encoder_sampling_Hz",
@@ -166,6 +176,21 @@ void check_detectors(StudyDraft& draft) {
     }
 }
 
+void check_uncertain_inputs(StudyDraft& draft) {
+    const std::vector<std::string> named = draft.study.detection.uncertain_inputs;
+    for (auto key = named.begin(); key != named.end(); ++key) {
+        const auto drawn = std::ranges::find(draft.study.random, *key, &RandomInput::key);
+        if (drawn == draft.study.random.end() || key->starts_with("fault.")) {
+            draft.reject("detection.uncertain_inputs",
+                         fmt::format("\"{}\" is no random input of the gearboxes", *key),
+                         "name keys of [random], but none of the fault");
+        } else if (std::find(named.begin(), key, *key) != key) {
+            draft.reject("detection.uncertain_inputs", fmt::format("names \"{}\" twice", *key),
+                         "name it once");
+        }
+    }
+}
+
 void check_lanes(StudyDraft& draft) {
     const Numerics& n = draft.study.numerics;
     const bool single = n.precision == Precision::single_precision;
@@ -200,6 +225,7 @@ void check_consistency(StudyDraft& draft) {
     check_sampling(draft);
     check_features(draft);
     check_detectors(draft);
+    check_uncertain_inputs(draft);
     check_lanes(draft);
     check_precision(draft);
 }

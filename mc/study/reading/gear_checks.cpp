@@ -242,6 +242,25 @@ void check_body(StudyDraft& draft, Member member, const std::optional<double>& d
     }
 }
 
+// A web reaches from the rim to the bore.
+void check_blank(StudyDraft& draft, Member member) {
+    const MemberValues& body = draft.study.gearbox.bodies[member];
+    const std::string key = fmt::format("gearbox.{}_rim_mm", member_name(member));
+    if (!body.rim_m || !body.held_diameter_m || !draft.all_usable({key})) {
+        return;
+    }
+    const double body_mm =
+        kMmPerM * (gear_of(draft.study, member).root_radius() - 0.5 * *body.held_diameter_m);
+    const double given_mm = *body.rim_m * kMmPerM;
+    if (body_mm > 0.0 && given_mm >= body_mm) {
+        draft.reject(key,
+                     fmt::format("{:.6g} mm leaves no web (from the root circle to the bore there "
+                                 "are {:.6g} mm)",
+                                 given_mm, body_mm),
+                     "give a thinner rim, or for a solid disc neither rim nor web");
+    }
+}
+
 void check_bodies(StudyDraft& draft) {
     const Study& s = draft.study;
     if (!teeth_usable(draft) || !has_gears(s) ||
@@ -251,6 +270,7 @@ void check_bodies(StudyDraft& draft) {
     }
     for (const Member member : toothed_members(s)) {
         check_body(draft, member, s.gearbox.bodies[member].held_diameter_m);
+        check_blank(draft, member);
     }
 }
 

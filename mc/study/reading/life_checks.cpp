@@ -9,6 +9,31 @@
 
 namespace gearpod::mc {
 
+namespace {
+
+void check_curve(StudyDraft& draft) {
+    const Life& life = draft.study.life;
+    if (life.curve_h.empty()) {
+        return;
+    }
+    if (life.curve_h.size() != life.curve_depth_m.size() || life.curve_h.size() < 2) {
+        draft.reject(
+            "life.curve_depth_mm",
+            fmt::format("{} depths at {} hours", life.curve_depth_m.size(), life.curve_h.size()),
+            "give two or more, one an hour of curve_h");
+    } else if (life.curve_h.front() != 0.0) {
+        draft.reject("life.curve_h", fmt::format("begins at {:g} h", life.curve_h.front()),
+                     "begin at 0, when the crack is there");
+    } else if (life.curve_depth_m.back() < *life.last_depth_m) {
+        draft.reject("life.curve_depth_mm",
+                     fmt::format("ends at {:g} mm, above last_depth_mm, {:g} mm, no life",
+                                 1e3 * life.curve_depth_m.back(), 1e3 * *life.last_depth_m),
+                     "go on to the depth at which lives end");
+    }
+}
+
+}  // namespace
+
 // Only on a study that is sound otherwise: its fault and teeth are then what they are.
 void check_life(StudyDraft& draft) {
     const Study& study = draft.study;
@@ -26,17 +51,25 @@ void check_life(StudyDraft& draft) {
                      "follows cracks in external teeth, which bend as beams (fault.member)",
                      "use member = \"planet\" or \"sun\"");
     }
-    if (*life.first_depth_m >= *life.last_depth_m) {
-        draft.reject("life.first_depth_mm",
+    check_curve(draft);
+    if (draft.problems.empty() && crack_begin_m(life) >= *life.last_depth_m) {
+        draft.reject(life.curve_h.empty() ? "life.first_depth_mm" : "life.curve_depth_mm",
                      fmt::format("{:g} mm is not below last_depth_mm, {:g} mm",
-                                 1e3 * *life.first_depth_m, 1e3 * *life.last_depth_m),
+                                 1e3 * crack_begin_m(life), 1e3 * *life.last_depth_m),
                      "begin with a shallower crack");
+    }
+    if (life.record_s && life.record_turns) {
+        draft.reject("life.record_turns", "given beside record_s", "give one length");
     }
     const double largest = max_crack_depth_m(study);
     if (*life.last_depth_m >= largest) {
         draft.reject("life.last_depth_mm",
                      fmt::format("{:g} mm cuts the tooth", 1e3 * *life.last_depth_m),
                      fmt::format("it must be below {:.6g} mm", shown(1e3 * largest)));
+    }
+    if (study.ensemble.threshold_records > 1) {
+        draft.reject("ensemble.threshold_records", "is for single records (life.interval_h)",
+                     "leave it out; a life has life.records");
     }
     if (life.records <= study.monitoring.baseline_records) {
         draft.reject("life.records",

@@ -12,6 +12,9 @@ void read_value(StudyDraft& draft, const Key& key, const Entry& entry);
 // random_inputs.cpp: the section [random].
 void read_random(StudyDraft& draft, const Value& section);
 
+// correlations.cpp: `correlations` of that section, after its inputs.
+void read_correlations(StudyDraft& draft, const Entry& list);
+
 // presence_checks.cpp: what is missing, or given where it has no place.
 void check_presence(StudyDraft& draft);
 

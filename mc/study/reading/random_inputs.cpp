@@ -2,13 +2,18 @@
 
 #include <algorithm>
 
+#include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
+#include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/reading/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/unknown_keys.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
 namespace {
+
+constexpr std::string_view kCorrelations = "correlations";
 
 void reject(StudyDraft& draft, const Entry& entry, const std::string& path, std::string what,
             std::string remedy) {
@@ -30,6 +35,56 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
                                            : "narrow the distribution");
 }
 
+// `file` and `column` of an empirical distribution become its values; columns of the same file are
+// drawn in rows, in a group far from those that studies name.
+Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
+    constexpr int kFileGroups = 900'000;
+    Value table = entry.value;
+    const auto wanted = file_column(table);
+    if (!wanted || table.find("values") != nullptr) {
+        return table;
+    }
+    const Position at = entry.position;
+    Entry values{"values", {}, at}, rows{"rows", {}, at};
+    try {
+        values.value = list_of(*wanted, at, kMostElements);
+    } catch (const SignalError& error) {
+        reject(draft, entry, key.path(), error.what(), "name a CSV file and one of its columns");
+        draft.bad.insert(key.path());
+    }
+    const auto known = std::ranges::find(draft.random_files, wanted->file);
+    rows.value.kind = Value::Kind::integer;
+    rows.value.integer = kFileGroups + (known - draft.random_files.begin());
+    rows.value.number = static_cast<double>(rows.value.integer);
+    if (known == draft.random_files.end()) {
+        draft.random_files.push_back(wanted->file);
+    }
+    std::erase_if(table.entries, [](const Entry& one) {
+        return one.name == "file" || one.name == "column" || one.name == "rows";
+    });
+    table.entries.push_back(std::move(values));
+    table.entries.push_back(std::move(rows));
+    std::ranges::sort(table.entries, {}, &Entry::name);
+    return table;
+}
+
+// Inputs that draw the same rows have as many.
+void check_rows(StudyDraft& draft) {
+    for (const RandomInput& input : draft.study.random) {
+        const Distribution::Rows rows = input.distribution.rows();
+        const auto first = std::ranges::find_if(draft.study.random, [&](const RandomInput& other) {
+            return other.distribution.rows().group == rows.group;
+        });
+        const std::size_t count = first->distribution.rows().count;
+        if (rows.group > 0 && rows.count != count) {
+            draft.reject(draft.given_random[input.key], "random." + input.key + ".values",
+                         fmt::format("has {} values, but {} of the same rows has {}", rows.count,
+                                     first->key, count),
+                         "give as many, or other rows");
+        }
+    }
+}
+
 void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
     const std::string path = key.path();
     if (!key.may_be_random()) {
@@ -41,7 +96,12 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
         return;
     }
     draft.given_random[path] = entry.position;
-    const auto distribution = Distribution::read(entry.value, "random." + path, draft.problems);
+    const Value table = with_values(draft, key, entry);
+    if (draft.bad.contains(path)) {
+        draft.bad.insert("random." + path);
+        return;
+    }
+    const auto distribution = Distribution::read(table, "random." + path, draft.problems);
     if (!distribution) {
         draft.bad.insert(path);
         draft.bad.insert("random." + path);
@@ -70,6 +130,9 @@ void read_random_section(StudyDraft& draft, const Entry& section) {
 
 void read_random(StudyDraft& draft, const Value& section) {
     for (const Entry& entry : section.entries) {
+        if (entry.name == kCorrelations) {
+            continue;
+        }
         const auto names = section_names();
         const bool known = std::find(names.begin(), names.end(), entry.name) != names.end() &&
                            entry.name != "random";
@@ -94,6 +157,10 @@ void read_random(StudyDraft& draft, const Value& section) {
     };
     std::sort(draft.study.random.begin(), draft.study.random.end(),
               [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    check_rows(draft);
+    if (const Entry* correlations = section.find(kCorrelations)) {
+        read_correlations(draft, *correlations);
+    }
 }
 
 }  // namespace gearpod::mc

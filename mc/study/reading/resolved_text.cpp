@@ -116,7 +116,13 @@ std::string section_text(const Study& study, std::string_view section) {
 }
 
 std::string random_text(const Study& study) {
-    std::string text;
+    std::vector<std::string> pairs;
+    for (const Correlation& one : study.correlations) {
+        pairs.push_back(fmt::format("{{ between = [\"{}\", \"{}\"], rank = {} }}", one.first,
+                                    one.second, one.rank));
+    }
+    std::string text =
+        pairs.empty() ? "" : fmt::format("correlations = [{}]\n", fmt::join(pairs, ", "));
     for (const RandomInput& input : study.random) {
         text += fmt::format("{} = {}\n", input.key, input.distribution.toml());
     }

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "mc/files/signal_file.hpp"
 #include "mc/input/spelling.hpp"
 #include "mc/study/distributions/magnitude.hpp"
+#include "mc/study/reading/file_column.hpp"
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/reading/tones.hpp"
 
@@ -57,6 +59,15 @@ class ValueReader {
     }
 
     void operator()(const NumbersAccess& access) {
+        if (const auto wanted = file_column(value_)) {
+            try {
+                ValueReader(draft_, key_,
+                            {std::string(key_.name), list_of(*wanted, at_), at_})(access);
+            } catch (const SignalError& error) {
+                reject(error.what(), "name a CSV file and one of its columns");
+            }
+            return;
+        }
         std::vector<double> numbers;
         if (!nonempty_list("numbers")) {
             return;

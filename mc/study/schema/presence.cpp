@@ -53,6 +53,24 @@ Presence with_life(const Study& s) {
 Presence life_needs(const Study& s) {
     return of_life(s, Need::required);
 }
+Presence paris_needs(const Study& s) {
+    return s.life.interval_h && !s.life.curve_h.empty()
+               ? Presence{Need::forbidden,
+                          "the curve of life.curve_h says how deep the crack is",
+                          {"life.curve_h"}}
+               : life_needs(s);
+}
+Presence of_curve(const Study& s, Need need) {
+    return s.life.curve_h.empty()
+               ? Presence{Need::forbidden, "only with life.curve_h", {"life.curve_h"}}
+               : of_life(s, need);
+}
+Presence curve_needs(const Study& s) {
+    return of_curve(s, Need::required);
+}
+Presence with_curve(const Study& s) {
+    return of_curve(s, Need::optional);
+}
 Presence always(const Study&) {
     return {Need::required, "", {}};
 }
@@ -158,6 +176,22 @@ Presence ring_foundation(const Study& s) {
                ? Presence{Need::required,
                           "effects.foundation is \"elastic-ring\"",
                           {"effects.foundation"}}
+               : kOptional;
+}
+
+Presence blank_part(const Study& s, Member member, BlankPart part) {
+    if (s.effects.foundation == Foundation::none || stiffness_given(s)) {
+        return {Need::forbidden,
+                "it takes from elastic gear bodies, and effects.foundation is \"none\"",
+                {"effects.foundation"}};
+    }
+    const MemberValues& body = s.gearbox.bodies[member];
+    const bool rim = part == BlankPart::rim;
+    return (rim ? body.web_m : body.rim_m)
+               ? Presence{Need::required,
+                          fmt::format("gearbox.{}_{}_mm is given", member_name(member),
+                                      rim ? "web" : "rim"),
+                          {}}
                : kOptional;
 }
 
@@ -281,6 +315,29 @@ Presence acceleration_detail(const Study& s) {
                           "a quasi-static gearbox has no accelerations: effects.motion",
                           {kMotion}}
                : kOptional;
+}
+
+Presence with_tones(const Study& s) {
+    return s.sensor.tones.empty()
+               ? Presence{Need::forbidden, "there are none: sensor.tones", {"sensor.tones"}}
+               : acceleration_detail(s);
+}
+
+Presence noise_rms(const Study& s) {
+    constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
+    return s.sensor.noise_density_m_s2_per_sqrt_Hz
+               ? Presence{Need::forbidden,
+                          "noise_density_m_s2_per_sqrt_Hz says the accelerometer's noise",
+                          {kDensity, kMotion}}
+               : acceleration_detail(s);
+}
+
+Presence noise_density(const Study& s) {
+    return s.life.interval_h ? Presence{Need::forbidden,
+                                        "the records of a life have white noise, "
+                                        "sensor.noise_m_s2: life.interval_h",
+                                        {"life.interval_h", kMotion}}
+                             : acceleration_detail(s);
 }
 
 Presence acceleration(const Study& s) {

@@ -7,8 +7,11 @@ namespace gearpod::mc {
 
 Presence always(const Study&);
 Presence may(const Study&);
-Presence with_life(const Study&);   // only where gearboxes live on
-Presence life_needs(const Study&);  // there, and then required
+Presence with_life(const Study&);    // only where gearboxes live on
+Presence life_needs(const Study&);   // there, and then required
+Presence paris_needs(const Study&);  // there, unless a curve says how deep the crack is
+Presence curve_needs(const Study&);  // with that curve
+Presence with_curve(const Study&);
 
 // A key of one kind of gearbox only; there Rule decides.
 Presence of_kind(const Study&, GearboxKind kind, Presence (*rule)(const Study&));
@@ -42,12 +45,20 @@ Presence constant_stiffness(const Study&);  // only if it is
 Presence square_wave(const Study&);         // only if it is
 Presence foundation(const Study&);          // required for one
 Presence ring_foundation(const Study&);     // required for one of which rings have one
-Presence backlash(const Study&);            // only for two-sided separation
-Presence tooth_quality(const Study&);       // and the gears are known
-Presence bearings_move(const Study&);       // only where planets move on their bearings
-Presence bearings_damp(const Study&);       // and not without inertia
-Presence planet_masses(const Study&);       // only where their masses have a part
+// Rim and web of a member's blank: either with the other, where bodies are elastic.
+enum class BlankPart { rim, web };
+Presence blank_part(const Study&, Member member, BlankPart part);
+template <Member kMember, BlankPart kPart>
+Presence blank(const Study& s) {
+    return blank_part(s, kMember, kPart);
+}
+Presence backlash(const Study&);       // only for two-sided separation
+Presence tooth_quality(const Study&);  // and the gears are known
+Presence bearings_move(const Study&);  // only where planets move on their bearings
+Presence bearings_damp(const Study&);  // and not without inertia
+Presence planet_masses(const Study&);  // only where their masses have a part
 
+Presence with_tones(const Study&);    // only with sensor.tones
 Presence torque_sine(const Study&);   // only with operation.torque_fluctuation
 Presence torque_noise(const Study&);  // only with operation.torque_noise, and then required
 Presence speed_sine(const Study&);    // likewise
@@ -63,7 +74,9 @@ Presence damping_ratio(const Study&);
 Presence damping_time(const Study&);
 Presence damping_constant(const Study&);
 
-Presence acceleration(const Study&);         // required unless the motion is quasi-static
+Presence acceleration(const Study&);  // required unless the motion is quasi-static
+Presence noise_rms(const Study&);     // has no place beside the density
+Presence noise_density(const Study&);
 Presence acceleration_detail(const Study&);  // has no place where it is
 Presence integration(const Study&);          // has no place where nothing is integrated
 

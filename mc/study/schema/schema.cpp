@@ -127,6 +127,16 @@ std::string schema_help(std::string_view word) {
             fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", distribution.name) +
             wrapped("with " + distribution.parameters, 6);
     }
+    if (contains("random", word) || contains("correlations", word)) {
+        text +=
+            std::string(random ? "" : "[random]\n") +
+            "  correlations = [{ between = [\"SECTION.KEY\", \"SECTION.KEY\"], rank = R }, ...]\n" +
+            wrapped(
+                "rank correlation (Spearman's, between -1 and 1) of two inputs that have "
+                "distributions of their own, through a Gaussian copula; 0 for pairs that "
+                "are not given",
+                6);
+    }
     return text;
 }
 

@@ -46,9 +46,7 @@ void set_fault_size(Study& study, double size) {
 }
 
 std::string fault_size_column(const Study& study) {
-    const Key& key = fault_size_key(study);
-    const std::string unit(key.unit.si_suffix);
-    return "fault_" + std::string(key.stem()) + (unit.empty() ? "" : "_" + unit);
+    return "fault_" + fault_size_key(study).column();
 }
 
 const std::vector<double>& size_edges(const Study& study) {
@@ -89,11 +87,18 @@ std::string size_text(const Study& study, const analysis::SizeGroup& group) {
 }
 
 analysis::DetectionRequest detection_request(const Study& study) {
-    return {study.detection.false_alarm_rate,
-            study.detection.confidence,
-            study.sensor.noise_levels,
-            size_groups(study),
-            {fault_size_column(study), std::string(fault_size_key(study).unit.si_name)}};
+    analysis::DetectionRequest request{
+        study.detection.false_alarm_rate,
+        study.detection.confidence,
+        study.sensor.noise_levels,
+        size_groups(study),
+        {fault_size_column(study), std::string(fault_size_key(study).unit.si_name)}};
+    for (const std::string& path : study.detection.uncertain_inputs) {
+        const std::size_t dot = path.find('.');
+        request.uncertain.push_back(find_key(path.substr(0, dot), path.substr(dot + 1))->column());
+    }
+    request.threshold_records = static_cast<std::size_t>(study.ensemble.threshold_records);
+    return request;
 }
 
 std::vector<double> fault_sizes(const Study& study) {

@@ -44,8 +44,13 @@ std::vector<PairOverride> FaultSchedule::overrides(int k) const {
     return all;
 }
 
+int FaultSchedule::in_pattern(int k) const {
+    const int length = faults_.pattern.length;
+    return (k % length + length) % length;
+}
+
 MeshOverrides FaultSchedule::all_overrides(int k) {
-    const int length = faults_.pattern.length, mesh = (k % length + length) % length;
+    const int mesh = in_pattern(k);
     auto kept = kept_.find(mesh);
     if (kept == kept_.end()) {
         kept = kept_.emplace(mesh, overrides(mesh)).first;
@@ -57,12 +62,19 @@ MeshOverrides FaultSchedule::all_overrides(int k) {
     return all;
 }
 
+bool FaultSchedule::passes(int k) const {
+    return std::ranges::any_of(faults_.pattern.passages,
+                               [&, mesh = in_pattern(k)](const FaultPassage& passage) {
+                                   return passage_start(passage, mesh).has_value();
+                               });
+}
+
 bool FaultSchedule::continues_after(int k) const {
-    return std::any_of(faults_.pattern.passages.begin(), faults_.pattern.passages.end(),
-                       [&](const FaultPassage& passage) {
-                           const auto start = passage_start(passage, k);
-                           return start && *start + duration(passage) > k + 1;
-                       });
+    return std::ranges::any_of(faults_.pattern.passages,
+                               [&, mesh = in_pattern(k)](const FaultPassage& passage) {
+                                   const auto start = passage_start(passage, mesh);
+                                   return start && *start + duration(passage) > mesh + 1;
+                               });
 }
 
 // The pair with its faulty tooth in place of the healthy one, lane by lane.

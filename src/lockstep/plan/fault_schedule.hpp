@@ -39,10 +39,12 @@ class FaultSchedule {
     // the faults of a pattern's meshes, for those come again: not for several threads at once.
     MeshOverrides all_overrides(int k);
 
-    // Is the faulty tooth still in contact at the end of mesh k?
+    // Is the faulty tooth in contact during mesh k, and still at its end? Likewise of a march.
+    bool passes(int k) const;
     bool continues_after(int k) const;
 
   private:
+    int in_pattern(int k) const;
     std::optional<double> passage_start(const FaultPassage& passage, int k) const;
     double duration(const FaultPassage& passage) const {
         return duration_[static_cast<std::size_t>(passage.curve)];

@@ -51,7 +51,7 @@ class PilotMarch {
         int k = static_cast<int>(std::floor(pilot_.faults.pattern.passages[0].start));
         for (int last = k + length; k < last; ++k) {
             add(schedule.all_overrides(k));
-            if (!schedule.continues_after((k % length + length) % length)) {
+            if (!schedule.continues_after(k)) {
                 break;
             }
         }

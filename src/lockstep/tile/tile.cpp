@@ -68,6 +68,11 @@ class TileMarch {
     }
 
     TileResult run() {
+        result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
+        if (settings_.healthy != nullptr) {
+            march_changes();
+            return std::move(result_);
+        }
         settle();
         if (settings_.march_meshes > 0) {
             march_everything();
@@ -294,20 +299,57 @@ class TileMarch {
         mark_unsettled(finished);
     }
 
+    // Where mesh k of the span is recorded.
+    MeshRecord& add_record(int k) {
+        result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
+        return result_.records.emplace_back(new_record());
+    }
+
     // Every mesh of the span for itself.
     void march_everything() {
         MeshRecord unseen = new_record();
-        for (int k = -settings_.run_in_meshes; k < 0; ++k) {
-            march(k, schedule_.all_overrides(k), unseen);
+        const auto keep_state = [&] {
+            if (settings_.keep_states) {
+                result_.states.push_back(state_);
+            }
+        };
+        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
+            keep_state();
+            march(k, schedule_.all_overrides(k), k < 0 ? unseen : add_record(k));
         }
-        for (int k = 0; k < settings_.march_meshes; ++k) {
-            result_.content.push_back(static_cast<int>(result_.records.size()));
-            result_.records.push_back(new_record());
-            march(k, schedule_.all_overrides(k), result_.records.back());
-        }
+        keep_state();
         for (int l = 0; l < W; ++l) {
             if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
                 retire(l);
+            }
+        }
+    }
+
+    // From the healthy march's states: what a fault's passages change, until it has decayed.
+    void march_changes() {
+        MeshRecord unseen = new_record();
+        bool away = false;
+        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
+            const auto at = static_cast<std::size_t>(k + settings_.run_in_meshes);
+            if (!away && !schedule_.passes(k)) {
+                continue;
+            }
+            if (!away) {
+                state_ = (*settings_.healthy)[at];
+            }
+            MeshRecord& record = k >= 0 ? add_record(k) : unseen;
+            march(k, schedule_.all_overrides(k), record);
+            away = schedule_.continues_after(k);
+            for (int l = 0; l < W; ++l) {
+                if (result_.status[static_cast<std::size_t>(l)] != LaneStatus::ok) {
+                    continue;
+                }
+                if (diverged(l)) {
+                    retire(l);
+                } else if (distance(state_, (*settings_.healthy)[at + 1], record, l) >
+                           settings_.tolerance) {
+                    away = true;
+                }
             }
         }
     }
@@ -333,6 +375,13 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
                                              [](const auto& lanes) { return lanes.size() == W; }));
     check_tooth_errors(plan, faults.tooth_errors, settings.march_meshes);
     check_excitation(settings.excitation, settings.march_meshes);
+    if (settings.healthy != nullptr &&
+        (settings.excitation != nullptr ||
+         settings.healthy->size() !=
+             static_cast<std::size_t>(settings.run_in_meshes + settings.march_meshes + 1))) {
+        throw std::invalid_argument(
+            "changes are marched from the states of as many steadily driven meshes");
+    }
     return TileMarch<W>(plan, inputs, faults, settings).run();
 }
 

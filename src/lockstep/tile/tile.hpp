@@ -25,15 +25,25 @@ struct TileSettings {
     // orbit to start from; the tile starts from the one without.
     int run_in_meshes = 0;
     bool with_motion = false;
+    // Of meshes that are marched one by one: keep the state at the beginning of each.
+    bool keep_states = false;
+    // States that were kept of the same gearboxes without faults and with the same settings, or
+    // null: what the faults leave as it was is not marched again.
+    const std::vector<TileState>* healthy = nullptr;
     // What drives these gearboxes unevenly, or null. One that does not repeat every mesh period
     // needs march_meshes.
     const Excitation* excitation = nullptr;
 };
 
+// In place of a record: the mesh is as it was without faults, to the tolerance.
+inline constexpr int kUnchanged = -1;
+
 // Recorded mesh periods: 0 is the healthy one; mesh k of the span shows records[content[k mod L]].
+// With TileSettings::healthy the records are those of the changed meshes.
 struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()
+    std::vector<TileState> states;   // kept ones: before each marched mesh and after the last
     std::vector<LaneStatus> status;  // per lane
     int marched = 0;                 // mesh periods that the tile marched or solved in all
 };

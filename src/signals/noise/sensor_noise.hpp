@@ -1,4 +1,5 @@
-// Additive sensor noise, white, rms sigma per sample, added after the low-pass filter.
+// Additive sensor noise of rms sigma per sample: white ones, added after the low-pass filter
+// (low_pass_noise.hpp has others).
 //
 // A folded bin (folded_signal.hpp) is a sum of Z_r squares. With noise it is exactly sigma^2 times
 // a noncentral chi-square variable; split along and across the noise-free samples,
@@ -51,6 +52,12 @@ class SensorNoise {
 // direction. Throws std::invalid_argument on unequal sizes or fewer than two samples.
 void noise_of_bin(std::span<const double> samples, double along, double across,
                   std::span<const double> normals, std::span<double> noise);
+
+// The draw that a given noise of every sample comes to, whatever its colour: Z = n s / |s| of each
+// bin's samples, or 0 where they are, and G = |n|^2 - Z^2, so that F_noisy above is the noisy
+// signal's at every level. As many samples of both, whole turns of `bins`.
+NoiseDraw draw_of_samples(std::span<const double> signal, std::span<const double> noise,
+                          std::size_t bins);
 
 // The unit noise of every sample of a time signal (synthesize, whole span: Z_p Z_r P samples): with
 // sigma times it the signal folds to F_noisy. Bins are visited in order b = 0, 1,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -26,15 +27,23 @@ Tones of_lane(const Tones& tones, int lanes, int lane) {
 // Lanes that are read together: as many as one line of the cache holds.
 constexpr int kTogether = 8;
 
-// Of the lanes from `first` on.
+std::vector<int> consecutive(int first, int count) {
+    std::vector<int> meshes(static_cast<std::size_t>(std::max(0, count)));
+    std::iota(meshes.begin(), meshes.end(), first);
+    return meshes;
+}
+
+// Of the lanes from `first` on. With tones the meshes follow each other.
 std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                                             const Timeline& timeline, const SpanLayout& layout,
                                             const PathGrid& path,
-                                            std::span<const double> path_exponent, int first_mesh,
-                                            int mesh_count, const Tones& tones) {
+                                            std::span<const double> path_exponent,
+                                            std::span<const int> meshes, const Tones& tones) {
     const int lanes = static_cast<int>(path_exponent.size());
+    const int mesh_count = static_cast<int>(meshes.size());
+    const int first_mesh = meshes.empty() ? 0 : meshes.front();
     check_tile(tile, timeline);
-    if (first < 0 || lanes > tile.lanes - first || first_mesh < 0 || mesh_count < 0 ||
+    if (first < 0 || lanes > tile.lanes - first || first_mesh < 0 ||
         path.planets() != tile.planets || path.phases() != tile.phases ||
         path.positions() != layout.carrier_meshes) {
         throw std::invalid_argument("sensor signal: tile, path and layout disagree in shape");
@@ -52,7 +61,7 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
                            tile.phases);
     }
     for (int i = 0; i < mesh_count; ++i) {
-        const long k = static_cast<long>(first_mesh) + i;
+        const long k = meshes[static_cast<std::size_t>(i)];
         const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
         copy_lanes({mesh, values * tile.lanes}, tile.lanes, first, accel);
         for (int n = 0; n < lanes; ++n) {
@@ -72,24 +81,44 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
 std::vector<double> synthesize(const TileSignals& tile, int lane, const Timeline& timeline,
                                const SpanLayout& layout, const PathGrid& path, double path_exponent,
                                int first_mesh, int mesh_count, const Tones& tones) {
-    return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1}, first_mesh,
-                                mesh_count, tones)
+    return std::move(signals_of(tile, lane, timeline, layout, path, {&path_exponent, 1},
+                                consecutive(first_mesh, mesh_count), tones)
                          .front());
 }
 
-std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
-                                            const SpanLayout& layout, const PathGrid& path,
-                                            std::span<const double> path_exponent, int first_mesh,
-                                            int mesh_count, const Tones& tones) {
+namespace {
+
+// Some lanes after the other, as many at once as read together well.
+std::vector<std::vector<double>> signals_of_all(const TileSignals& tile, const Timeline& timeline,
+                                                const SpanLayout& layout, const PathGrid& path,
+                                                std::span<const double> path_exponent,
+                                                std::span<const int> meshes, const Tones& tones) {
     std::vector<std::vector<double>> signal;
     for (std::size_t n = 0; n < path_exponent.size(); n += kTogether) {
         auto some = signals_of(
             tile, static_cast<int>(n), timeline, layout, path,
             path_exponent.subspan(n, std::min<std::size_t>(kTogether, path_exponent.size() - n)),
-            first_mesh, mesh_count, tones);
+            meshes, tones);
         std::move(some.begin(), some.end(), std::back_inserter(signal));
     }
     return signal;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
+                                            const SpanLayout& layout, const PathGrid& path,
+                                            std::span<const double> path_exponent, int first_mesh,
+                                            int mesh_count, const Tones& tones) {
+    return signals_of_all(tile, timeline, layout, path, path_exponent,
+                          consecutive(first_mesh, mesh_count), tones);
+}
+
+std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
+                                            const SpanLayout& layout, const PathGrid& path,
+                                            std::span<const double> path_exponent,
+                                            std::span<const int> meshes) {
+    return signals_of_all(tile, timeline, layout, path, path_exponent, meshes, {});
 }
 
 }  // namespace gearpod::signals

@@ -25,4 +25,10 @@ std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timel
                                             std::span<const double> path_exponent, int first_mesh,
                                             int mesh_count, const Tones& tones = {});
 
+// Those of some meshes k of the span alone, one after the other, without tones.
+std::vector<std::vector<double>> synthesize(const TileSignals& tile, const Timeline& timeline,
+                                            const SpanLayout& layout, const PathGrid& path,
+                                            std::span<const double> path_exponent,
+                                            std::span<const int> meshes);
+
 }  // namespace gearpod::signals

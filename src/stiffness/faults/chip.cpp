@@ -26,6 +26,11 @@ class ChipOfOneLength : public ToothFault {
         return std::max(0.0, 1 - lost / family_.face_width_m_);
     }
 
+    FaceRange face() const override {
+        const double part = length_ / family_.face_width_m_;
+        return family_.end_ == FaceEnd::first ? FaceRange{0, part} : FaceRange{1 - part, 1};
+    }
+
     std::vector<double> breaks() const override {
         std::vector<double> taus{family_.position(family_.height_ - depth_),
                                  family_.position(family_.height_)};
@@ -39,11 +44,12 @@ class ChipOfOneLength : public ToothFault {
 };
 
 ToothChip::ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which,
-                     std::optional<double> depth_m)
+                     std::optional<double> depth_m, FaceEnd end)
     : profile_(geometry.gear(which), Profile::root_circle),
       face_width_m_(face_width_m),
       which_(which),
       depth_m_(depth_m),
+      end_(end),
       contact_ratio_(geometry.contact_ratio()),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which))),

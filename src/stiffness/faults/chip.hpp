@@ -13,6 +13,8 @@
 // section to section 22.96, and the whole tooth's height leaves nothing to touch the chip).
 // Contacts beyond d_h, on the last tenth of a millimetre in his case, count as d_h.
 //
+// Of helical teeth it lies at one end of the face width, on the length z (ToothFault::face).
+//
 // Size: the chip's length z along the face, m. Its depth b is given, or grows with it as a quarter,
 // as in Tian's case (z = 8 mm, b = 2 mm).
 #pragma once
@@ -25,13 +27,16 @@
 
 namespace gearpod::stiffness {
 
+// An end of the face width: that which engages first or last where the first gear drives.
+enum class FaceEnd { first, last };
+
 class ToothChip : public ToothFaultFamily {
   public:
     static constexpr double kDepthOverLength = 0.25;
 
     // which: the gear whose tooth is chipped (1 or 2 of the geometry). depth_m: b of all lengths.
     ToothChip(const gears::MeshGeometry& geometry, double face_width_m, int which,
-              std::optional<double> depth_m = {});
+              std::optional<double> depth_m = {}, FaceEnd end = FaceEnd::first);
 
     std::unique_ptr<const ToothFault> at(double length_m) const override;
     // The face width, or the length at which the chip is as deep as the tooth is high.
@@ -52,6 +57,7 @@ class ToothChip : public ToothFaultFamily {
     double face_width_m_;
     int which_;
     std::optional<double> depth_m_;
+    FaceEnd end_;
     double contact_ratio_;
     double contact_start_, contact_rate_;  // involute angle of the contact: start + rate tau
     double foot_axial_ = 0, height_ = 0;

@@ -43,6 +43,11 @@ class PitsOfOneWidth : public ToothFault {
     std::vector<double> breaks() const override { return family_.jumps_; }
     std::vector<double> jumps() const override { return family_.jumps_; }
 
+    FaceRange face() const override {
+        return {std::max(0.0, family_.band_.face_centre - width_ / 2),
+                std::min(1.0, family_.band_.face_centre + width_ / 2)};
+    }
+
     double contact_width(double tau) const override {
         const double u = family_.angle_at(tau);
         return u <= family_.band_root_ && u >= family_.band_tip_ ? 1 - width_ : 1;
@@ -139,6 +144,13 @@ std::vector<std::string> ToothPitting::problems(double width_m) const {
     if (width_m > material_.face_width_m)
         all.push_back(fmt::format("pits {:g} mm wide are wider than the face, {:g} mm",
                                   1e3 * width_m, 1e3 * material_.face_width_m));
+    else if (const double centre_m = band_.face_centre * material_.face_width_m,
+             reach = 0.5 * width_m, rounding = 1e-12 * material_.face_width_m;
+             centre_m - reach < -rounding || centre_m + reach > material_.face_width_m + rounding)
+        all.push_back(
+            fmt::format("pits {:g} mm wide about {:g} mm from the end of the face reach beyond it, "
+                        "0 to {:g} mm",
+                        1e3 * width_m, 1e3 * centre_m, 1e3 * material_.face_width_m));
     const double base = gear_.base_radius();
     const double centre = arc_at(base, band_.centre_radius_m);
     const double foot = gear_.internal ? gear_.root_radius() : std::max(base, gear_.root_radius());

@@ -29,6 +29,9 @@ struct PitBand {
     double length_m = 0;         // along the profile
     double depth_m = 0;          // 0: the pits weaken the contact alone
     int teeth = 1;               // neighbours that have them
+    // The middle along the face width, 0 to 1 from the end that engages first where the first gear
+    // drives; matters to helical teeth.
+    double face_centre = 0.5;
 };
 
 class ToothPitting : public ToothFaultFamily {

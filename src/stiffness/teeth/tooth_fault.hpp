@@ -13,6 +13,11 @@
 
 namespace gearpod::stiffness {
 
+// A part of the face width, 0 to 1, from the end that engages first where the first gear drives.
+struct FaceRange {
+    double begin = 0, end = 1;
+};
+
 // Of one size. Immutable.
 class ToothFault {
   public:
@@ -30,6 +35,9 @@ class ToothFault {
     virtual bool changes_contact() const { return false; }
     // The part of the face width, 0 to 1, on which the tooth is touched at tau.
     virtual double contact_width(double /*tau*/) const { return 1.0; }
+    // Where along the face width it takes what it takes. Matters only to helical teeth, which touch
+    // one end first.
+    virtual FaceRange face() const { return {}; }
     // Factor on the stiffness of the faulty tooth's pair, 0 to 1.
     virtual double pair_factor() const { return 1.0; }
     // Factor on the stiffness of the whole mesh, 0 to 1, while a faulty tooth is engaged.

@@ -1,4 +1,5 @@
 // False-alarm rates of thresholds from several recordings of each gearbox.
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -58,6 +59,86 @@ TEST_CASE("Rates of thresholds from many recordings of few gearboxes are covered
     // What it mends, and that it costs little where gearboxes are many and alike.
     CHECK(coverage(0.7, 20, 50, 0.05, 400).independent < 0.5);
     CHECK(coverage(0.0, 200, 10, 0.05, 400).clustered < 0.99);
+}
+
+// Studies of normal noise of variance 1 on gearboxes of a normal or an exponential law.
+struct RareCoverage {
+    double covered = 0.0, median_width = 0.0;
+};
+
+RareCoverage rare_coverage(double deviation, bool exponential, int gearboxes, int records,
+                           double rate, int studies) {
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> noise;
+    std::exponential_distribution<double> skewed;
+    const boost::math::normal normal;
+    // Of further gearboxes, by their own law.
+    const auto beyond = [&](double threshold) {
+        if (!exponential) {
+            return cdf(complement(normal, threshold / std::sqrt(1.0 + deviation * deviation)));
+        }
+        constexpr int kSteps = 4000;
+        constexpr double kFar = 40.0;
+        double sum = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double g = (i + 0.5) * kFar / kSteps;
+            sum += std::exp(-g) * cdf(complement(normal, threshold - deviation * (g - 1.0)));
+        }
+        return sum * kFar / kSteps;
+    };
+    RareCoverage result;
+    std::vector<double> widths;
+    for (int s = 0; s < studies; ++s) {
+        std::vector<double> values;
+        std::vector<std::size_t> gearbox;
+        for (int g = 0; g < gearboxes; ++g) {
+            const double own = deviation * (exponential ? skewed(engine) - 1.0 : noise(engine));
+            for (int r = 0; r < records; ++r) {
+                values.push_back(own + noise(engine));
+                gearbox.push_back(static_cast<std::size_t>(g));
+            }
+        }
+        const double threshold = alarm_threshold(values, Alarm::high, rate).value;
+        const Interval bounds =
+            clustered_rate_interval(values, gearbox, Alarm::high, threshold, rate, 0.95);
+        const double truth = beyond(threshold);
+        result.covered += bounds.lower <= truth && truth <= bounds.upper ? 1.0 / studies : 0.0;
+        widths.push_back(bounds.upper / bounds.lower);
+    }
+    std::nth_element(widths.begin(), widths.begin() + studies / 2, widths.end());
+    result.median_width = widths[static_cast<std::size_t>(studies / 2)];
+    return result;
+}
+
+TEST_CASE("Rates rarer than one in the gearboxes are covered by many records of each") {
+    // Standard deviation of a coverage of 0.95 in 200 studies: 0.015.
+    constexpr double kLow = 0.95 - 0.045;
+    const RareCoverage alike = rare_coverage(0.0, false, 500, 100, 0.001, 200),
+                       differing = rare_coverage(0.4, false, 500, 100, 0.001, 200),
+                       apart = rare_coverage(1.5, false, 1000, 50, 0.001, 100),
+                       skewed = rare_coverage(0.4, true, 1000, 50, 0.001, 100);
+    CHECK(alike.covered > kLow);
+    CHECK(alike.median_width < 1.9);
+    CHECK(differing.covered > kLow);
+    CHECK(differing.median_width < 2.2);
+    // Gearboxes that make the alarms themselves count as one record each.
+    CHECK(apart.covered > kLow);
+    CHECK(skewed.covered > kLow);
+    CHECK(apart.median_width > 3.0);
+}
+
+TEST_CASE("Rates of 1e-4 from 400 records of each of 2,000 gearboxes", "[.rare-coverage][rare-rates]") {
+    for (const auto& [deviation, exponential] :
+         {std::pair{0.0, false}, {0.3, false}, {0.6, false}, {1.0, false}, {0.3, true}}) {
+        const RareCoverage found = rare_coverage(deviation, exponential, 2000, 400, 1e-4, 500);
+        WARN((exponential ? "exponential" : "normal")
+             << " gearboxes of deviation " << deviation << ": covered " << found.covered
+             << ", upper over lower " << found.median_width);
+        CHECK(found.covered > 0.95 - 0.03);
+        if (deviation <= 0.3 && !exponential) {
+            CHECK(found.median_width < 1.65);
+        }
+    }
 }
 
 TEST_CASE("Detection takes the recordings' gearboxes into its intervals and says so") {

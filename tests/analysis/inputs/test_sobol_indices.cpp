@@ -53,6 +53,19 @@ const SobolIndex& index_of(const SobolIndices& all, const std::string& name) {
     throw std::invalid_argument(name);
 }
 
+TEST_CASE("Inputs that go together have no shares of their own") {
+    std::mt19937_64 engine(5);
+    Inputs inputs = uniform_inputs(3, 1000, 0.0, 1.0, engine);
+    const auto sum = [](const std::vector<double>& x) { return x[0] + x[1] + x[2]; };
+    CHECK(indices(inputs, outputs(inputs, sum)).refusal.empty());
+    for (std::size_t i = 0; i < inputs[0].size(); ++i) {
+        inputs[2][i] = std::exp(inputs[0][i] + 0.5 * inputs[2][i]);
+    }
+    const SobolIndices refused = indices(inputs, outputs(inputs, sum));
+    CHECK(refused.refusal.find("x1 and x3 go together (rank correlation 0.") == 0);
+    CHECK(refused.inputs.empty());
+}
+
 TEST_CASE("Ishigami's function has its known first-order and total indices") {
     // T. Ishigami, T. Homma (1990), a = 7, b = 0.1: closed forms in Sobol and Levitan (1999).
     constexpr double kPi = std::numbers::pi, kA = 7.0, kB = 0.1;

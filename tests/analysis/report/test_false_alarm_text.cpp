@@ -49,6 +49,32 @@ TEST_CASE("A sample without a threshold says how many it takes") {
     CHECK(sample_shortage(enough, 0.001, 0.95, Subject::gearboxes).empty());
 }
 
+TEST_CASE("Records of each gearbox count, and nothing is said of what lies beyond them") {
+    const auto of = [](long gearboxes, long records) {
+        return sample_shortage(gearboxes, 1e-4, 0.95, Subject::gearboxes, records);
+    };
+    CHECK(of(2000, 400).empty());
+    CHECK_THAT(of(2000, 4),
+               Catch::StartsWith("Few records (4 of each of 2000 healthy gearboxes)") &&
+                   Catch::Contains("rarer than one") && Catch::Contains("It takes 5 of each"));
+    CHECK_THAT(of(2000, 6), Catch::Contains("fix a false-alarm rate of 0.0001 to between"));
+}
+
+TEST_CASE("A report counts the thresholds whose rate records of each gearbox leave open") {
+    DetectionRequest request;
+    request.false_alarm_rate = 1e-4;
+    request.noise_levels = {0.0, 1.0};
+    request.threshold_records = 400;
+    std::vector<FeatureDetection> features{with_samples(request, {800'000, 800'000})};
+    features[0].levels[1].threshold_rate = {9e-5, 1.1e-4};
+    features[0].levels[0].threshold_rate = {8e-5, 1.2e-4};
+    CHECK(sample_shortage(features, request, Subject::gearboxes).empty());
+    features[0].levels[0].threshold_rate = {0.0, 1.8e-3};
+    CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
+               Catch::StartsWith("Healthy gearboxes differ too much") &&
+                   Catch::Contains("1 of the 2 thresholds") && Catch::Contains("0.0018"));
+}
+
 TEST_CASE("A report names the noise levels without a threshold") {
     DetectionRequest request;
     request.false_alarm_rate = 0.01;

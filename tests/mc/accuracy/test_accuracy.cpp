@@ -214,8 +214,8 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
         "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
     const test::Outcome run =
         test::program("accuracy " + test::study("tian-fig-4-9.toml") + sets() +
-                      " --quiet --repeats 1 --gearboxes 0 --peers " + folder.file("peers.csv") +
-                      " --json " + folder.file("accuracy.json"));
+                      " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " +
+                      folder.file("peers.csv") + " --json " + folder.file("accuracy.json"));
     INFO(run.output);
     REQUIRE(run.code == kDone);
     CHECK(run.mentions("refused: the explicit method would need"));
@@ -249,6 +249,35 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
     // 1e-3 is kept with fewer steps and less settling than the study's own.
     CHECK(json["choices"][1]["tolerance"].get<double>() == 1e-3);
     CHECK(json["choices"][1].contains("chosen"));
+    CHECK(json["left_out"].empty());
+}
+
+// However little time there is, the study's own rung is held against two methods.
+TEST_CASE("accuracy leaves out what it has no time for, and says so", "[accuracy]") {
+    AccuracyRequest request;
+    request.seconds = 1e-3;
+    const AccuracyReport report = measure_accuracy(tian(), request);
+    CHECK(!report.reference.reached);
+    CHECK(report.reference.agreement.sensor < 0.1);
+    CHECK(report.rungs[0].refusal.empty());
+    CHECK(report.rungs[0].march_s > 0.0);
+    std::size_t untried = 0;
+    for (std::size_t i = 1; i < report.rungs.size(); ++i) {
+        CHECK(!report.rungs[i].refusal.empty());
+        untried += report.rungs[i].refusal == kNotTried ? 1 : 0;
+    }
+    CHECK(untried > 5);
+    for (const ChoiceCheck& check : report.choices) {
+        CHECK(check.chosen < 0);
+    }
+    const std::string text = accuracy_text(report);
+    const std::vector<std::string> said{
+        "left out, the time was up", std::to_string(untried) + " rungs",
+        "what numerics.tolerance = 0.001 chooses", "rungs settled more loosely", "detection rates"};
+    for (const std::string& what : said) {
+        INFO(what);
+        CHECK(text.find(what) != std::string::npos);
+    }
 }
 
 TEST_CASE("accuracy says what it cannot do", "[accuracy]") {

@@ -199,8 +199,15 @@ TEST_CASE("Exported recordings give a study file that runs, the same for any thr
     REQUIRE(study.study);
     const RandomInput* noise = study.study->find_random("sensor.noise_m_s2");
     REQUIRE(noise != nullptr);
-    CHECK(noise->distribution.name() == "lognormal");
-    CHECK(noise->distribution.median() == Approx(inputs[2]["median"].get<double>()).epsilon(1e-4));
+    // Draws of all inputs together.
+    CHECK(noise->distribution.name() == "empirical");
+    CHECK(noise->distribution.rows().count == 200);
+    CHECK(study.study->random.front().distribution.rows().group ==
+          noise->distribution.rows().group);
+    CHECK(noise->distribution.median() ==
+          Approx(inputs[2]["median"].get<double>())
+              .margin(0.1 * (inputs[2]["high"].get<double>() - inputs[2]["low"].get<double>())));
+    CHECK(study.study->detection.uncertain_inputs.size() == 4);
     CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT TELL IT") !=
           std::string::npos);
     CHECK(program("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +

@@ -90,3 +90,25 @@ TEST_CASE("Comparisons say what cannot be compared, all of it") {
     CHECK_THAT(program("compare " + a + " " + folder.file("none.h5")).output,
                Catch::Contains("none.h5"));
 }
+
+TEST_CASE("Comparisons say every file that is none, and what is not whole") {
+    const Folder folder;
+    const std::string a = run(folder, "a.h5", ""), part = run(folder, "p.h5", "--part 1/2"),
+                      text = folder.file("text.h5"), cut = folder.file("cut.h5");
+    test::write_bytes(text, "size,hit\n1,0\n");
+    const std::string whole = bytes_of(a);
+    test::write_bytes(cut, whole.substr(0, whole.size() / 2));
+    const Outcome refused =
+        program("compare " + text + " " + a + " " + cut + " " + folder.file("none.h5") + " " + cut);
+    INFO(refused.output);
+    CHECK(refused.code == 2);
+    CHECK(std::count(refused.output.begin(), refused.output.end(), '\n') == 3);
+    CHECK(refused.mentions("text.h5: is not a results file"));
+    CHECK(refused.mentions("cut.h5: is damaged or truncated"));
+    CHECK(refused.mentions("none.h5: cannot be read"));
+
+    const Outcome compare = program("compare " + a + " " + part);
+    INFO(compare.output);
+    CHECK(compare.code == 0);
+    CHECK(compare.mentions("part 1/2 of it alone"));
+}

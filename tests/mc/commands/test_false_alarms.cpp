@@ -1,4 +1,6 @@
 // Studies too small for their false-alarm rate: said before the run, and first of all after it.
+#include <nlohmann/json.hpp>
+
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -64,4 +66,35 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none")
     const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
     CHECK(json.mentions("\"least_cost\""));
     CHECK(json.mentions("\"by_false_alarm_rate\""));
+}
+
+TEST_CASE("What a calibration left open is a band of its own, in text, data and page") {
+    const Folder folder;
+    const std::string results = folder.file("r.h5");
+    const std::string uncertain =
+        study("planet-crack-ideal.toml") +
+        " --set ensemble.threshold_instances=60 --set ensemble.instances=300"
+        " --set sensor.noise_levels=[1] --set 'features.use=[\"window_ratio\"]'"
+        " --set 'random.sensor.noise_m_s2={distribution=\"lognormal\",median=1.5,cv=0.3}'"
+        " --set 'detection.uncertain_inputs=[\"sensor.noise_m_s2\"]'";
+    REQUIRE(program("run " + uncertain + " --quiet --out " + results).code == 0);
+    const Outcome report = program("report " + results);
+    INFO(report.output);
+    CHECK(report.mentions("NOT KNOWN of the machine, which more gearboxes do not tell: noise"));
+    const auto level =
+        nlohmann::json::parse(program("report " + results + " --json -")
+                                  .output)["reliability"]["features"][0]["levels"][0];
+    const auto band = level["uncertain"];
+    CHECK(band["inputs"][0] == "noise_m_s2");
+    REQUIRE(band["a90_low"]["where"] == "reached");
+    // The louder machine hides the larger crack.
+    CHECK(band["a90_low"]["size"].get<double>() < 0.9 * band["a90_high"]["size"].get<double>());
+    CHECK(band["band"]["lower"].size() == level["hit_miss"]["band"]["size"].size());
+    REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
+    const std::string page = test::bytes_of(folder.file("r.html"));
+    CHECK(page.find("Not known of the machine") != std::string::npos);
+    const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
+                                    " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
+    CHECK(unknown.code == 2);
+    CHECK(unknown.mentions("\"sensor.gain\" is no random input of the gearboxes"));
 }

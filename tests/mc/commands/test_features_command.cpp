@@ -294,7 +294,7 @@ TEST_CASE("A recording's speed is believed only where it can be true") {
     CHECK(backwards.mentions("turning backwards"));
     const Outcome flipping = recorded([](int i) { return i < 1000 ? 20.0 : -20.0; });
     CHECK(flipping.code == 2);
-    CHECK(flipping.mentions("column speed_rpm changes its sign at sample 1001"));
+    CHECK(flipping.mentions("column speed_rpm: changes its sign at sample 1001"));
     for (const double rpm : {1e6, 1e12, 1e18}) {
         const Outcome raced = recorded([&](int) { return rpm; });
         INFO(raced.output);

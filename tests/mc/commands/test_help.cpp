@@ -38,8 +38,9 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     REQUIRE(man.code == 0);
     REQUIRE(completion.code == 0);
     const std::string page = replaced(man.output);
-    for (const char* command : {"run", "report", "compare", "describe", "stiffness", "modes",
-                                "accuracy", "simulate", "features", "pod", "lives"}) {
+    for (const char* command :
+         {"run", "report", "compare", "describe", "stiffness", "modes", "accuracy", "simulate",
+          "features", "pod", "lives", "merge", "calibrate", "sweep", "new"}) {
         INFO(command);
         const auto names = options(command);
         CHECK(names.size() >= 2);

@@ -52,6 +52,11 @@ TEST_CASE("A command refuses to write over a file that it reads, whatever its na
         "report " + place.results + " --html " + at("link.h5"),
         "report " + at("link.h5") + " --html " + place.results,
         "report " + place.results + " --json " + at("a") + " --html " + at("./a"),
+        "report " + place.results + " --pdf " + at("link.h5"),
+        "report " + place.results + " --html " + at("a") + " --pdf " + at("./a"),
+        "sweep " + place.study + " --vary sensor.gain=[1] --html " + at("hard.toml"),
+        "sweep " + place.study + " --vary sensor.gain=[1] --out " + at(".") + " --html " +
+            at("gain=1.h5"),
         "stiffness " + place.study + " --csv " + place.study,
         "modes " + place.study + " --json " + at("link.toml"),
         "accuracy " + place.study + " --json " + place.study,
@@ -87,7 +92,8 @@ TEST_CASE("An output without a name is bad input") {
     const Workplace place;
     for (const std::string& command :
          {"run " + place.study + kSmall + " --out ''", "report " + place.results + " --json ''",
-          "report " + place.results + " --html ''", "stiffness " + place.study + " --csv ''",
+          "report " + place.results + " --html ''", "report " + place.results + " --pdf ''",
+          "stiffness " + place.study + " --csv ''",
           "simulate " + place.study + " --instance 0 --out ''"}) {
         const Outcome outcome = program(command);
         INFO(command << "\n" << outcome.output);

@@ -216,6 +216,40 @@ TEST_CASE("A tachometer's pulses give the mesh phase, and a missing one is named
               .mentions("no column tacho"));
 }
 
+TEST_CASE("An encoder's angle gives the mesh phase, coarse, begun anew or falling") {
+    const Simulated s;
+    const auto plain = features_of(s.write("time,sensor", {s.time, s.sensor}));
+    constexpr double kTurn = 35.0 * 8.0;  // samples
+    std::vector<double> fine, wrapped, counts, back;
+    for (std::size_t i = 0; i < s.time.size(); ++i) {
+        const double turns = static_cast<double>(i) / kTurn;
+        fine.push_back(turns);
+        wrapped.push_back(360.0 * (0.75 + turns - std::floor(0.75 + turns)));
+        counts.push_back(-std::floor(turns * 140.0) / 140.0);  // backwards, two samples a count
+        back.push_back(i == 700 ? turns - 0.1 : turns);
+    }
+    const auto by = [&](const std::string& name, const std::vector<double>& angle) {
+        return s.write("time,sensor," + name, {s.time, s.sensor, angle});
+    };
+    const auto check = [&](const std::string& path, double within) {
+        const auto tracked = features_of(path, "--encoder angle");
+        for (const char* feature : {"sensor_rms", "window_ratio"}) {
+            INFO(path << " " << feature);
+            CHECK(tracked[feature].get<double>() ==
+                  Approx(plain[feature].get<double>()).epsilon(within));
+        }
+    };
+    check(by("angle [turns]", fine), 1e-6);
+    check(by("angle [deg]", wrapped), 1e-6);
+    check(by("angle [turns]", counts), 2e-2);
+    const Outcome outcome = features(by("angle [turns]", back), "--encoder angle");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.mentions("turns back by 0.6"));
+    CHECK(outcome.mentions("from sample 700 to the next"));
+    CHECK(features(by("angle [parsec]", fine), "--encoder angle").mentions("unknown unit"));
+    CHECK(features(by("other", fine), "--encoder angle").mentions("no column angle"));
+}
+
 TEST_CASE("A recording is judged against a results file, in a sentence") {
     const Folder folder;
     const std::string study = kSmall +

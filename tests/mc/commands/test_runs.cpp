@@ -23,9 +23,10 @@ namespace {
 
 // Three batches of the threshold group and four graded ones, the last of each not full; results
 // written all the time.
-std::string run_of(const std::string& out, int instances = 50) {
+std::string run_of(const std::string& out, int instances = 50, int healthy = 35) {
     return "run " + study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
-           " --set ensemble.threshold_instances=35 --set ensemble.checkpoint_s=0 --out " + out;
+           " --set ensemble.threshold_instances=" + std::to_string(healthy) +
+           " --set ensemble.checkpoint_s=0 --out " + out;
 }
 
 // One undisturbed run of that, made once.
@@ -237,7 +238,7 @@ TEST_CASE("A grown ensemble computes only what is new, and has the bits of one c
 
     const Outcome fewer = test::program(run_of(out, 20) + " --resume");
     CHECK(fewer.code == 2);
-    CHECK(fewer.mentions("r.h5: cannot be continued: it has 85 gearboxes"));
+    CHECK(fewer.mentions("r.h5: cannot be continued: it has 50 graded gearboxes"));
     const Outcome seed = test::program(run_of(out) + " --resume --seed 9");
     CHECK(seed.code == 2);
     CHECK(seed.mentions("has seed 2, this run has 9"));
@@ -248,6 +249,28 @@ TEST_CASE("A grown ensemble computes only what is new, and has the bits of one c
     damaged[damaged.size() / 2] = static_cast<char>(~damaged[damaged.size() / 2]);
     test::write_bytes(out, damaged);
     CHECK(test::program(run_of(out) + " --resume").mentions("r.h5: is damaged"));
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE(
+    "A grown threshold sample computes only what is new, with the graded gearboxes or without") {
+    const Folder folder;
+    const std::string out = folder.file("r.h5");
+    for (const int graded : {50, 20}) {
+        REQUIRE(test::program(run_of(out, graded, 20) + " --quiet --force").code == 0);
+        const Outcome grown = test::program(run_of(out) + " --resume");
+        INFO(grown.output);
+        CHECK(grown.code == 0);
+        // One of the old sample's two tiles is full, and of the graded ones' four all or one.
+        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 tiles" : "r.h5: 2 of 7 tiles"));
+        CHECK(bits(out) == reference());
+    }
+    const Outcome fewer = test::program(run_of(out, 50, 20) + " --resume");
+    CHECK(fewer.code == 2);
+    CHECK(fewer.mentions("threshold_instances = 35"));
+    // The first eight of the sample are what features that trend compare with.
+    REQUIRE(test::program(run_of(out, 20, 7) + " --quiet --force").code == 0);
+    CHECK(test::program(run_of(out) + " --resume").code == 2);
     CHECK(folder.files() == 1);
 }
 

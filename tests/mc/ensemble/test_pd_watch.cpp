@@ -20,7 +20,7 @@ const std::vector<std::string> kUntil{
 // Healthy gearboxes have 1, graded ones 2 in every feature.
 BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& batch) {
     BatchRows rows;
-    for (std::size_t i = 0; i < batch.count; ++i) {
+    for (std::size_t i = 0; i < batch.rows(); ++i) {
         const auto parameters = sampler.row(batch.group, batch.first_index + i);
         rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
         rows.values.resize(rows.values.size() + shape.features * shape.levels,

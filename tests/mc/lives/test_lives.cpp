@@ -6,32 +6,14 @@
 
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/lives/campaign.hpp"
+#include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
 #include "stiffness/growth/root_crack.hpp"
+#include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
-#include "tests/mc/study_file.hpp"
 
 namespace gearpod::test {
 namespace {
-
-const std::vector<std::string> kLife{"life.interval_h=5",
-                                     "life.first_depth_mm=1",
-                                     "life.last_depth_mm=4",
-                                     "life.depth_steps=4",
-                                     "life.paris_factor=1.36e-7",
-                                     "life.paris_exponent=2.25",
-                                     "life.records=40",
-                                     "life.healthy_lives=4",
-                                     "monitoring.baseline_records=6",
-                                     "sensor.noise_levels=[1]",
-                                     "features.use=[\"te_rms\",\"sensor_rms\",\"window_ratio\"]",
-                                     "ensemble.instances=3",
-                                     "ensemble.threshold_instances=4"};
-
-mc::Study life_study(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), kLife.begin(), kLife.end());
-    return shipped_study("planet-crack-ideal.toml", more);
-}
 
 TEST_CASE("A record is what its gearbox gives when it is marched at that depth and torque") {
     const mc::Scene scene(life_study({"life.torque_scatter=0.05", "life.gain_scatter=0.1",
@@ -120,7 +102,7 @@ TEST_CASE("A life of one record with a population threshold is the snapshot stud
         one.emplace_back(more);
     }
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
-    const auto campaign = mc::run_campaign(scene, 2, [](long) {});
+    const auto campaign = mc::run_campaign(scene);
     const auto monitored = mc::monitor(scene.study(), campaign);
     for (std::size_t f = 0; f < 2; ++f) {
         INFO(monitored[f].feature);
@@ -155,38 +137,104 @@ TEST_CASE("Lives have the same bits for any lanes") {
         auto overrides = few;
         overrides.push_back(lanes);
         const mc::Scene scene(life_study(overrides));
-        return mc::run_campaign(scene, 1, [](long) {});
+        return mc::run_campaign(scene);
     };
     const auto eight = of("numerics.lanes=8"), one = of("numerics.lanes=1");
     for (std::size_t g = 0; g < eight.cracked.size(); ++g) {
         CHECK(eight.cracked[g].values == one.cracked[g].values);
         CHECK(eight.cracked[g].history.end_hours == one.cracked[g].history.end_hours);
     }
+    CHECK(eight.interpolation.last == one.interpolation.last);
     CHECK(eight.setting[0].values == one.setting[0].values);
 }
 
+// Without what a run took.
+nlohmann::json told(const Outcome& outcome) {
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    auto json = nlohmann::json::parse(outcome.output);
+    json.erase("costs");
+    return json;
+}
+
 TEST_CASE("Lives have the same bits for any threads, and the command says what it must") {
+    const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
-                                " --set monitoring.false_alarms_per_1000_h=10";
-    const auto of = [&](const std::string& more) {
-        const Outcome outcome = program(command + more);
-        INFO(outcome.output);
-        REQUIRE(outcome.code == 0);
-        auto json = nlohmann::json::parse(outcome.output);
-        CHECK(json["costs"]["gearboxes"] == 11);
-        json.erase("costs");
-        json.erase("interpolation");  // of as many gearboxes as there are lanes
-        return json;
-    };
-    const auto reference = of("");
-    CHECK(of(" --set numerics.threads=1") == reference);
-    CHECK(of(" --seed 77") != reference);
+                                " --set monitoring.false_alarms_per_1000_h=10 --out " +
+                                folder.file("l.h5");
+    const auto reference = told(program(command));
+    const auto one = bits(folder.file("l.h5"));
+    CHECK(told(program(command + " --set numerics.threads=1")) == reference);
+    CHECK(bits(folder.file("l.h5")) == one);
+    CHECK(told(program(command + " --seed 77 --force")) != reference);
     REQUIRE(reference["monitored"].size() == 15);  // two features and both, five detectors
-    for (const auto& one : reference["monitored"]) {
-        CHECK(one["false_alarms"]["hours"] == 4 * 34 * 5.0);
-        CHECK(one["found"].get<int>() <= one["ended"].get<int>());
+    for (const auto& each : reference["monitored"]) {
+        CHECK(each["false_alarms"]["hours"] == 4 * 34 * 5.0);
+        CHECK(each["found"].get<int>() <= each["ended"].get<int>());
+        CHECK(each["alarm_h"].size() == 3);
     }
     CHECK(reference["lives"].size() == 3);
+    REQUIRE(reference["trade_offs"].size() == 3);
+    double last = 0.0;
+    for (const auto& point : reference["trade_offs"][0]["points"]) {
+        CHECK(point["stated_per_1000_h"].get<double>() > last);
+        last = point["stated_per_1000_h"].get<double>();
+    }
+    CHECK(reference["fans"][2]["lives"].size() == 3);
+}
+
+TEST_CASE("A report on lives says what the run said, and other commands refuse them") {
+    const Folder folder;
+    const std::string file = folder.file("l.h5");
+    const std::string command =
+        "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
+    const auto whole = told(program(command));
+    CHECK(told(program("report " + file + " --json -")) == whole);
+    const mc::Results read = mc::read_results(file);
+    REQUIRE(read.status.size() == 11);
+    CHECK(read.noise_levels.size() == 40);  // hours
+    CHECK(read.noise_levels[7] == 35.0);
+    CHECK(read.features.back().name == "record_noise");
+    // Lives of another study are not overwritten, those of the same one are.
+    const Outcome other = program(command + " --set life.interval_h=6");
+    CHECK(other.code == 2);
+    CHECK(other.mentions("interval_h = 6"));
+    CHECK(other.mentions("--force"));
+    CHECK(told(program(command)) == whole);
+    // More gearboxes that crack are added to those that are there.
+    const auto more = told(program(command + " --resume --instances 5"));
+    CHECK(more["lives"].size() == 5);
+    CHECK(more == told(program(command + " --force --instances 5")));
+    for (const std::string& refused :
+         {"compare " + file + " " + file, "report " + file + " --csv " + folder.file("tables"),
+          "merge " + file + " --out " + folder.file("m.h5")}) {
+        const Outcome outcome = program(refused);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.mentions("holds lives"));
+    }
+}
+
+TEST_CASE("Lives that were stopped go on to the same bits") {
+    const Folder folder;
+    const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
+                                " --set ensemble.threshold_instances=40 --out ";
+    const auto whole = told(program(command + folder.file("w.h5")));
+    const Outcome stopped = shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +
+                                  command + folder.file("s.h5"));
+    CHECK((stopped.code == 4 || stopped.code == 0));  // of a fast machine: all were done
+    CHECK(std::filesystem::exists(folder.file("s.h5.part")) == (stopped.code == 4));
+    CHECK(told(program(command + folder.file("s.h5") + " --resume")) == whole);
+    CHECK(bits(folder.file("s.h5")) == bits(folder.file("w.h5")));
+}
+
+TEST_CASE("Two ranks make the same lives", "[mpi]") {
+    const Folder folder;
+    const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
+                                " --set numerics.threads=1 --out ";
+    const auto one = told(program(command + folder.file("1.h5")));
+    const Outcome two = shell(mpirun(2) + GEARPOD_PROGRAM + " " + command + folder.file("2.h5"));
+    CHECK(told(two) == one);
+    CHECK(bits(folder.file("2.h5")) == bits(folder.file("1.h5")));
 }
 
 TEST_CASE("What cannot live on is refused with the key") {

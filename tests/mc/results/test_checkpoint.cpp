@@ -24,7 +24,7 @@ const BatchPlan kPlan(20, 42);  // batches of 16, 4, 16, 16, 10
 
 BatchRows rows_of(const BatchPlan& plan, std::size_t batch) {
     BatchRows rows;
-    for (std::size_t row = 0; row < plan.batch(batch).count; ++row) {
+    for (std::size_t row = 0; row < plan.batch(batch).rows(); ++row) {
         rows.status.push_back(static_cast<int>(row % 3));
         for (std::size_t value = 0; value < kShape.values(); ++value) {
             rows.values.push_back(100.0 * static_cast<double>(plan.batch(batch).first_row + row) +
@@ -77,7 +77,7 @@ TEST_CASE("A plan's batches hold every row once, the threshold group's apart fro
         const Batch place = kPlan.batch(batch);
         CHECK(place.first_row == row);
         CHECK(place.first_index == (row < 20 ? row : row - 20));
-        for (std::size_t i = 0; i < place.count; ++i, ++row) {
+        for (std::size_t i = 0; i < place.rows(); ++i, ++row) {
             CHECK(kPlan.batch_of_row(row) == batch);
             CHECK((place.group == Group::threshold) == (row < 20));
         }
@@ -87,21 +87,49 @@ TEST_CASE("A plan's batches hold every row once, the threshold group's apart fro
     CHECK(kPlan.batches() == 5);
 }
 
+TEST_CASE("Records of a gearbox are rows of its batch") {
+    const BatchPlan plan(20, 42, {}, 7);
+    CHECK(plan.threshold_rows() == 140);
+    CHECK(plan.threshold_gearboxes() == 20);
+    CHECK(plan.rows() == 182);
+    CHECK(plan.batch(0).rows() == 112);
+    CHECK(plan.batch(1).first_index == 16);
+    CHECK(plan.batch(1).rows() == 28);
+    CHECK(plan.batch(2).rows() == 16);
+
+    const Folder folder;
+    const std::string path = folder.file("a.h5.checkpoint");
+    {
+        const auto checkpoint = Checkpoint::create(path, kIdentity, plan);
+        for (const std::size_t batch : {4, 0, 2, 1}) {
+            checkpoint->write(batch, rows_of(plan, batch));
+        }
+        checkpoint->sync();
+    }
+    const auto resumed = Checkpoint::resume(path, kIdentity, plan);
+    CHECK(resumed->findings().empty());
+    for (const std::size_t batch : {0, 1, 2, 4}) {
+        CHECK(same(resumed->read(batch), rows_of(plan, batch)));
+    }
+    CHECK(!resumed->has(3));
+}
+
 TEST_CASE("Parts of a plan hold every batch of the whole once, with rows of their own") {
+    const int records = GENERATE(1, 5);
     for (const auto& [thresholds, graded] : {std::pair{20, 42}, {35, 50}, {16, 16}, {3, 2}}) {
-        const BatchPlan whole(thresholds, graded);
+        const BatchPlan whole(thresholds, graded, {}, records);
         for (const std::size_t count : {1, 2, 3, 4, 7}) {
             std::size_t batches = 0, rows = 0, threshold_rows = 0;
             for (std::size_t index = 0; index < count; ++index) {
-                const BatchPlan own(thresholds, graded, {index, count});
+                const BatchPlan own(thresholds, graded, {index, count}, records);
                 std::size_t row = 0;
                 for (std::size_t batch = 0; batch < own.batches(); ++batch) {
                     const Batch place = own.batch(batch), all = whole.batch(own.number(batch));
                     CHECK(place.group == all.group);
                     CHECK(place.first_index == all.first_index);
-                    CHECK(place.count == all.count);
+                    CHECK(place.rows() == all.rows());
                     CHECK(place.first_row == row);
-                    for (std::size_t i = 0; i < place.count; ++i, ++row) {
+                    for (std::size_t i = 0; i < place.rows(); ++i, ++row) {
                         CHECK(own.batch_of_row(row) == batch);
                     }
                     CHECK((batch < own.threshold_batches()) == (all.group == Group::threshold));

@@ -6,6 +6,7 @@
 
 #include "gears/working_pair.hpp"
 #include "mc/study/gears.hpp"
+#include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -95,6 +96,53 @@ TEST_CASE("Reused and marched meshes of a cracked helical gearbox agree") {
     const auto& ratio = reused.features[test::feature_index(reused, "window_ratio")].values;
     CHECK(ratio.front() == Approx(1.0).epsilon(1e-5));
     CHECK(*std::max_element(ratio.begin(), ratio.end()) > 1.05);
+}
+
+// A tooth touched in the reverse order engages first with its other end.
+TEST_CASE("Where a chip lies along the face of helical teeth shows when it passes") {
+    const auto loss_time = [](const std::vector<std::string>& more) {
+        std::string text = tests::kExampleStudy;
+        for (const std::string line :
+             {"side = \"ring\"\n",
+              "fault.depth_mm = { distribution = \"levels\", values = [0, 1, 2, 3, 4.3] }\n"}) {
+            text.erase(text.find(line), line.size());
+        }
+        std::vector<std::string> all{"fault.kind='chip'", "fault.member='sun'", "fault.chip_mm=4",
+                                     "gearbox.helix_angle_deg=20"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Scene scene(test::study_of_text(text, all));
+        const auto mesh = scene.fault().mesh(0, 4e-3);
+        const auto& healthy = *scene.meshes()[0].stiffness;
+        double lost = 0.0, moment = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const double tau = (i + 0.5) / 400.0 * mesh->duration();
+            const double here =
+                total_at(healthy, tau) - total_at(*mesh, healthy.transitions(), tau);
+            lost += here;
+            moment += here * tau;
+        }
+        CHECK(lost > 0.0);
+        return moment / lost;
+    };
+    const double overlap =
+        overlap_ratio(test::study_of_text(tests::kExampleStudy, {"gearbox.helix_angle_deg=20"}));
+    const double first = loss_time({}), last = loss_time({"fault.chip_end='last'"});
+    CHECK(last - first == Approx(overlap * (1.0 - 4.0 / 38.1)).epsilon(0.02));
+    const std::vector<std::string> reversed{"operation.fixed='sun'", "operation.input='ring'",
+                                            "fault.member='planet'", "fault.side='sun'"};
+    auto other = reversed;
+    other.push_back("fault.chip_end='last'");
+    CHECK(loss_time(other) < loss_time(reversed));
+}
+
+TEST_CASE("Spur teeth have no end that engages first") {
+    const auto problems =
+        mc::read_study_text(tests::kFixedShaftStudy, "study.toml", {"fault.chip_end='last'"})
+            .problems;
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].key == "fault.chip_end");
+    CHECK(problems[0].what.find("spur teeth touch along the whole face at once") !=
+          std::string::npos);
 }
 
 TEST_CASE("A module is given in one plane") {

@@ -6,14 +6,17 @@ in N. Usage: gear_fem.py [--size F] [--out table.csv] [--only checks|table]
 """
 import argparse
 import math
-import os
-import subprocess
+import pathlib
+import sys
 import tempfile
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "fem-gear-pairs"))
+from plane_fem import Geometry, Mesh, compliance, edge_loads, solve
+
 TEETH, MODULE, PRESSURE_ANGLE = 23, 6.0, math.radians(20)
-YOUNG, POISSON, WIDTH = 69e3, 0.33, 15.0
+YOUNG, POISSON, WIDTH = MATERIAL = 69e3, 0.33, 15.0
 CRACK, CRACK_ANGLE = 4.7, math.radians(45)
 BORE = 25.0  # the thesis gives none
 TORQUE = 60e3  # N mm; sets the width of the contact only
@@ -63,40 +66,6 @@ class Contact:
         self.radius = math.hypot(BASE, gear_roll)
         self.point = turned(flank_point(self.radius, 1), turn)
         self.direction = np.array([math.sin(tangent), -math.cos(tangent)])  # into the tooth
-
-
-class Geometry:
-    """Collects a gmsh .geo file."""
-
-    def __init__(self, size):
-        self.size, self.lines, self.points, self.curves, self.fields = size, [], 0, 0, 0
-        self.known = {}
-
-    def point(self, xy):
-        key = (round(xy[0], 9), round(xy[1], 9))
-        if key not in self.known:
-            self.points += 1
-            self.known[key] = self.points
-            self.lines.append(f"Point({self.points}) = {{{xy[0]:.12g}, {xy[1]:.12g}, 0}};")
-        return self.known[key]
-
-    def curve(self, kind, points):
-        self.curves += 1
-        numbers = ", ".join(str(self.point(p)) for p in points)
-        self.lines.append(f"{kind}({self.curves}) = {{{numbers}}};")
-        return self.curves
-
-    def refine(self, xy, finest, growth):
-        """Elements of size `finest` at a point, growing by `growth` per unit of distance."""
-        self.fields += 1
-        self.lines.append(
-            f'Field[{self.fields}] = MathEval; Field[{self.fields}].F = "{self.size * finest:.6g}'
-            f' + {self.size * growth:.6g} * Sqrt((x-({xy[0]:.9g}))^2 + (y-({xy[1]:.9g}))^2)";')
-
-    def background(self, expression):
-        self.fields += 1
-        self.lines.append(f'Field[{self.fields}] = MathEval; '
-                          f'Field[{self.fields}].F = "{self.size:.6g} * ({expression})";')
 
 
 def tooth_outline(geo, turn, contact, cracked):
@@ -154,11 +123,10 @@ def gear_geometry(size, contacts, cracked_tooth):
     for tooth in range(TEETH):
         loop += curves[tooth]
         loop.append(geo.curve("Circle", [roots[tooth][1], (0, 0), roots[(tooth + 1) % TEETH][0]]))
-    quarter = [(BORE, 0), (0, BORE), (-BORE, 0), (0, -BORE)]
-    bore = [geo.curve("Circle", [quarter[i], (0, 0), quarter[(i + 1) % 4]]) for i in range(4)]
+    bore = geo.circle(BORE)
     refine_teeth(geo, contacts)
     geo.background("3.5")
-    return finish(geo, [loop, bore], loaded, bore)
+    return geo.finish([loop, bore], loaded, bore)
 
 
 def beneath(contact):
@@ -175,126 +143,21 @@ def tooth_geometry(size, contact):
     chord = geo.curve("Line", [last, first])
     refine_teeth(geo, [contact])
     geo.background("1.0")
-    return finish(geo, [outline + [chord]], [flank], [chord], inner)
-
-
-def finish(geo, loops, loaded, held, inner=None):
-    text = geo.lines
-    for i, loop in enumerate(loops):
-        text.append(f"Curve Loop({i + 1}) = {{{', '.join(map(str, loop))}}};")
-    text.append(f"Plane Surface(1) = {{{', '.join(str(i + 1) for i in range(len(loops)))}}};")
-    if inner is not None:
-        text.append(f"Point{{{inner}}} In Surface{{1}};")
-    text.append('Physical Surface("body", 1) = {1};')
-    text.append(f'Physical Curve("held", 2) = {{{", ".join(map(str, held))}}};')
-    for i, flank in enumerate(loaded):
-        text.append(f'Physical Curve("flank{i}", {3 + i}) = {{{", ".join(map(str, flank))}}};')
-    last = geo.fields + 1
-    text.append(f"Field[{last}] = Min; Field[{last}].FieldsList = "
-                f"{{{', '.join(map(str, range(1, last)))}}}; Background Field = {last};")
-    text += ["Mesh.MeshSizeExtendFromBoundary = 0;", "Mesh.MeshSizeFromPoints = 0;",
-             "Mesh.ElementOrder = 2;", "Mesh.MshFileVersion = 2.2;", "Mesh.Algorithm = 6;"]
-    return "\n".join(text) + "\n"
-
-
-class Mesh:
-    def __init__(self, geometry, folder):
-        with open(os.path.join(folder, "g.geo"), "w") as f:
-            f.write(geometry)
-        subprocess.run(["gmsh", "-2", "-v", "1", "g.geo", "-o", "g.msh"], cwd=folder, check=True)
-        self.triangles, self.edges = [], {}
-        with open(os.path.join(folder, "g.msh")) as f:
-            lines = f.read().split("\n")
-        at = lines.index("$Nodes")
-        nodes = [lines[at + 2 + i].split() for i in range(int(lines[at + 1]))]
-        self.nodes = {int(n[0]): np.array([float(n[1]), float(n[2])]) for n in nodes}
-        at = lines.index("$Elements")
-        for i in range(int(lines[at + 1])):
-            n = [int(v) for v in lines[at + 2 + i].split()]
-            if n[1] == 9:
-                self.triangles.append(n[5:])
-            elif n[1] == 8:
-                self.edges.setdefault(n[3], []).append(n[5:])
-        used = {v for t in self.triangles for v in t}
-        self.nodes = {k: v for k, v in self.nodes.items() if k in used}
-
-    def nearest(self, point):
-        return min(self.nodes, key=lambda n: np.hypot(*(self.nodes[n] - point)))
-
-
-def hertz_load(mesh, edges, contact):
-    """Nodal forces of the elliptic pressure of a Hertz contact, of resultant 1 N."""
-    points, weights = np.polynomial.legendre.leggauss(12)
-    loads, along = {}, np.array([-contact.direction[1], contact.direction[0]])
-    for a, b, mid in edges:
-        xa, xb, xm = mesh.nodes[a], mesh.nodes[b], mesh.nodes[mid]
-        for z, w in zip(points, weights):
-            shape = np.array([z * (z - 1) / 2, z * (z + 1) / 2, 1 - z * z])
-            slope = (z - 0.5) * xa + (z + 0.5) * xb - 2 * z * xm
-            s = (shape @ np.array([xa, xb, xm]) - contact.point) @ along / contact.half_width
-            if abs(s) < 1:
-                pressure = math.sqrt(1 - s * s) * w * np.hypot(*slope)
-                for node, n in zip((a, b, mid), shape):
-                    loads[node] = loads.get(node, 0.0) + n * pressure
-    total = sum(loads.values())
-    return {node: value / total * contact.direction for node, value in loads.items()}
-
-
-def solve(mesh, load_cases, watched, folder):
-    """Displacements of the watched nodes in each load case, by CalculiX."""
-    text = ["*NODE, NSET=ALL"]
-    text += [f"{n}, {x[0]:.12g}, {x[1]:.12g}, 0" for n, x in mesh.nodes.items()]
-    text.append("*ELEMENT, TYPE=CPE6, ELSET=BODY")
-    text += [f"{i + 1}, " + ", ".join(map(str, t)) for i, t in enumerate(mesh.triangles)]
-    text += ["*MATERIAL, NAME=M", "*ELASTIC", f"{YOUNG}, {POISSON}",
-             "*SOLID SECTION, ELSET=BODY, MATERIAL=M", f"{WIDTH}", "*BOUNDARY"]
-    text += [f"{n}, 1, 2" for n in sorted({v for e in mesh.edges[2] for v in e})]
-    text.append("*NSET, NSET=SEEN")
-    text += [f"{n}," for n in watched]
-    for loads in load_cases:
-        text += ["*STEP", "*STATIC", "*CLOAD, OP=NEW"]
-        for node, force in loads.items():
-            text += [f"{node}, {d + 1}, {force[d]:.12g}" for d in (0, 1)]
-        text += ["*NODE PRINT, NSET=SEEN", "U", "*END STEP"]
-    with open(os.path.join(folder, "g.inp"), "w") as f:
-        f.write("\n".join(text) + "\n")
-    subprocess.run(["ccx", "g"], cwd=folder, check=True, stdout=subprocess.DEVNULL,
-                   env={**os.environ, "OMP_NUM_THREADS": "1"})
-    found = []
-    with open(os.path.join(folder, "g.dat")) as f:
-        for line in f:
-            if line.strip().startswith("displacements"):
-                found.append({})
-            elif found and line.split():
-                words = line.split()
-                found[-1][int(words[0])] = np.array([float(words[1]), float(words[2])])
-    return found
-
-
-def compliance(geometry, contacts, places):
-    """[i][j]: motion of place i along contact i's force per force on contact j, mm/N."""
-    with tempfile.TemporaryDirectory() as folder:
-        mesh = Mesh(geometry, folder)
-        cases = [hertz_load(mesh, mesh.edges[3 + i], c) for i, c in enumerate(contacts)]
-        watched = [mesh.nearest(place) for place in places]
-        moved = solve(mesh, cases, watched, folder)
-    directions = [c.direction for c in contacts] * len(places)
-    return np.array([[case[node] @ directions[i] for case in moved]
-                     for i, node in enumerate(watched)])
+    return geo.finish([outline + [chord]], [flank], [chord], [inner])
 
 
 def gear_compliance(size, taus, force, cracked=None):
     """Of a gear driven from the root side: contacts at taus[0] (tooth 0), taus[1] (tooth 1)."""
     contacts = [Contact(i, roll(tau), force) for i, tau in enumerate(taus)]
     return compliance(gear_geometry(size, contacts, cracked), contacts,
-                      [c.point for c in contacts])
+                      [c.point for c in contacts], MATERIAL)
 
 
 def tooth_compliance(size, tau, force):
     """Of one tooth held at its root: at the flank, and at the centre line beneath the contact."""
     contact = Contact(0, roll(tau), force)
     return compliance(tooth_geometry(size, contact), [contact],
-                      [contact.point, beneath(contact)])[:, 0]
+                      [contact.point, beneath(contact)], MATERIAL)[:, 0]
 
 
 def mesh_stiffness(matrix):
@@ -340,18 +203,12 @@ def beam_check(length, height):
     sides = [geo.curve("Line", [corners[i], corners[(i + 1) % 4]]) for i in range(4)]
     geo.background("0.5")
     with tempfile.TemporaryDirectory() as folder:
-        mesh = Mesh(finish(geo, [sides], [[sides[1]]], [sides[3]]), folder)
-        loads = {}
-        for a, b, mid in mesh.edges[3]:  # parabolic shear over the end
-            points, weights = np.polynomial.legendre.leggauss(4)
-            ya, yb = mesh.nodes[a][1], mesh.nodes[b][1]
-            for z, w in zip(points, weights):
-                y = (ya + yb) / 2 + z * (yb - ya) / 2
-                t = 6 * y * (height - y) / height**3 * w * abs(yb - ya) / 2
-                for node, n in zip((a, b, mid), (z * (z - 1) / 2, z * (z + 1) / 2, 1 - z * z)):
-                    loads[node] = loads.get(node, np.zeros(2)) + np.array([0.0, n * t])
+        mesh = Mesh(geo.finish([sides], [[sides[1]]], [sides[3]]), folder)
+        # A parabolic shear over the end.
+        loads = {node: np.array([0.0, v]) for node, v in
+                 edge_loads(mesh, mesh.edges[3], lambda x: x[1] * (height - x[1])).items()}
         middle = mesh.nearest(np.array([length, height / 2]))
-        found = solve(mesh, [loads], [middle], folder)[0][middle][1]
+        found = solve(mesh, [loads], [middle], folder, MATERIAL)[0][middle][1]
     modulus, shear = YOUNG / (1 - POISSON**2), YOUNG / (2 * (1 + POISSON))
     second_moment = WIDTH * height**3 / 12
     beam = length**3 / (3 * modulus * second_moment) + 1.2 * length / (shear * WIDTH * height)

@@ -1,0 +1,34 @@
+// What inputs that are not known leave open. Their distribution over the gearboxes is not scatter
+// but what is known of one value that all of them share, as a calibration finds it: more gearboxes
+// do not narrow it. The hit/miss curve with these inputs as further covariates,
+//
+//   POD(a, z) = floor + (ceiling - floor) F(b0 + b1 x(a) + sum of b2i zi + b3i zi^2),
+//
+// in the form of the feature's own curve, is taken at the inputs of every gearbox, which are draws
+// of what is known; the band holds the middle 90 % of these curves. The threshold is that of all
+// draws together.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/inputs/miss_sensitivity.hpp"
+#include "analysis/pod/hit_miss_pod.hpp"
+
+namespace gearpod::analysis {
+
+struct UncertainBand {
+    std::vector<std::string> inputs;  // those that vary; none: there is no band
+    SizeEstimate a90_low, a90_high;   // at the 5 and 95 % quantile of the curves
+    std::vector<PodPoint> band;       // sizes of the feature's band; median, 5 and 95 % quantile
+    std::string refusal;              // why there is no band, else empty
+};
+
+inline constexpr double kUncertainQuantiles[] = {0.05, 0.95};
+
+// `sizes` and `hit` per gearbox as in input_effects(); `pod` is the analysis of the same gearboxes.
+UncertainBand uncertain_band(std::span<const double> sizes, std::span<const int> hit,
+                             const std::vector<InputColumn>& inputs, const HitMissPod& pod);
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,73 @@
+"""What the JSON of gearpod lives says, as its page needs it."""
+
+from words import count, number, percent
+
+
+def millimetres(metres):
+    return None if metres is None else 1e3 * metres
+
+
+class CampaignData:
+    def __init__(self, data):
+        self.data = data
+        self.worked = [life for life in data["lives"] if life["status"] == 0]
+        self.ended = [k for k, life in enumerate(self.worked) if life["end_h"] is not None]
+        self.crack_h = data["baseline_records"] * data["interval_h"]  # when the crack is there
+        self.last_mm = 1e3 * data["last_depth_m"]
+
+    def names(self):
+        return list(dict.fromkeys(one["feature"] for one in self.data["monitored"]))
+
+    def of(self, feature):
+        return [one for one in self.data["monitored"] if one["feature"] == feature]
+
+    def best_of(self, feature):
+        """The detector that finds the most, then the shallowest."""
+        return min(self.of(feature), key=_order)
+
+    def best(self):
+        """The same of all features; None where no threshold could be set."""
+        known = [one for one in self.data["monitored"] if one["threshold"] is not None]
+        return min(known, key=_order) if known else None
+
+    def warnings(self, monitored):
+        """Hours from the alarm to the end, of every life that ends: None where there was none."""
+        return [None if monitored["alarm_h"][k] is None else
+                self.worked[k]["end_h"] - monitored["alarm_h"][k]
+                for k in self.ended] if monitored["alarm_h"] else []
+
+    @staticmethod
+    def alarm_h(monitored, k):
+        """When it first alarms in the k-th life that worked; None if it does not, or is None."""
+        return monitored["alarm_h"][k] if monitored and monitored["alarm_h"] else None
+
+    def depth_text(self, metres):
+        return f"> {number(self.last_mm)}" if metres is None else number(1e3 * metres)
+
+    def sentence(self):
+        best, ends = self.best(), len(self.ended)
+        rate = number(self.data["false_alarms_per_1000_h"])
+        if best is None:
+            return (f"The healthy lives are too few for a threshold at {rate} false alarms in "
+                    "1000 hours.")
+        if not ends:
+            return "No tooth goes within its records: nothing can be found before the end."
+        low, high = best["share_bounds"]
+        text = (f"{best['feature']} by {best['detector']} finds {count(best['found'])} of "
+                f"{count(ends)} cracks before the tooth goes ({percent(low)} to {percent(high)})")
+        if best["warning_50_h"] is not None:
+            text += (f", half of those found {number(best['warning_50_h'])} hours before or "
+                     f"earlier, nine in ten {number(best['warning_90_h'])}")
+        alarms = best["false_alarms"]
+        if alarms["per_1000_h"] is None:
+            return text + f", at {rate} false alarms in 1000 hours, which no healthy lives count."
+        low, high = (number(bound) for bound in alarms["bounds"])
+        return text + (f", at {number(alarms['per_1000_h'])} false alarms in 1000 hours ({low} to "
+                       f"{high}; set to {rate}).")
+
+
+def _order(monitored):
+    deep = float("inf")
+    depth = [deep if monitored[key] is None else monitored[key]
+             for key in ("depth_90_m", "depth_50_m")]
+    return (-monitored["found"], *depth)

@@ -1,0 +1,167 @@
+"""Figures of the page of gearpod lives: lives that fan out, warning times, false alarms' price."""
+
+import blocks
+from charts import INK, MUTED, NOISY, colour, dash, legend_below, marker, panel, to_svg
+from lives.campaign_data import millimetres
+from words import number
+
+DRAWN = 32  # lives with lines of their own; gearpod lives --json gives deviations of as many
+
+
+def fan(campaign, page):
+    best = campaign.best()
+    charts = [_depths(campaign, best, page), _deviations(campaign, best, page)]
+    rows = []
+    for k, life in enumerate(campaign.worked[:DRAWN]):
+        alarm = campaign.alarm_h(best, k)
+        rows.append([str(k + 1), _hours(life["end_h"]), _hours(alarm),
+                     "–" if alarm is None else number(_depth_at(life, alarm))])
+    names = f"{best['feature']} by {best['detector']}" if best else "no detector"
+    return page.figure(
+        "Cracks as they grow, and what the monitor sees of them", charts,
+        f"Each line is a life; a circle marks the first alarm behind the crack's begin of {names}, "
+        "a cross the end of the tooth. The other chart has the deviation of that feature from the "
+        "gearbox's own baseline, in its standard deviations; grey is where nine in ten healthy "
+        "lives lie. An alarm looks at several records, so that single points beyond grey are none.",
+        blocks.table(f"Lives, alarms by {names}",
+                     ["life", "tooth goes, h", "alarm, h", "depth then, mm"], rows))
+
+
+def _panel_of(lines):
+    """With room for a legend of so many lines below."""
+    return panel(2.9 + 0.22 * lines)
+
+
+def _hours(value):
+    return "–" if value is None else number(value)
+
+
+def _depth_at(life, hours):
+    return 1e3 * life["depth_m"][life["hours"].index(hours)]
+
+
+def _depths(campaign, best, page):
+    figure, axes = panel()
+    found = 0
+    for k, life in enumerate(campaign.worked[:DRAWN]):
+        grown = [(h, 1e3 * d) for h, d in zip(life["hours"], life["depth_m"]) if d > 0]
+        if life["end_h"] is not None:
+            by_depth = life["end_h"] > life["hours"][-1]  # else a force too large for what was left
+            grown.append((life["end_h"], campaign.last_mm if by_depth else grown[-1][1]))
+            axes.plot(*grown[-1], marker="x", color=INK, markersize=4, zorder=3)
+        axes.plot([h for h, _ in grown], [d for _, d in grown], color=colour(0), linewidth=0.8,
+                  alpha=0.55)
+        alarm = campaign.alarm_h(best, k)
+        if alarm is not None:
+            found += 1
+            axes.plot([alarm], [_depth_at(life, alarm)], marker="o", color=colour(1),
+                      markersize=4.5, markeredgewidth=0, zorder=4)
+    axes.set_xlabel("Machine hours")
+    axes.set_ylabel("Depth of the crack, mm")
+    axes.set_ylim(bottom=0)
+    return to_svg(figure, "Depth of the crack over machine hours",
+                  f"{min(DRAWN, len(campaign.worked))} lives, {found} of them found", page.names)
+
+
+def _deviations(campaign, best, page):
+    figure, axes = panel()
+    name = best["feature"] if best else campaign.names()[0]
+    one = next(f for f in campaign.data["fans"] if f["feature"] == name)
+    step = campaign.data["interval_h"]
+    band = [(k * step, low, high) for k, (low, high) in
+            enumerate(zip(one["healthy_05"], one["healthy_95"])) if low is not None]
+    axes.fill_between([b[0] for b in band], [b[1] for b in band], [b[2] for b in band],
+                      color=NOISY, alpha=0.45, linewidth=0)
+    largest = 1.0
+    for k, values in enumerate(one["lives"]):
+        line = [(i * step, v) for i, v in enumerate(values) if v is not None]
+        largest = max(largest, *(abs(v) for _, v in line)) if line else largest
+        axes.plot([h for h, _ in line], [v for _, v in line], color=colour(0), linewidth=0.7,
+                  alpha=0.55)
+        alarm = campaign.alarm_h(best, k)
+        if alarm is not None and values[round(alarm / step)] is not None:
+            axes.plot([alarm], [values[round(alarm / step)]], marker="o", color=colour(1),
+                      markersize=4.5, markeredgewidth=0, zorder=4)
+    if largest > 50.0:
+        axes.set_yscale("symlog", linthresh=5.0)
+    axes.axvline(campaign.crack_h, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes.set_xlabel("Machine hours (dashed: the crack is there)")
+    axes.set_ylabel("Deviation, own standard deviations")
+    axes.set_title(name, fontsize=10, color=INK, loc="left")
+    return to_svg(figure, f"{name}: deviation from the own baseline over machine hours",
+                  f"{len(one['lives'])} lives that crack, and where nine in ten healthy ones lie",
+                  page.names)
+
+
+def warning_times(campaign, page):
+    if not campaign.ended:
+        return blocks.note("No tooth goes within its records, so there are no warning times.")
+    figure, axes = _panel_of(len(campaign.names()))
+    longest = max([w for name in campaign.names()
+                   for w in campaign.warnings(campaign.best_of(name)) if w is not None] or [1.0])
+    rows = []
+    for k, name in enumerate(campaign.names()):
+        best = campaign.best_of(name)
+        warned = sorted((w for w in campaign.warnings(best) if w is not None), reverse=True)
+        x, y = [longest], [0.0]
+        for i, warning in enumerate(warned):
+            x += [warning, warning]
+            y += [i / len(campaign.ended), (i + 1) / len(campaign.ended)]
+        axes.plot([*x, 0.0], [*y, y[-1]], color=colour(k), linestyle=dash(k),
+                  label=f"{name}, {best['detector']}")
+        rows.append([name, best["detector"], f"{best['found']}/{best['ended']}",
+                     _hours(best["warning_50_h"]), _hours(best["warning_90_h"])])
+    axes.set_xlabel("Hours before the tooth goes")
+    axes.set_ylabel("Share found by then")
+    axes.set_xlim(longest * 1.02, 0)
+    axes.set_ylim(0, 1.02)
+    legend_below(axes, 1)
+    svg = to_svg(figure, "Share of cracks found against the time that is left",
+                 "; ".join(f"{r[0]}: {r[2]} found" for r in rows), page.names)
+    return page.figure(
+        "Warning times", [svg],
+        "Of the cracks whose tooth goes, the share that has been found when so many hours are left, "
+        "each feature by its best detector. At the right edge, when the tooth goes, it is the share "
+        "found at all.",
+        blocks.table("Warning times", ["feature", "detector", "found", "median, h",
+                                       "nine in ten, h"], rows))
+
+
+def trade_off(campaign, page):
+    figure, axes = _panel_of(len(campaign.data["trade_offs"]))
+    rows, drawn, missed = [], 0, False
+    for k, one in enumerate(campaign.data["trade_offs"]):
+        for point in one["points"]:
+            rows.append([one["feature"], one["detector"], number(point["stated_per_1000_h"]),
+                         _hours(point["per_1000_h"]),
+                         "–" if point["share"] is None else f"{point['share']:.2f}",
+                         campaign.depth_text(point["depth_50_m"]),
+                         campaign.depth_text(point["depth_90_m"])])
+        points = [(p["stated_per_1000_h"], millimetres(p["depth_90_m"])) for p in one["points"]]
+        shown = [(x, campaign.last_mm if y is None else y) for x, y in points]
+        missed = missed or any(y is None for _, y in points)
+        if shown:
+            drawn += 1
+            axes.plot([x for x, _ in shown], [y for _, y in shown], color=colour(k),
+                      linestyle=dash(k), marker=marker(k), markersize=4, markeredgewidth=0,
+                      label=f"{one['feature']}, {one['detector']}")
+    data = blocks.table("False alarms and depth at detection",
+                        ["feature", "detector", "set to, in 1000 h", "counted", "share found",
+                         "50 % by, mm", "90 % by, mm"], rows)
+    if not drawn:
+        return blocks.note("The healthy lives are too few for a threshold at any of these rates.") + data
+    axes.set_xscale("log")
+    axes.set_ylim(0, 1.05 * campaign.last_mm)
+    axes.set_xlabel("False alarms in 1000 hours")
+    axes.set_ylabel("90 % found by, mm")
+    legend_below(axes, 1)
+    svg = to_svg(figure, "Depth at detection against false alarms in 1000 hours",
+                 "; ".join(f"{one['feature']} by {one['detector']}"
+                           for one in campaign.data["trade_offs"]), page.names)
+    return page.figure(
+        "What false alarms buy", [svg],
+        "Thresholds set to more or fewer false alarms, and the depth by which nine in ten of the "
+        "cracks are found, each feature by the detector that is best at the study's rate."
+        + (f" At {number(campaign.last_mm)} mm, where lives end: that many are not found."
+           if missed else ""), data)
+

@@ -1,0 +1,246 @@
+"""A report on one sheet of A4, as PDF: the answer, how it depends on noise, and what limits it."""
+
+import io
+import warnings
+
+import charts  # noqa: F401  (its colours and styles)
+import detection_figures
+import headline
+from charts import INK, MUTED, PAPER, RULE, SERIES
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from words import TESTED_ALONE, noise, number, percent
+
+WIDTH, HEIGHT, MARGIN = 8.27, 11.69, 0.7  # inches
+LEAST_FIGURE, MOST_FIGURE = 1.9, 3.8
+MOST_LEVELS = 8
+SCALES = (1.0, 0.94, 0.88, 0.82, 0.76, 0.7, 0.64, 0.58, 0.52)
+
+
+class Sheet:
+    """Texts from the top down, wrapped by their measured width; `y` is the next line's top, in
+    inches from the top."""
+
+    def __init__(self, scale):
+        self.figure = Figure(figsize=(WIDTH, HEIGHT), facecolor=PAPER)
+        self.renderer = FigureCanvasAgg(self.figure).get_renderer()
+        self.scale, self.y = scale, MARGIN
+
+    def width(self, text, size, weight):
+        from matplotlib.font_manager import FontProperties
+        font = FontProperties(size=size, weight=weight)
+        return self.renderer.get_text_width_height_descent(text, font, False)[0] / self.figure.dpi
+
+    def lines(self, text, size, weight, room):
+        """A word that is wider than the room alone is broken."""
+        out, line = [], ""
+        for word in text.split(" "):
+            while self.width(word, size, weight) > room:
+                cut = next(n for n in range(len(word), 0, -1)
+                           if n == 1 or self.width(word[:n], size, weight) <= room)
+                out += [line] if line else []
+                out.append(word[:cut])
+                line, word = "", word[cut:]
+            longer = f"{line} {word}" if line else word
+            if line and self.width(longer, size, weight) > room:
+                out.append(line)
+                longer = word
+            line = longer
+        return out + [line]
+
+    def place(self, text, x, y, size, weight="normal", colour=INK):
+        self.figure.text(x / WIDTH, 1 - y / HEIGHT, text, fontsize=size, fontweight=weight,
+                         color=colour, va="top", ha="left", parse_math=False)
+
+    def text(self, text, size, weight="normal", colour=INK, indent=0.0, mark="", bar=None):
+        """A paragraph; `mark` hangs left of it, `bar` is the colour of a line beside it."""
+        size *= self.scale
+        step, top = 1.32 * size / 72, self.y
+        if mark:
+            self.place(mark, MARGIN, self.y, size, weight, colour)
+        for line in self.lines(text, size, weight, WIDTH - 2 * MARGIN - indent):
+            self.place(line, MARGIN + indent, self.y, size, weight, colour)
+            self.y += step
+        if bar:
+            self.figure.add_artist(Rectangle((MARGIN / WIDTH, 1 - self.y / HEIGHT), 0.045 / WIDTH,
+                                             (self.y - top) / HEIGHT, facecolor=bar, linewidth=0))
+        self.y += 0.25 * step
+
+    def gap(self, inches):
+        self.y += inches * self.scale
+
+    def table(self, head, rows, bold):
+        """`bold`: the number of the row that is shown so. Columns as wide as they need, smaller
+        where they need more than there is."""
+        size = 9 * self.scale
+
+        def widths():
+            return [max(self.width(row[c], size, "bold") for row in [head, *rows]) + 0.16
+                    for c in range(len(head))]
+
+        room = WIDTH - 2 * MARGIN
+        while sum(widths()) > room and size > 4:
+            size *= 0.95
+        extra = min(0.25, (room - sum(widths())) / len(head))
+        for number_, row in enumerate([head, *rows]):
+            x = MARGIN
+            for cell, width in zip(row, widths()):
+                self.place(cell, x, self.y, size, "bold" if number_ == bold + 1 else "normal",
+                           MUTED if number_ == 0 else INK)
+                x += width + max(0.0, extra)
+            self.y += 1.5 * size / 72
+            self.figure.add_artist(Line2D(
+                [MARGIN / WIDTH, 1 - MARGIN / WIDTH], [1 - (self.y - 0.02) / HEIGHT] * 2,
+                color=RULE, linewidth=0.6))
+            self.y += 0.02
+
+    def axes(self, left, right, height):
+        """Shares of the sheet's width between the margins."""
+        room = WIDTH - 2 * MARGIN
+        return self.figure.add_axes(((MARGIN + left * room) / WIDTH, 1 - (self.y + height) / HEIGHT,
+                                     (right - left) * room / WIDTH, height / HEIGHT))
+
+
+def _chosen(report):
+    """Noise levels in the table: all, or the one that is shown and others evenly."""
+    count = len(report.levels)
+    if count <= MOST_LEVELS:
+        return list(range(count))
+    evenly = {round(k * (count - 1) / (MOST_LEVELS - 2)) for k in range(MOST_LEVELS - 1)}
+    return sorted(evenly | {report.reference})
+
+
+def _table(sheet, report):
+    rows = []
+    chosen = _chosen(report)
+    for n in chosen:
+        found = report.smallest_fault(n)
+        if found is None:
+            none = "no threshold" if report.without_threshold(n) else "none"
+            rows.append([f"× {number(report.levels[n])}", none, "–", "–", "–"])
+            continue
+        alarm, false = headline.threshold(report, found["feature"], n)
+        rows.append([f"× {number(report.levels[n])}",
+                     report.sizes.text(found["size"]) + ("" if found["from_curve"] else "*"),
+                     found["feature"], alarm, false])
+    sheet.text(f"Smallest {headline.fault(report)} found with {headline.promise(report)}, by noise", 9, colour=MUTED)
+    sheet.table(["noise", report.sizes.name.replace("fault ", ""), "by", "alarm if",
+                 f"false alarms [{number(100 * report.confidence)} %]"], rows,
+                chosen.index(report.reference))
+    if any(row[1].endswith("*") for row in rows):
+        sheet.gap(0.04)
+        sheet.text(TESTED_ALONE, 7.5,
+                   colour=MUTED)
+
+
+def _by_noise(axes, report):
+    """The smallest fault found over noise, by any feature."""
+    largest = max((c["size_high"] for f in report.detection for level in f["levels"]
+                   for c in level["sizes"]), default=0.0)
+    found = [report.smallest_fault(n) for n in range(len(report.levels))]
+    at = [(n, report.sizes.shown(f["size"])) for n, f in enumerate(found) if f]
+    axes.plot([n for n, _ in at], [size for _, size in at], linestyle="none", marker="o",
+              color=SERIES[0][0], markersize=6, markeredgewidth=0)
+    for n, size in at:
+        axes.annotate(number(size), (n, size), xytext=(0, 6), textcoords="offset points",
+                      ha="center", fontsize=8, color=INK)
+    for n, f in enumerate(found):
+        if f is None:
+            axes.annotate("none", (n, 0), xytext=(0, 4), textcoords="offset points", ha="center",
+                          fontsize=8, color=MUTED)
+    axes.set_xlim(-0.5, len(report.levels) - 0.5)
+    axes.set_ylim(0, 1.15 * (report.sizes.shown(largest) or 1))
+    step = max(1, -(-len(report.levels) // MOST_LEVELS))
+    axes.set_xticks(range(0, len(report.levels), step),
+                    [f"× {number(level)}" for level in report.levels[::step]])
+    axes.grid(axis="x", visible=False)
+    axes.set_xlabel("Noise")
+    axes.set_ylabel(report.sizes.axis())
+    axes.set_title(f"Smallest {headline.fault(report)} found", fontsize=10, loc="left")
+
+
+def _figures(sheet, report, height):
+    level = report.reference
+    found = report.smallest_fault(level)
+    best = report.feature_number(found["feature"]) if found else report.order(level)[0]
+    axes = height - 0.75  # titles and labels stand outside
+    sheet.y += 0.25
+    detection_figures.of_feature(sheet.axes(0.075, 0.48, axes), report, best)
+    _by_noise(sheet.axes(0.6, 1.0, axes), report)
+    sheet.y += height - 0.25
+
+
+def _provenance(report):
+    given = report.data["provenance"]
+    named = [(name.replace("_", " "), given[name]) for name in
+             ("code_version", "git_hash", "seed", "date", "host") if given.get(name)]
+    texts = [f"{name} {value}" for name, value in named]
+    if "results" in report.data:
+        texts.insert(0, report.data["results"])
+    return "gearpod: " + "; ".join(texts) + ". All numbers: gearpod report --html or --json."
+
+
+def _filled(report, scale):
+    """The sheet, and how far its last line is above the lower margin (inches)."""
+    speaks = report.silence() is None
+    sheet = Sheet(scale)
+    sheet.text(report.title(), 10, colour=MUTED)
+    sheet.gap(0.06)
+    for k, text in enumerate(headline.answers(report)):
+        sheet.text(text, 15 if k == 0 else 10.5, "bold", indent=0.17,
+                   bar=SERIES[0][0])
+        sheet.gap(0.05)
+    sheet.gap(0.08)
+    if speaks:
+        _table(sheet, report)
+    above, sheet.y = sheet.y, 0.0
+    # What comes below the figures is placed from their lower end.
+    rest = Sheet(scale)
+    _below(rest, report, speaks)
+    below = rest.y - MARGIN
+    free = HEIGHT - MARGIN - above - below
+    sheet.y = above
+    if speaks:
+        height = min(MOST_FIGURE, free)
+        if height < LEAST_FIGURE:
+            return sheet, height - LEAST_FIGURE
+        _figures(sheet, report, height)
+    _below(sheet, report, speaks)
+    return sheet, HEIGHT - MARGIN - sheet.y
+
+
+def _below(sheet, report, speaks):
+    sheet.gap(0.1)
+    texts = headline.limits(report)
+    if texts:
+        sheet.text("What limits it", 11, "bold")
+        for text in texts:
+            sheet.text(text, 9, indent=0.16, mark="•")
+    sheet.gap(0.06)
+    sheet.text(headline.facts(report), 8, colour=MUTED)
+    sheet.text(_provenance(report), 7, colour=MUTED)
+
+
+def sheet_of(report):
+    """The largest letters with which everything fits."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # those the font lacks are boxes
+        for scale in SCALES:
+            sheet, left = _filled(report, scale)
+            if left >= -1e-6:
+                break
+    return sheet
+
+
+def pdf(report):
+    buffer = io.BytesIO()
+    # Real text.
+    with rc_context({"pdf.fonttype": 42, "svg.fonttype": "path"}), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")
+        sheet_of(report).figure.savefig(buffer, format="pdf", facecolor=PAPER, metadata={
+            "Title": report.title(), "Subject": headline.sentence(report), "Creator": "gearpod",
+            "CreationDate": None})
+    return buffer.getvalue()

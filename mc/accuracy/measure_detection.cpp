@@ -1,0 +1,91 @@
+#include "mc/accuracy/measure_detection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearpod::mc {
+namespace {
+
+// Of the pilot ensemble, both groups: by default, and fewest for which anything is said.
+constexpr long kPilotGearboxes = 480;
+constexpr long kFewestGearboxes = 60;
+
+std::size_t closest_rung(const AccuracyReport& report) {
+    const auto error_of = [](const RungResult& r) {
+        return r.refusal.empty() && r.steps > 0 ? r.error.largest_feature() : INFINITY;
+    };
+    const auto closest =
+        std::min_element(report.rungs.begin(), report.rungs.end(),
+                         [&](const auto& a, const auto& b) { return error_of(a) < error_of(b); });
+    return static_cast<std::size_t>(closest - report.rungs.begin());
+}
+
+std::vector<std::size_t> rungs_that_matter(const AccuracyReport& report) {
+    std::vector<std::size_t> places{0};
+    for (std::size_t i = 0; i < report.rungs.size(); ++i) {
+        if (report.rungs[i].frontier) {
+            places.push_back(i);
+        }
+    }
+    for (const ChoiceCheck& check : report.choices) {
+        if (check.chosen >= 0) {
+            places.push_back(static_cast<std::size_t>(check.chosen));
+        }
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+}
+
+// How many gearboxes there is time for; none where so few would say nothing.
+long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
+                const std::vector<std::size_t>& places, AccuracyReport& report) {
+    if (request.gearboxes) {
+        return *request.gearboxes;
+    }
+    double gearbox_s = report.rungs[closest_rung(report)].total_s;
+    for (const std::size_t place : places) {
+        gearbox_s += report.rungs[place].total_s;
+    }
+    const Ensemble& e = study.ensemble;
+    const long all = std::min<long>(kPilotGearboxes, e.instances + e.threshold_instances);
+    const double needed_s = gearbox_s * static_cast<double>(all);
+    if (time.enough(needed_s)) {
+        return all;
+    }
+    const long some = static_cast<long>(std::max(0.0, time.seconds()) / gearbox_s);
+    report.left_out.push_back(
+        fmt::format("detection rates of {} gearboxes by {} rungs{} (--gearboxes {} asks for them: "
+                    "about {:.0f} processor seconds)",
+                    all, places.size(),
+                    some >= kFewestGearboxes ? fmt::format(", but for {} gearboxes", some) : "",
+                    all, needed_s));
+    return some >= kFewestGearboxes ? some : 0;
+}
+
+}  // namespace
+
+void measure_detection(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
+                       AccuracyReport& report) {
+    const std::vector<std::size_t> places = rungs_that_matter(report);
+    const long gearboxes = pilot_size(study, request, time, places, report);
+    if (gearboxes == 0) {
+        return;
+    }
+    const Study pilot = pilot_ensemble_study(study, gearboxes);
+    const PilotEnsemble reference =
+        run_pilot_ensemble(with_rung(pilot, report.rungs[closest_rung(report)].rung));
+    if (!has_rates(reference)) {
+        return;
+    }
+    for (const std::size_t place : places) {
+        RungResult& result = report.rungs[place];
+        request.progress(fmt::format("detection rates by {}", result.rung.text()));
+        result.detection =
+            detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
+    }
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,24 @@
+// What is left of the processor time that a measurement was given. Nothing new is begun when it is
+// up.
+#pragma once
+
+#include <cmath>
+
+#include "machine/thread_clock.hpp"
+
+namespace gearpod::mc {
+
+class TimeLeft {
+  public:
+    // 0: as long as it takes.
+    explicit TimeLeft(double seconds)
+        : end_s_(seconds > 0.0 ? thread_processor_s() + seconds : INFINITY) {}
+
+    double seconds() const { return end_s_ - thread_processor_s(); }
+    bool enough(double needed_s = 0.0) const { return seconds() > needed_s; }
+
+  private:
+    double end_s_;
+};
+
+}  // namespace gearpod::mc

@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "mc/commands/support.hpp"
+#include "mc/new_study/planetary.hpp"
+
+namespace gearpod::mc {
+
+int new_command(const NewOptions& options) {
+    const bool exists = options.out != "-" && std::filesystem::exists(options.out);
+    if (exists && !options.force) {
+        fmt::print(stderr, "--out {}: is there already; name another file, or give --force\n",
+                   options.out);
+    }
+    const bool writable = can_write({"--out", options.out}, {}) && (!exists || options.force);
+    const NewStudy made = new_planetary(options.planetary, options.command);
+    if (!made.problems.empty()) {
+        print_problems(made.problems);
+    }
+    if (!made.problems.empty() || !writable || !write_text_to(options.out, made.text)) {
+        return kBadInput;
+    }
+    if (options.out != "-") {
+        fmt::print(
+            "{0}: read it, replace what you know, then\n  gearpod describe {0}\n  gearpod "
+            "run {0}\n",
+            options.out);
+    }
+    return kDone;
+}
+
+}  // namespace gearpod::mc

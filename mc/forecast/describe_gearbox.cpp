@@ -1,0 +1,221 @@
+#include "mc/forecast/describe_gearbox.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mc/forecast/describe_effects.hpp"
+#include "mc/scene/drive.hpp"
+#include "mc/study/faults/fault_kind.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string joined(const std::vector<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, " "));
+}
+
+// To six figures, without the rounding of units there and back, nor a zero's sign.
+std::string figures(double value) {
+    return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
+}
+
+std::string rpm(double rad_s) {
+    return figures(rad_s * 30.0 / std::numbers::pi) + " rpm";
+}
+
+// Nominal speed and torque of every member; speeds positive as the input turns, torques as
+// magnitudes.
+void print_planetary_members(const Study& study) {
+    const gears::PlanetaryTrain train = planetary_train(study);
+    const Sampler sampler(study);
+    const InstanceInputs nominal = sampler.nominal();
+    const gears::PowerFlow flow{fixed_member(study.operation.fixed),
+                                central_member(study.operation.input)};
+    const gears::Speeds turning = gears::driven_speeds(
+        train, flow, central_member(sampler.speed_member()), nominal.speed_rad_s);
+    const gears::Members torque = gears::balanced_torques(
+        train, central_member(study.operation.torque_on), nominal.torque_N_m);
+    const double of_input = study.operation.input == Member::sun    ? turning.sun
+                            : study.operation.input == Member::ring ? turning.ring
+                                                                    : turning.carrier;
+    const double sense = of_input < 0.0 ? -1.0 : 1.0;
+    const auto print = [&](Member member, double speed, double load) {
+        const bool held = member == study.operation.fixed;
+        const char* role = held ? "held" : member == study.operation.input ? "input" : "output";
+        print_entry(std::string(member_name(member)).c_str(),
+                    fmt::format("{}, {} N m ({})", held ? "stands" : rpm(sense * speed),
+                                figures(std::abs(load)), role));
+    };
+    print(Member::sun, turning.sun, torque.sun);
+    const double pin_N = std::abs(torque.carrier) / (train.planets * centre_distance_m(study));
+    print_entry(
+        "planets",
+        fmt::format("{}, {} on their pins, each loaded with {:.4g} kN", rpm(sense * turning.planet),
+                    rpm(sense * (turning.planet - turning.carrier)), 1e-3 * pin_N));
+    print(Member::ring, turning.ring, torque.ring);
+    print(Member::carrier, turning.carrier, torque.carrier);
+}
+
+void print_members(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::planetary) {
+        print_planetary_members(study);
+        return;
+    }
+    const InstanceInputs nominal = Sampler(study).nominal();
+    const double ratio =
+        static_cast<double>(*teeth_of(study, Member::pinion)) / *teeth_of(study, Member::gear);
+    print_entry("pinion", fmt::format("{}, {} N m (input)", rpm(nominal.speed_rad_s),
+                                      figures(nominal.torque_N_m)));
+    print_entry("gear", fmt::format("{}, {} N m (output)", rpm(-ratio * nominal.speed_rad_s),
+                                    figures(nominal.fixed_shaft.load_torque_N_m)));
+}
+
+// In the unit of the file, and as shares of the largest that the tooth holds: of a crack the whole
+// way through its root.
+void print_fault_sizes(const Scene& scene) {
+    const Study& study = scene.study();
+    const std::vector<double> all = fault_sizes(study);
+    if (study.fault.kind == nullptr || all.empty()) {
+        return;
+    }
+    const Unit& unit = fault_size_key(study).unit;
+    const bool groups = !size_edges(study).empty();
+    const double largest = scene.fault().largest_size();
+    std::vector<std::string> sizes, shares;
+    for (const double size : all) {
+        sizes.push_back(figures(size / unit.to_si));
+        shares.push_back(fmt::format("{:.3g}", 100.0 * size / largest));
+    }
+    std::string text = fmt::format("{}{}", groups ? "drawn, in groups with the edges " : "",
+                                   fmt::join(sizes, ", "));
+    if (!unit.suffix.empty()) {
+        text += fmt::format(" {}; {} % of the largest that the tooth holds, {:.4g} {}", unit.name,
+                            fmt::join(shares, ", "), largest / unit.to_si, unit.name);
+    }
+    print_entry("fault sizes", text);
+}
+
+void print_planetary(const PlanetaryDrive& drive) {
+    const auto& train = drive.train();
+    print_entry("teeth (sun/planet/ring)",
+                fmt::format("{}/{}/{}, {} planets", train.sun_teeth, train.planet_teeth,
+                            train.ring_teeth, train.planets));
+    std::vector<std::string> sun, ring;
+    for (int n = 0; n < train.planets; ++n) {
+        sun.push_back(fmt::format("{:.4g}", gears::sun_mesh_phase(train, n, drive.sense())));
+        ring.push_back(fmt::format("{:.4g}", gears::ring_mesh_phase(train, n, drive.sense())));
+    }
+    if (!train.positions_rad.empty()) {
+        const gears::PlanetPlaces places = gears::planet_places(train);
+        std::vector<std::string> positions;
+        for (int n = 0; n < train.planets; ++n) {
+            positions.push_back(
+                fmt::format("{:.6g}", gears::planet_angle(places, n) * 180.0 / std::numbers::pi));
+        }
+        print_entry("planet positions", joined(positions) + " deg");
+    }
+    print_entry("mesh phases, sun", joined(sun));
+    print_entry("mesh phases, ring",
+                fmt::format("{}; ring to sun {:g}", joined(ring), drive.ring_to_sun_phase()));
+}
+
+void print_fixed_shaft(const Study& study) {
+    const int pinion = *teeth_of(study, Member::pinion), gear = *teeth_of(study, Member::gear);
+    print_entry("teeth (pinion/gear)", fmt::format("{}/{}", pinion, gear));
+    const InstanceInputs nominal = Sampler(study).nominal();
+    const double balanced = nominal.torque_N_m * gear / pinion;
+    const double load = nominal.fixed_shaft.load_torque_N_m;
+    if (std::abs(load - balanced) > 1e-6 * balanced) {
+        print_entry("torques out of balance",
+                    fmt::format("the load takes {:g} N m, {:.4g} N m would balance the motor; the "
+                                "speed is kept, only the vibration feels the difference",
+                                load, balanced));
+    }
+}
+
+// A rack leaves no involute below its form circle: flanks that are touched deeper rub in the
+// fillet.
+void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry& mesh) {
+    for (const int which : {1, 2}) {
+        const gears::Gear& gear = mesh.gear(which);
+        const double lowest = mesh.contact_radius(which, which == 1 ? 0.0 : mesh.contact_ratio());
+        if (!gear.internal && lowest < gear.form_radius()) {
+            print_entry("fillet interference",
+                        fmt::format("the {} is touched down to a diameter of {:.4f} mm, but the "
+                                    "fillet that a rack leaves begins at {:.4f} mm (a tip circle "
+                                    "of its mate farther away avoids it)",
+                                    member_name(which == 1 ? members.driver : members.driven),
+                                    2e3 * lowest, 2e3 * gear.form_radius()));
+        }
+    }
+}
+
+// Shifts, and what follows from them; nothing for standard gears.
+void print_shifts(const Scene& scene) {
+    const Study& study = scene.study();
+    if (!shift_given(study)) {
+        return;
+    }
+    std::string shifts;
+    for (const Member member : kAllMembers) {
+        if (has_toothed_member(study.gearbox.kind, member)) {
+            const gears::Gear gear = gear_of(study, member);
+            shifts += fmt::format(
+                "{}{} {:.4f}, tip {:.4f} mm ({:.3f} mm thick)", shifts.empty() ? "" : "; ",
+                member_name(member), gear.profile_shift / normal_over_transverse(study.gearbox),
+                2e3 * gear.tip_radius(), 1e3 * gear.thickness_at(gear.tip_radius()));
+        }
+    }
+    print_entry("profile shifts", shifts);
+    print_entry("centre distance", fmt::format("{:.6g} mm", 1e3 * centre_distance_m(study)));
+    for (const SceneMesh& mesh : scene.meshes()) {
+        if (mesh.geometry) {
+            const gears::MeshGeometry& g = *mesh.geometry;
+            print_entry((mesh_name(mesh.members) + " works at").c_str(),
+                        fmt::format("{:.4f} deg, backlash {:.4f} mm, tip clearances {:.3f} and "
+                                    "{:.3f} mm",
+                                    g.working_pressure_angle() * 180.0 / std::numbers::pi,
+                                    1e3 * g.backlash(), 1e3 * g.tip_clearance(1),
+                                    1e3 * g.tip_clearance(2)));
+            print_fillet_warnings(mesh.members, g);
+        }
+    }
+}
+
+// What a helical pair's contact ratio consists of.
+std::string helical_parts(const stiffness::MeshStiffness& mesh) {
+    const double transverse = mesh.slice().contact_ratio();
+    return transverse < mesh.contact_ratio()
+               ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
+                             mesh.contact_ratio() - transverse)
+               : "";
+}
+
+}  // namespace
+
+void print_gearbox(const Scene& scene) {
+    print_heading("gearbox");
+    if (const auto* planetary = dynamic_cast<const PlanetaryDrive*>(&scene.drive())) {
+        print_planetary(*planetary);
+    } else {
+        print_fixed_shaft(scene.study());
+    }
+    print_shifts(scene);
+    for (const SceneMesh& mesh : scene.meshes()) {
+        print_entry(
+            (mesh_name(mesh.members) + " mesh").c_str(),
+            fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
+                        helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
+    }
+    print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
+    print_members(scene.study());
+    print_fault_sizes(scene);
+}
+
+}  // namespace gearpod::mc

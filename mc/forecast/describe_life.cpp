@@ -1,0 +1,68 @@
+#include "mc/forecast/describe_life.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mc/forecast/describe_effects.hpp"
+#include "mc/lives/life_tile.hpp"
+#include "mc/scene/scene_error.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string scatter_text(double scatter) {
+    return scatter > 0.0
+               ? fmt::format("scatters by {:g} % (rms) about the gearbox's", 100.0 * scatter)
+               : "the gearbox's";
+}
+
+// How records of other torques or speeds come about.
+std::string load_text(double scatter) {
+    const std::vector<double> marched = factors_about(scatter);
+    return scatter_text(scatter) +
+           (marched.size() > 1 ? fmt::format("; interpolated between marches at {:.3g} of it",
+                                             fmt::join(marched, " and "))
+                               : "");
+}
+
+std::string of_gearbox(const Study& study) {
+    std::string text = has_tooth_errors(study) ? "tooth errors" : "";
+    for (const RandomInput& input : study.random) {
+        text += (text.empty() ? "" : ", ") + input.key;
+    }
+    return text.empty() ? "nothing: gearboxes are alike" : text;
+}
+
+}  // namespace
+
+void print_life(const Scene& scene) {
+    const Study& study = scene.study();
+    const Life& life = study.life;
+    if (!life.interval_h) {
+        return;
+    }
+    print_heading("lives");
+    try {
+        check_composable(scene);
+        print_entry("a record", record_text(scene));
+    } catch (const SceneError& error) {
+        print_entry("no lives",
+                    fmt::format("{}: {}; {}", error.key(), error.what(), error.remedy()));
+        return;
+    }
+    print_entry("drawn for a gearbox", of_gearbox(study));
+    print_entry("torque of a record", load_text(life.torque_scatter));
+    print_entry("speed of a record", load_text(life.speed_scatter));
+    print_entry("gain of a record", scatter_text(life.gain_scatter));
+    print_entry("noise of a record", scatter_text(life.noise_scatter));
+    print_entry("growth", life.curve_h.empty() ? "Paris' law under the records' torque and speed"
+                                               : "along the given curve");
+    print_entry("depths marched", fmt::format("none and {} to {:g} mm; between, interpolated",
+                                              life.depth_steps, 1e3 * *life.last_depth_m));
+    print_entry("gearboxes", fmt::format("{} crack, {} healthy set thresholds, {} count false "
+                                         "alarms",
+                                         study.ensemble.instances,
+                                         study.ensemble.threshold_instances, life.healthy_lives));
+}
+
+}  // namespace gearpod::mc

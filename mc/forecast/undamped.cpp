@@ -1,0 +1,78 @@
+#include "mc/forecast/undamped.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "mc/scene/sampling.hpp"
+#include "mc/study/gears.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// No gearbox has any: drawn values are not 0.
+bool none(const Study& study, const std::string& key, double nominal) {
+    return nominal == 0.0 && study.find_random(key) == nullptr;
+}
+
+std::string mesh_damping_key(const Study& study) {
+    switch (study.effects.mesh_damping) {
+        case MeshDamping::ratio:
+            return "gearbox.mesh_damping_ratio";
+        case MeshDamping::proportional:
+            return "gearbox.mesh_damping_time_s";
+        case MeshDamping::constant:
+            return "gearbox.mesh_damping_N_s_m";
+    }
+    return "";
+}
+
+std::vector<Member> held_members(const Study& study) {
+    if (study.gearbox.kind == GearboxKind::fixed_shaft) {
+        return {Member::pinion, Member::gear};
+    }
+    return {Member::sun, Member::planet, Member::ring, Member::carrier};
+}
+
+}  // namespace
+
+std::string undamped(const Study& study) {
+    if (study.effects.quasi_static()) {
+        return "";
+    }
+    const Gearbox& g = study.gearbox;
+    const InstanceInputs nominal = resolve_inputs(study);
+    std::vector<std::string> parts, bearings;
+    if (none(study, mesh_damping_key(study), nominal.mesh_damping)) {
+        parts.push_back("meshes");
+    }
+    for (const Member member : held_members(study)) {
+        const std::string name(member_name(member));
+        if (!study.effects.torsional() && none(study, "gearbox." + name + "_bearing_damping_N_s_m",
+                                               g.bodies[member].bearing_damping_N_s_m)) {
+            bearings.push_back(name);
+        }
+    }
+    if (!bearings.empty()) {
+        parts.push_back(fmt::format("bearings of {}", fmt::join(bearings, " and ")));
+    }
+    if (g.kind == GearboxKind::planetary) {
+        if (none(study, "gearbox.support_damping_N_s_m", g.support_damping_N_s_m)) {
+            parts.push_back(fmt::format("support of the {}", member_name(study.operation.fixed)));
+        }
+    } else {
+        const FixedShaft& f = study.fixed_shaft;
+        if (none(study, "gearbox.motor_coupling_damping_N_m_s_rad",
+                 f.motor_coupling_damping_N_m_s_rad)) {
+            parts.push_back("motor coupling");
+        }
+        if (none(study, "gearbox.load_coupling_damping_N_m_s_rad",
+                 f.load_coupling_damping_N_m_s_rad)) {
+            parts.push_back("load coupling");
+        }
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace gearpod::mc

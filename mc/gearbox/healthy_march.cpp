@@ -1,0 +1,154 @@
+#include "mc/gearbox/healthy_march.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "signals/sensor/sensor.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+bool marches_all(const Scene& scene) {
+    return scene.study().numerics.horizon == Horizon::march &&
+           scene.recorded_meshes() == scene.span_meshes();
+}
+
+void remove_mean(std::vector<double>& values) {
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (double& value : values) {
+        value -= mean;
+    }
+}
+
+// Of the span, those that were marched again, and where each of them is recorded.
+struct ChangedMeshes {
+    std::vector<int> meshes;
+    signals::Timeline timeline;  // the others show any record
+
+    explicit ChangedMeshes(const lockstep::TileResult& march) : timeline(march.content) {
+        for (std::size_t k = 0; k < timeline.size(); ++k) {
+            if (timeline[k] == lockstep::kUnchanged) {
+                timeline[k] = 0;
+            } else {
+                meshes.push_back(static_cast<int>(k));
+            }
+        }
+    }
+};
+
+void clear_failed(HealthyMarch::Signals& all) {
+    for (std::size_t lane = 0; lane < all.status.size(); ++lane) {
+        if (all.status[lane] != Status::ok) {
+            all.lane[lane] = {};
+        }
+    }
+}
+
+}  // namespace
+
+HealthyMarch::HealthyMarch(const Scene& scene, const signals::PathGrid& path,
+                           std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
+                           int fewest)
+    : scene_(scene), path_(path), ids_(ids), inputs_(std::move(inputs)) {
+    for (InstanceInputs& one : inputs_) {
+        one.gain = 1.0;
+    }
+    const bool keep = marches_all(scene);
+    GearboxTile tile = run_given(scene, path, ids, inputs_of(0.0), fewest, keep);
+    healthy_ = signals_of(tile);
+    inputs_.resize(tile.inputs.size(), inputs_.back());
+    if (keep) {
+        states_ = std::move(tile.march.states);
+        for (const int record : tile.march.content) {
+            te_.push_back(std::move(tile.march.records[static_cast<std::size_t>(record)].te));
+        }
+    }
+}
+
+std::vector<InstanceInputs> HealthyMarch::inputs_of(double size) const {
+    std::vector<InstanceInputs> all = inputs_;
+    for (InstanceInputs& one : all) {
+        one.fault_size = size;
+    }
+    return all;
+}
+
+HealthyMarch::Signals HealthyMarch::signals_of(const GearboxTile& tile) const {
+    Signals all{all_lane_signals(scene_, path_, tile, scene_.span_meshes()), tile.status};
+    clear_failed(all);
+    return all;
+}
+
+HealthyMarch::Signals HealthyMarch::with_fault(double size) const {
+    if (states_.empty()) {
+        return signals_of(
+            run_given(scene_, path_, ids_, inputs_of(size), static_cast<int>(inputs_.size())));
+    }
+    const GearboxTile changed = run_changes(scene_, ids_, inputs_of(size), states_);
+    Signals all = healthy_;
+    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        all.lane[lane].folded.clear();  // those of the gearbox without a fault
+        if (all.status[lane] == Status::ok) {
+            all.status[lane] = changed.status[lane];
+        }
+    }
+    change_te(changed, all.lane);
+    change_sensor(changed, all.lane);
+    clear_failed(all);
+    return all;
+}
+
+// Tooth j's average changes by the mean of what its turns' meshes change (signals::average_te).
+void HealthyMarch::change_te(const GearboxTile& changed, std::vector<LaneSignals>& lanes) const {
+    const auto per_mesh = static_cast<std::size_t>(scene_.te_samples_per_mesh());
+    const std::size_t width = inputs_.size(),
+                      stride =
+                          static_cast<std::size_t>(scene_.samples_per_mesh()) / per_mesh * width;
+    const auto teeth = static_cast<std::size_t>(scene_.span().planet_teeth);
+    const double share = 1.0 / scene_.span().ring_teeth;
+    for (std::size_t k = 0; k < changed.march.content.size(); ++k) {
+        const int record = changed.march.content[k];
+        if (record == lockstep::kUnchanged) {
+            continue;
+        }
+        const auto& now = changed.march.records[static_cast<std::size_t>(record)].te;
+        for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+            std::vector<double>& turn = lanes[lane].te_turn;
+            for (std::size_t p = 0; p < per_mesh && !turn.empty(); ++p) {
+                const std::size_t at = p * stride + lane;
+                turn[k % teeth * per_mesh + p] += share * (now[at] - te_[k][at]);
+            }
+        }
+    }
+    for (LaneSignals& lane : lanes) {
+        remove_mean(lane.te_turn);
+    }
+}
+
+void HealthyMarch::change_sensor(const GearboxTile& changed,
+                                 std::vector<LaneSignals>& lanes) const {
+    const ChangedMeshes span(changed.march);
+    if (span.meshes.empty()) {
+        return;
+    }
+    const int phases = scene_.samples_per_mesh();
+    std::vector<double> exponents;
+    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        exponents.push_back(inputs_[lane].path_exponent);
+    }
+    const auto sensor = signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(),
+                                            path_, exponents, span.meshes);
+    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
+        if (lanes[lane].sensor.empty()) {
+            continue;
+        }
+        for (std::size_t i = 0; i < span.meshes.size(); ++i) {
+            std::copy_n(
+                sensor[lane].begin() + static_cast<std::ptrdiff_t>(i) * phases, phases,
+                lanes[lane].sensor.begin() + static_cast<std::ptrdiff_t>(span.meshes[i]) * phases);
+        }
+    }
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,115 @@
+#include "mc/lives/record_span.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mc/scene/feature_needs.hpp"
+#include "mc/scene/scene_error.hpp"
+#include "mc/study/fluctuations.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+double mesh_frequency_Hz(const Scene& scene, double speed_rad_s) {
+    return std::abs(scene.drive().mesh_frequency_rad_s(speed_rad_s)) / (2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+RecordSpan record_span(const Scene& scene, double speed_rad_s) {
+    constexpr int kLeast = 3;
+    const Life& life = scene.study().life;
+    const signals::SpanLayout& span = scene.span();
+    RecordSpan record{span.ring_teeth, span.ring_teeth, life.recordings};
+    if (!life.record_s && !life.record_turns) {
+        return record;
+    }
+    const double mesh_Hz = mesh_frequency_Hz(scene, speed_rad_s);
+    const double meshes =
+        life.record_s ? *life.record_s * mesh_Hz : *life.record_turns * span.carrier_meshes;
+    record.turns = static_cast<int>(std::min(1e6, meshes / span.planet_teeth + 1e-9));
+    if (record.turns < kLeast) {
+        throw SceneError(
+            life.record_s ? "life.record_s" : "life.record_turns",
+            fmt::format("{:.1f} mesh periods, and windows return every {}", meshes,
+                        span.planet_teeth),
+            fmt::format("it must hold {} of these, {:.3g} {}", kLeast,
+                        life.record_s
+                            ? kLeast * span.planet_teeth / mesh_Hz
+                            : static_cast<double>(kLeast * span.planet_teeth) / span.carrier_meshes,
+                        life.record_s ? "s" : "turns"));
+    }
+    return record;
+}
+
+std::string record_text(const Scene& scene) {
+    const double speed = Sampler(scene.study()).nominal().speed_rad_s;
+    const RecordSpan record = record_span(scene, speed);
+    const int teeth = scene.span().planet_teeth;
+    std::string text = fmt::format("{} turns of {} mesh periods, {:.3g} s", record.turns, teeth,
+                                   record.turns * teeth / mesh_frequency_Hz(scene, speed));
+    if (record.recordings > 1) {
+        text += fmt::format(", and {} such recordings on average", record.recordings);
+    }
+    return text + (record.turns >= record.all_turns
+                       ? fmt::format(": each of the {} teeth in all its {} meetings", teeth,
+                                     record.all_turns)
+                       : fmt::format(": each of the {} teeth in {} of its {} meetings, those that "
+                                     "happen to come",
+                                     teeth, record.turns, record.all_turns));
+}
+
+void check_composable(const Scene& scene) {
+    const Study& study = scene.study();
+    const auto reject = [](const char* key, const std::string& what, const char* remedy) {
+        throw SceneError(key, what, remedy);
+    };
+    if (!study.life.interval_h) {
+        reject("life.interval_h", "missing: how often a gearbox is measured", "add [life]");
+    }
+    for (const features::Feature* feature : used_features(study)) {
+        const bool own = feature->compared == features::Compared::baseline;
+        if (own || (feature->needs & ~features::kChange) != 0) {
+            reject("features.use",
+                   "\"" + std::string(feature->name) +
+                       (own ? "\": a life has its own baseline (monitoring.baseline_records)"
+                            : "\" looks at samples, and records are composed of folded squares"),
+                   "use te_..., sensor_rms, window_ratio, window_z, change_window_ratio or "
+                   "change_window_z");
+        }
+    }
+    const bool short_records = study.life.record_s || study.life.record_turns;
+    for (const std::string& name : study.features.use) {
+        if (short_records && name.starts_with("te_")) {
+            reject("features.use",
+                   "\"" + name +
+                       "\" averages transmission error over the whole span, and recordings have "
+                       "another length",
+                   "leave it out, or life.record_s and record_turns");
+        }
+    }
+    if (study.life.record_turns && scene.span().carrier_meshes == 1) {
+        reject("life.record_turns", "the carrier stands still", "use record_s");
+    }
+    if (study.effects.quasi_static()) {
+        reject("effects.motion", "without inertia there is no sensor to compose records for",
+               "use motion = \"translational-torsional\" or \"torsional\"");
+    }
+    if (study.sensor.noise_levels.size() != 1) {
+        reject("sensor.noise_levels", "a life has one noise", "use noise_levels = [1]");
+    }
+    if (draws_fluctuations(study) || !study.sensor.tones.empty()) {
+        reject("life.interval_h",
+               "records are composed of steady signals, and the study has fluctuations, gravity or "
+               "tones that begin anew in each",
+               "leave them out");
+    }
+    if (short_records) {
+        record_span(scene, Sampler(study).nominal().speed_rad_s);
+    }
+}
+
+}  // namespace gearpod::mc

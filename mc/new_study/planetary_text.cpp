@@ -1,0 +1,211 @@
+#include "mc/new_study/planetary_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace gearpod::mc {
+namespace {
+
+// To four significant figures, with an exponent from a million on.
+std::string figures(double value) {
+    const double rounded = std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
+    return std::abs(rounded) < 1e6 ? fmt::format("{:.9g}", rounded)
+                                   : fmt::format("{:.4g}", rounded);
+}
+
+// A key with its value and where that comes from.
+std::string line(const std::string& key, const std::string& value, const std::string& comment) {
+    return comment.empty() ? fmt::format("{} = {}\n", key, value)
+                           : fmt::format("{:<43} # {}\n", key + " = " + value, comment);
+}
+std::string line(const std::string& key, double value, const std::string& comment = "") {
+    return line(key, figures(value), comment);
+}
+
+std::string header(const NominalGears& g, const std::string& command) {
+    return fmt::format(
+        "# A planetary gearbox of {}/{}/{} teeth and {} planets, from its datasheet by\n"
+        "#   gearpod {}\n"
+        "# Rules of thumb stand in for what a datasheet leaves out; each says where it comes from. "
+        "Replace what you know.\n"
+        "# Shigley: Mechanical Engineering Design. Kraemer: Dynamics of Rotors and Foundations "
+        "(1993), section 3.4.\n"
+        "# `gearpod describe` prints what follows from it, `gearpod calibrate` fits tooth errors, "
+        "path and background to\n# recordings of healthy gearboxes.\n"
+        "title = \"Planetary gearbox {}/{}/{}: crack of a planet tooth on the ring side\"\n\n",
+        g.data.sun, g.data.planet, g.ring_teeth, g.data.planets, command, g.data.sun, g.data.planet,
+        g.ring_teeth);
+}
+
+std::string masses(const DerivedGearbox& d) {
+    std::string text;
+    const auto body = [&](const char* name, const Annulus& annulus, const char* comment) {
+        text += line(fmt::format("{}_mass_kg", name), annulus.mass_kg(), comment);
+        text += line(fmt::format("{}_inertia_kg_m2", name), annulus.inertia_kg_m2());
+    };
+    body("sun", d.sun_body, "steel rings between bore and reference circle (7850 kg/m^3)");
+    body("planet", d.planet_body, "");
+    body("ring", d.ring_body, "between reference circle and outside");
+    text += line("carrier_mass_kg", d.carrier_mass_kg,
+                 "two plates of a quarter of the face width, one pin diameter beyond the pins");
+    text += line("carrier_inertia_kg_m2", d.carrier_inertia_kg_m2,
+                 "and pins of 1.5 face widths, chosen");
+    return text;
+}
+
+std::string bodies(const DerivedGearbox& d) {
+    return line("sun_bore_mm", 2e3 * d.sun_body.inner_m,
+                "rims of 1.2 tooth heights: thinner ones weaken the root (AGMA 2001-D04, backup "
+                "ratio)") +
+           line("planet_bore_mm", 2e3 * d.planet_body.inner_m, "its bearing sits there") +
+           line("ring_outer_mm", 2e3 * d.ring_body.outer_m,
+                "a rim of three tooth heights, room for bolts: chosen");
+}
+
+std::string bearings(const DerivedGearbox& d) {
+    const double planet = d.bearing.stiffness_N_m(d.pin_load_N);
+    const RollerBearing& b = d.bearing;
+    std::string text = fmt::format(
+        "# Planet bearings: 2 rows of {} rollers of {} mm under {} kN, 1e9 Z^0.9 l^0.8 F^0.1 "
+        "(Kraemer, after Palmgren).\n"
+        "# The carrier's are as stiff, a bolted ring twice; the sun floats on a fiftieth, so that "
+        "the planets share the\n# load: chosen. Damping: 1e-5 s of the stiffness (Kraemer: 0.25e-5 "
+        "to 2.5e-5 s).\n",
+        b.rollers, figures(1e3 * b.roller_length_m), figures(1e-3 * d.pin_load_N));
+    std::string damping;
+    for (const auto& [name, factor] : {std::pair{"sun_bearing", 0.02},
+                                       {"planet_bearing", 1.0},
+                                       {"ring_bearing", 2.0},
+                                       {"carrier_bearing", 1.0},
+                                       {"support", 2.0}}) {
+        const double stiffness = factor * planet;
+        const std::string prefix(name);
+        text += line(prefix + "_stiffness_N_m", stiffness,
+                     prefix == "support" ? "holds the ring's rotation" : "");
+        damping += line(prefix + "_damping_N_s_m", bearing_damping_N_s_m(stiffness));
+    }
+    return text + damping;
+}
+
+// Of the pins' places: the rms of a normal law that keeps the tolerance in 95 of 100.
+double pin_rms_um(const DerivedGearbox& d) {
+    return 1e6 * grade_7_tolerance_m(d.centre_distance_m) / 4.0;
+}
+
+std::string accuracy(const NominalGears& g, const DerivedGearbox& d) {
+    return line("tooth_quality", g.data.quality, "ISO 1328 grade of all gears") +
+           line("pin_tangential_rms_um", pin_rms_um(d),
+                "a quarter of ISO 286's tolerance of grade 7 on the centre distance") +
+           line("pin_radial_rms_um", pin_rms_um(d)) +
+           line("mesh_damping_ratio", 0.1, "0.03 to 0.17 of critical (Kasuba and Evans, 1981)");
+}
+
+std::string operation(const NominalGears& g, const InputLoad& load) {
+    return "\n[operation]\nfixed = \"ring\"\n" + line("input", "\"" + g.data.input + "\"", "") +
+           line("torque_on", "\"" + g.data.input + "\"", "") + line("torque_N_m", load.torque_N_m) +
+           line(g.data.input + "_speed_rpm", load.speed_rpm);
+}
+
+constexpr const char* kEffects =
+    "\n[effects]\nmotion = \"translational-torsional\"\nfoundation = \"elastic-ring\"\n"
+    "mesh_damping = \"ratio\"\npath = \"hamming\"\n"
+    "\n[fault]                                     # another gear, side or kind: gearpod describe "
+    "--keys fault\n"
+    "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
+    "angle_deg = 45\n";
+
+// The accelerometer hears 20 mesh harmonics, up to what one of general purpose is good for.
+std::string sensor(const DerivedGearbox& d) {
+    const double low_pass = std::min(20.0 * d.mesh_frequency_Hz, 10000.0);
+    return "\n[sensor]\n" +
+           line("low_pass_Hz", low_pass,
+                fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
+                            figures(d.mesh_frequency_Hz))) +
+           line("sampling_Hz", 2.56 * low_pass, "2.56 times the low-pass, as analysers have it") +
+           line("path_exponent", 0.1, "Liang (2016), section 5.1") +
+           line("noise_m_s2", 0.1,
+                "the rest of the machine: no datasheet has it; measure, or calibrate") +
+           line("encoder_sampling_Hz", std::max(2.56 * low_pass, 50.0 * d.mesh_frequency_Hz), "") +
+           line("encoder_noise_arcsec", 1.0, "of a good encoder: chosen") +
+           "noise_levels = [0, 1, 4]\n";
+}
+
+std::string varied(const char* key, const std::string& distribution, const char* comment = "") {
+    return line(key, "{ distribution = " + distribution + " }", comment);
+}
+
+std::string random(const DerivedGearbox& d, const InputLoad& load) {
+    const double bearing = d.bearing.stiffness_N_m(d.pin_load_N);
+    const auto lognormal = [](double median, double cv) {
+        return fmt::format("\"lognormal\", median = {}, cv = {}", figures(median), cv);
+    };
+    std::string depths;
+    for (const double share : {0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8}) {
+        depths +=
+            (depths.empty() ? "" : ", ") + fmt::format("{:.3g}", 1e3 * share * d.deepest_crack_m);
+    }
+    return "\n[random]                                    # what differs between gearboxes: "
+           "chosen\n" +
+           varied("gearbox.planet_bearing_stiffness_N_m", lognormal(bearing, 0.3)) +
+           varied("gearbox.sun_bearing_stiffness_N_m", lognormal(0.02 * bearing, 0.3)) +
+           varied("gearbox.ring_bearing_stiffness_N_m", lognormal(2.0 * bearing, 0.3)) +
+           varied("gearbox.carrier_bearing_stiffness_N_m", lognormal(bearing, 0.3)) +
+           varied("gearbox.mesh_damping_ratio", "\"uniform\", low = 0.03, high = 0.17") +
+           varied("operation.torque_N_m",
+                  fmt::format("\"truncated-normal\", mean = {}, sd = {}, low = {}, high = {}",
+                              figures(load.torque_N_m), figures(0.05 * load.torque_N_m),
+                              figures(0.85 * load.torque_N_m), figures(1.15 * load.torque_N_m))) +
+           varied("sensor.path_exponent", "\"uniform\", low = -0.1, high = 0.1") +
+           varied("sensor.noise_m_s2", lognormal(0.1, 0.2)) +
+           fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
+                       figures(1e3 * d.deepest_crack_m)) +
+           varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
+}
+
+constexpr const char* kAnswer =
+    "\n[features]\n"
+    "use = [\"te_kurtosis\", \"sensor_rms\", \"window_ratio\", \"window_z\", "
+    "\"own_window_ratio\", \"change_window_ratio\"]\n"
+    "baseline_torque_scatter = 0.02\n"
+    "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
+    "\n[ensemble]                                  # more make the intervals narrower\n"
+    "instances = 140\nthreshold_instances = 100\nseed = 1\n";
+
+}  // namespace
+
+std::string gearbox_teeth(const NominalGears& g) {
+    const PlanetaryDatasheet& data = g.data;
+    std::string text = fmt::format(
+        "[gearbox]\nkind = \"planetary\"\nplanets = {}\nsun_teeth = {}\nplanet_teeth = {}\n"
+        "ring_teeth = {}\n",
+        data.planets, data.sun, data.planet, g.ring_teeth);
+    if (data.helix_deg != 0.0) {
+        text += line("normal_module_mm", data.module_mm) + line("helix_angle_deg", data.helix_deg);
+    } else {
+        text += line("module_mm", data.module_mm);
+    }
+    text += line("pressure_angle_deg", data.pressure_angle_deg);
+    for (const auto& [key, value] :
+         {std::pair{"sun_shift", data.sun_shift}, std::pair{"planet_shift", data.planet_shift},
+          std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
+        if (value) {
+            text += fmt::format("{} = {}\n", key, *value);
+        }
+    }
+    return text +
+           line("face_width_mm", g.face_width_mm,
+                data.face_width_mm ? "" : "four circular pitches (Shigley: three to five)") +
+           line("young_modulus_Pa", 2.06e11, "steel") + line("poisson_ratio", 0.3);
+}
+
+std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
+                           const std::string& command) {
+    return header(g, command) + gearbox_teeth(g) + "tooth_profile = \"fillet\"\n" + bodies(d) +
+           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + kEffects + sensor(d) +
+           random(d, load) + kAnswer;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,40 @@
+// The text of a planetary gearbox' study.
+#pragma once
+
+#include <string>
+
+#include "gears/power_flow.hpp"
+#include "mc/new_study/planetary_datasheet.hpp"
+#include "mc/new_study/rules.hpp"
+
+namespace gearpod::mc {
+
+// A datasheet with the ring and the face width that it may leave out.
+struct NominalGears {
+    PlanetaryDatasheet data;
+    int ring_teeth = 0;
+    double face_width_mm = 0;
+};
+
+// What the rules make of it.
+struct DerivedGearbox {
+    double centre_distance_m = 0;
+    Annulus sun_body, planet_body, ring_body;
+    RollerBearing bearing;  // of a planet
+    double carrier_mass_kg = 0, carrier_inertia_kg_m2 = 0;
+    gears::Members torques;
+    double mesh_frequency_Hz = 0, pin_load_N = 0, deepest_crack_m = 0;
+};
+
+struct InputLoad {
+    double torque_N_m = 0, speed_rpm = 0;
+};
+
+// [gearbox] as far as the datasheet says it, and the material.
+std::string gearbox_teeth(const NominalGears& gears);
+
+// The whole study. `command`: what made it, for its first comment.
+std::string planetary_text(const NominalGears& gears, const DerivedGearbox& derived,
+                           const InputLoad& load, const std::string& command);
+
+}  // namespace gearpod::mc

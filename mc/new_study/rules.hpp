@@ -1,0 +1,52 @@
+// Rules of thumb that stand in for what a datasheet leaves out. SI units.
+// Sources:
+// - Shigley: Budynas, Nisbett, Shigley's Mechanical Engineering Design, chapters 13 and 14.
+// - AGMA 2001-D04, annex B, and Shigley, section 14-16: the rim-thickness factor.
+// - Kraemer: Dynamics of Rotors and Foundations (1993), section 3.4, after Palmgren's deflection of
+//   a roller between two races, delta = 7.68e-5 Q^0.9 / l^0.8 mm (N, mm), with Stribeck's Q = 4.08
+//   F / Z.
+// - ISO 286-1:2010: the standard tolerance factor.
+#pragma once
+
+namespace gearpod::mc {
+
+inline constexpr double kSteelDensity_kg_m3 = 7850.0;
+
+// Four circular pitches; Shigley's rule is three to five.
+double usual_face_width_m(double normal_module_m);
+
+// Under the teeth, of which it has 1.2 heights: from there on a rim bends the root no further
+// (AGMA's backup ratio).
+double usual_rim_m(double tooth_height_m);
+
+// Of steel. Radii in metres.
+struct Annulus {
+    double outer_m = 0, inner_m = 0, width_m = 0;
+
+    double mass_kg() const;
+    double inertia_kg_m2() const;
+};
+
+// A cylindrical roller bearing that fills a bore of this diameter: rows side by side that share the
+// load.
+struct RollerBearing {
+    int rollers = 0;  // in each row
+    int rows = 1;
+    double roller_length_m = 0, inner_diameter_m = 0;
+
+    // d force / d deflection under a radial load, 1e9 Z^0.9 l^0.8 F^0.1 a row (Kraemer).
+    double stiffness_N_m(double load_N) const;
+};
+// Two rows over 0.7 of the width. Rollers of 0.14 of the bore on a circle of 0.77, 1.2 diameters
+// apart, an inner diameter of 0.55, which is that of dimension series 22 (ISO 15); the rest is
+// chosen.
+RollerBearing bearing_in_bore(double bore_m, double width_m);
+
+// 1e-5 s times the stiffness; Kraemer gives 0.25e-5 to 2.5e-5 s for rolling bearings.
+double bearing_damping_N_s_m(double stiffness_N_m);
+
+// ISO 286-1's tolerance of grade 7, 16 i, i = 0.45 D^(1/3) + 0.001 D um up to 500 mm, 0.004 D + 2.1
+// um above.
+double grade_7_tolerance_m(double size_m);
+
+}  // namespace gearpod::mc

@@ -1,0 +1,51 @@
+// What `new` is told of a datasheet.
+#include <algorithm>
+
+#include "mc/options/options.hpp"
+
+namespace gearpod::mc {
+
+void add_new(CLI::App& app, NewOptions& options, int& code) {
+    auto* command = app.add_subcommand(
+        "new",
+        "writes a commented study from a datasheet: what it leaves out by rules of thumb, each "
+        "with its source");
+    PlanetaryDatasheet& data = options.planetary;
+    command->add_option("kind", options.kind, "kind of gearbox")
+        ->required()
+        ->check(CLI::IsMember({"planetary"}));
+    command->add_option("--sun", data.sun, "teeth of the sun")->required();
+    command->add_option("--planet", data.planet, "teeth of a planet")->required();
+    command->add_option("--ring", data.ring, "teeth of the ring (default: sun + 2 planet)");
+    command->add_option("--planets", data.planets, "how many (default 3)");
+    command->add_option("--module", data.module_mm, "normal module, mm")->required();
+    command->add_option("--helix", data.helix_deg, "helix angle, degrees (default 0)");
+    command->add_option("--pressure-angle", data.pressure_angle_deg,
+                        "normal pressure angle, degrees (default 20)");
+    command->add_option("--face-width", data.face_width_mm, "mm (default: four circular pitches)");
+    command->add_option("--sun-shift", data.sun_shift, "profile shift, in modules");
+    command->add_option("--planet-shift", data.planet_shift, "profile shift, in modules");
+    command->add_option("--centre-distance", data.centre_distance_mm,
+                        "of sun and planets, mm (default: what the shifts ask for)");
+    command->add_option("--quality", data.quality, "ISO 1328 grade of the teeth (default 6)");
+    command->add_option("--input", data.input, "member that drives (default sun); the ring stands")
+        ->check(CLI::IsMember({"sun", "carrier"}));
+    command->add_option("--torque", data.torque_N_m, "of the input, N m");
+    command->add_option("--speed", data.speed_rpm, "of the input, rpm");
+    command->add_option("--power", data.power_kW, "kW, in place of torque or speed");
+    needs_name(command->add_option("--out", options.out,
+                                   "study file to write (default: - for the terminal)"));
+    command->add_flag("--force", options.force, "overwrite a file");
+    command->callback([command, &options, &code] {
+        options.command = "new " + options.kind;
+        for (const CLI::Option* option : command->parse_order()) {
+            if (option->nonpositional() && !option->check_lname("out") &&
+                !option->check_lname("force")) {
+                options.command += " " + option->get_name() + " " + option->results().front();
+            }
+        }
+        code = new_command(options);
+    });
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,25 @@
+#include "mc/study/noise.hpp"
+
+#include <cmath>
+
+#include "signals/noise/low_pass_noise.hpp"
+
+namespace gearpod::mc {
+
+bool noise_by_density(const Study& study) {
+    return study.sensor.noise_density_m_s2_per_sqrt_Hz.has_value();
+}
+
+double sensor_noise_m_s2(const Study& study) {
+    const Sensor& s = study.sensor;
+    return s.noise_density_m_s2_per_sqrt_Hz
+               ? *s.noise_density_m_s2_per_sqrt_Hz *
+                     std::sqrt(signals::low_pass_noise_bandwidth_Hz(s.low_pass_Hz))
+               : s.noise_m_s2;
+}
+
+const char* noise_key(const Study& study) {
+    return noise_by_density(study) ? "sensor.noise_density_m_s2_per_sqrt_Hz" : "sensor.noise_m_s2";
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,37 @@
+// How a study is computed: the part of it that says nothing of gearboxes.
+#pragma once
+
+#include <optional>
+
+#include "lockstep/plan/integrator.hpp"
+#include "machine/dispatch.hpp"
+
+namespace gearpod::mc {
+
+using lockstep::Precision;
+enum class StepGrid { uniform, graded };
+enum class Horizon { reuse, march };
+
+struct Numerics {
+    std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
+    Precision precision = Precision::double_precision;
+    StepGrid grid = StepGrid::uniform;
+    double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
+    double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
+    int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
+    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
+    // not.
+    double tolerance = 0.0;
+    bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
+    double settle_tolerance = 1e-10;
+    double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
+    int max_meshes = 0;                // 0: from the damping
+    Horizon horizon = Horizon::reuse;
+    int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
+    int threads = 0;  // 0: all
+    std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
+
+    bool operator==(const Numerics&) const = default;
+};
+
+}  // namespace gearpod::mc

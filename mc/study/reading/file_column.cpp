@@ -1,0 +1,58 @@
+#include "mc/study/reading/file_column.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mc/files/signal_file.hpp"
+#include "mc/files/text_table.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+const std::string* text_at(const Value& table, std::string_view name) {
+    const Entry* entry = table.find(name);
+    return entry != nullptr && entry->value.kind == Value::Kind::text ? &entry->value.text
+                                                                      : nullptr;
+}
+
+}  // namespace
+
+std::optional<FileColumn> file_column(const Value& value) {
+    if (value.kind != Value::Kind::table) {
+        return std::nullopt;
+    }
+    const std::string *file = text_at(value, "file"), *column = text_at(value, "column");
+    return file != nullptr && column != nullptr ? std::optional(FileColumn{*file, *column})
+                                                : std::nullopt;
+}
+
+Value list_of(const FileColumn& wanted, const Position& position, std::size_t most) {
+    const TextTable table = read_text_table(wanted.file);
+    const auto column = table.find(wanted.column);
+    if (!column) {
+        throw SignalError(fmt::format("{}: no column {}; its columns are {}", wanted.file,
+                                      wanted.column, table.names()));
+    }
+    Value list;
+    list.kind = Value::Kind::array;
+    list.position = position;
+    const std::size_t rows = table.rows.size();
+    const std::size_t every = rows > most ? (rows + most - 1) / most : 1;
+    for (std::size_t row = 0; row < rows; row += every) {
+        const std::string& field = table.rows[row][*column];
+        const auto number = number_of(field, table.separator == ';');
+        if (!number) {
+            throw SignalError(
+                fmt::format("{}:{}: \"{}\" is no number", wanted.file, table.lines[row], field));
+        }
+        Value element;
+        element.kind = Value::Kind::number;
+        element.number = *number;
+        element.position = position;
+        list.elements.push_back(std::move(element));
+    }
+    return list;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,159 @@
+#include "mc/sweep/grid.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+#include "mc/input/document.hpp"
+#include "mc/random/fnv.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        out += c == '"' || c == '\\' ? fmt::format("\\{}", c) : std::string(1, c);
+    }
+    return out + "\"";
+}
+
+std::string toml_text(const Value& value) {
+    std::vector<std::string> parts;
+    switch (value.kind) {
+        case Value::Kind::boolean:
+            return value.boolean ? "true" : "false";
+        case Value::Kind::integer:
+            return fmt::format("{}", value.integer);
+        case Value::Kind::number:
+            return fmt::format("{}", value.number);
+        case Value::Kind::text:
+        case Value::Kind::date:
+            return quoted(value.text);
+        case Value::Kind::array:
+            for (const Value& element : value.elements) {
+                parts.push_back(toml_text(element));
+            }
+            return fmt::format("[{}]", fmt::join(parts, ", "));
+        case Value::Kind::table:
+            for (const Entry& entry : value.entries) {
+                parts.push_back(fmt::format("{} = {}", entry.name, toml_text(entry.value)));
+            }
+            return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+    }
+    return "";
+}
+
+// The value at the end of the only path of a document that an override has made.
+const Value& end_of(const Value& document, std::size_t depth) {
+    return depth == 0 ? document : end_of(document.entries.front().value, depth - 1);
+}
+
+// What a file's name may hold anywhere.
+std::string file_name(const std::string& text) {
+    std::string name;
+    for (const char c : text) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+                           c == '=' || c == '.' || c == '+' || c == '-';
+        name += plain ? std::string(1, c) : (c == '"' || c == ' ') ? "" : "-";
+    }
+    return name;
+}
+
+// Names that leave something out, and long ones, end in a checksum of what they stand for.
+void name_point(const std::vector<VariedKey>& keys, SweepPoint& point) {
+    constexpr std::size_t kLongest = 100;
+    std::string plain, whole;
+    bool exact = true;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        const std::string part = short_key(keys[k].key) + "=" + point.values[k];
+        const std::string safe = file_name(part);
+        exact = exact &&
+                (safe == part || "\"" + safe.substr(safe.find('=') + 1) + "\"" == point.values[k]);
+        plain += (plain.empty() ? "" : "_") + safe;
+        whole += point.overrides[k] + "\n";
+    }
+    const auto same_short = [&](const VariedKey& a) {
+        return std::ranges::count_if(keys, [&](const VariedKey& b) {
+                   return short_key(a.key) == short_key(b.key);
+               }) > 1;
+    };
+    if (!exact || plain.size() > kLongest || std::ranges::any_of(keys, same_short)) {
+        plain = fmt::format("{}_{:08x}", plain.substr(0, kLongest),
+                            static_cast<std::uint32_t>(fnv1a(whole)));
+    }
+    point.name = plain;
+}
+
+}  // namespace
+
+std::string short_key(const std::string& key) {
+    const std::size_t dot = key.find_last_of('.');
+    return dot == std::string::npos ? key : key.substr(dot + 1);
+}
+
+std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Problems& problems) {
+    std::vector<VariedKey> keys;
+    for (const std::string& text : texts) {
+        const auto reject = [&](const std::string& what, const std::string& remedy) {
+            problems.push_back({"--vary", 0, text.substr(0, text.find('=')), what, remedy});
+        };
+        const std::string key = text.substr(0, text.find('='));
+        Value document;
+        Problems own;
+        apply_override(document, text, own);
+        if (!own.empty()) {
+            reject(own.front().what, "write section.key=[a, b, c]");
+            continue;
+        }
+        const Value& value = end_of(document, split(key, '.').size());
+        if (value.kind != Value::Kind::array || value.elements.empty()) {
+            reject(fmt::format("must be a list of values, but is {}", value.kind_name()),
+                   "write section.key=[a, b, c]");
+            continue;
+        }
+        VariedKey varied{key, {}};
+        for (const Value& element : value.elements) {
+            varied.values.push_back(toml_text(element));
+        }
+        for (const std::string& one : varied.values) {
+            if (std::ranges::count(varied.values, one) > 1) {
+                reject(fmt::format("has {} twice", one), "give every value once");
+                break;
+            }
+        }
+        if (std::ranges::count(keys, key, &VariedKey::key) > 0) {
+            reject("is varied twice", "give all its values in one --vary");
+        }
+        keys.push_back(std::move(varied));
+    }
+    return keys;
+}
+
+std::vector<SweepPoint> grid_of(const std::vector<VariedKey>& keys) {
+    std::vector<SweepPoint> points(1);
+    for (const VariedKey& key : keys) {
+        if (points.size() * key.values.size() > kMostPoints) {
+            return {};
+        }
+        std::vector<SweepPoint> more;
+        for (const SweepPoint& point : points) {
+            for (const std::string& value : key.values) {
+                SweepPoint next = point;
+                next.values.push_back(value);
+                next.overrides.push_back(key.key + "=" + value);
+                more.push_back(std::move(next));
+            }
+        }
+        points = std::move(more);
+    }
+    for (SweepPoint& point : points) {
+        name_point(keys, point);
+    }
+    return points;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,53 @@
+// What describe says of a gearbox' members, of fault sizes, and of damping that is left out.
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::program;
+
+namespace {
+
+const std::string kDescribe =
+    "describe " + std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml ";
+
+}  // namespace
+
+// 13/11/35 teeth of 4 mm, 200 N m on the sun, carrier at 60 rpm: by Willis 60 (1 + 35/13) and 60
+// (1 - 35/11) rpm, by the balance of torques 200 times 35/13 and 48/13; three pins at 48 mm.
+TEST_CASE("describe shows torque and speed of every member") {
+    const auto said = program(kDescribe);
+    INFO(said.output);
+    REQUIRE(said.code == 0);
+    CHECK(said.mentions("221.538 rpm, 200 N m (input)"));
+    CHECK(said.mentions("-130.909 rpm, -190.909 rpm on their pins, each loaded with 5.128 kN"));
+    CHECK(said.mentions("stands, 538.462 N m (held)"));
+    CHECK(said.mentions("60 rpm, 738.462 N m (output)"));
+    CHECK(!said.mentions("\n  damping "));
+}
+
+TEST_CASE("describe says which damping is left out") {
+    const auto said = program(kDescribe +
+                              "--set gearbox.support_damping_N_s_m=0 --set "
+                              "gearbox.sun_bearing_damping_N_s_m=0 --set "
+                              "gearbox.ring_bearing_damping_N_s_m=0");
+    INFO(said.output);
+    REQUIRE(said.code == 0);
+    CHECK(said.mentions("0 of bearings of sun and ring, support of the ring"));
+    // Drawn damping is some.
+    const auto drawn = program(kDescribe +
+                               "--set gearbox.support_damping_N_s_m=0 --set "
+                               "'random.gearbox.support_damping_N_s_m={distribution=\"uniform\","
+                               "low=1e3,high=2e3}'");
+    INFO(drawn.output);
+    REQUIRE(drawn.code == 0);
+    CHECK(!drawn.mentions("\n  damping "));
+}
+
+// Liang (2016), Fig. 3.14: a crack at 45 degrees leaves the planet's tooth after 8.60 mm, of
+// which 4.3 mm are half (with a module of 3.2 mm; 3.175 here).
+TEST_CASE("describe shows fault sizes in the file's unit and as shares of the largest") {
+    const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
+                              " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
+    INFO(said.output);
+    REQUIRE(said.code == 0);
+    CHECK(said.mentions("0.5, 1, 1.5, 2, 3, 4.28 mm; 5.83, 11.7, 17.5, 23.3, 35, 49.9 %"));
+}

@@ -1,0 +1,68 @@
+// A fault's size marched from the healthy gearbox's states, against all meshes marched with it.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "mc/gearbox/healthy_march.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// Rms of the difference over that of the second.
+double apart(const std::vector<double>& a, const std::vector<double>& b) {
+    REQUIRE(a.size() == b.size());
+    double difference = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        difference += (a[i] - b[i]) * (a[i] - b[i]);
+        squares += b[i] * b[i];
+    }
+    return std::sqrt(difference / squares);
+}
+
+Study real_teeth(const std::string& settle_tolerance) {
+    return test::shipped_study("planet-life.toml",
+                               {"numerics.precision=\"double\"", "numerics.lanes=1",
+                                "numerics.settle_tolerance=" + settle_tolerance});
+}
+
+}  // namespace
+
+TEST_CASE("A fault changes the meshes behind it, and the rest is as without") {
+    const Scene scene(real_teeth("1e-8"));
+    const auto path = path_grid(scene);
+    const GearboxId id{Group::graded, 3};
+    InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
+    inputs.gain = 1.0;
+    inputs.fault_size = 3e-3;
+    const GearboxTile all = run_given(scene, path, std::span(&id, 1), {inputs}, 1);
+    const LaneSignals expected = lane_signals(scene, path, all, 0, scene.span_meshes());
+
+    const HealthyMarch march(scene, path, std::span(&id, 1), {inputs}, 1);
+    REQUIRE(march.healthy().status.front() == Status::ok);
+    const HealthyMarch::Signals changed = march.with_fault(inputs.fault_size);
+    REQUIRE(changed.status.front() == Status::ok);
+    CHECK(apart(changed.lane.front().sensor, expected.sensor) < 1e-6);
+    CHECK(apart(changed.lane.front().te_turn, expected.te_turn) < 1e-6);
+    // The fault shows in what the two agree on.
+    CHECK(apart(march.healthy().lane.front().sensor, expected.sensor) > 0.01);
+    CHECK(apart(march.healthy().lane.front().te_turn, expected.te_turn) > 1e-3);
+}
+
+TEST_CASE("Few meshes are marched for a further size of a fault") {
+    const Scene scene(real_teeth("1e-4"));
+    const auto path = path_grid(scene);
+    const GearboxId id{Group::graded, 5};
+    InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
+    inputs.fault_size = 0.0;
+    const GearboxTile healthy = run_given(scene, path, std::span(&id, 1), {inputs}, 1, true);
+    // A healthy tooth changes nothing.
+    const GearboxTile none = run_changes(scene, std::span(&id, 1), {inputs}, healthy.march.states);
+    CHECK(none.march.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);
+    CHECK(none.status.front() == Status::ok);
+    inputs.fault_size = 4e-3;
+    const GearboxTile deep = run_changes(scene, std::span(&id, 1), {inputs}, healthy.march.states);
+    CHECK(deep.meshes < healthy.meshes / 4);
+    CHECK(deep.march.records.size() > static_cast<std::size_t>(scene.span().ring_teeth));
+}

@@ -1,0 +1,204 @@
+// Noise of the accelerometer given by its density before the low-pass.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "mc/calibration/parameters.hpp"
+#include "mc/study/noise.hpp"
+#include "mc/study/study.hpp"
+#include "signals/spectra/order_spectrum.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/study_example.hpp"
+
+using namespace gearpod;
+using test::bits;
+using test::Folder;
+using test::program;
+
+namespace {
+
+const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/small.toml";
+
+// The small study with the noise by density instead.
+std::string by_density(const Folder& folder, const std::string& density) {
+    std::string text = test::bytes_of(kSmall);
+    const std::size_t at = text.find("noise_m_s2 =");
+    REQUIRE(at != std::string::npos);
+    text.replace(at, text.find('\n', at) - at, "noise_density_m_s2_per_sqrt_Hz = " + density);
+    const std::string path = folder.file("density.toml");
+    test::write_bytes(path, text);
+    return path;
+}
+
+// Columns of a table.
+std::map<std::string, std::vector<double>> read_columns(const std::string& path) {
+    std::istringstream stream(test::bytes_of(path));
+    std::string line;
+    std::getline(stream, line);
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<double>> columns;
+    std::istringstream head(line);
+    for (std::string name; std::getline(head, name, ',');) {
+        names.push_back(name.substr(0, name.find(" [")));
+    }
+    while (std::getline(stream, line)) {
+        std::istringstream cells(line);
+        std::size_t at = 0;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            columns[names.at(at++)].push_back(std::stod(cell));
+        }
+    }
+    return columns;
+}
+
+// Noise of a record: its rms, and the share of its power below twice the low-pass.
+struct Noise {
+    double rms = 0.0, below = 0.0;
+};
+
+Noise noise_of(const std::string& study, const std::string& options, const std::string& path,
+               double low_pass_Hz) {
+    const auto said =
+        program("simulate " + study + " --instance 2 --meshes 455 --out " + path + options);
+    INFO(said.output);
+    REQUIRE(said.code == 0);
+    const auto columns = read_columns(path);
+    std::vector<double> noise = columns.at("sensor_noise_1");
+    const std::vector<double>& clean = columns.at("sensor");
+    double sum = 0.0;
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        noise[i] -= clean[i];
+        sum += noise[i] * noise[i];
+    }
+    signals::OrderSpectrum spectrum(static_cast<int>(noise.size()));
+    spectrum.load(noise);
+    std::vector<double> amplitude(static_cast<std::size_t>(spectrum.orders()));
+    spectrum.amplitudes(0.0, amplitude);
+    const double length_s = columns.at("time")[1] * static_cast<double>(noise.size());
+    double below = 0.0, all = 0.0;
+    for (std::size_t order = 1; order < amplitude.size(); ++order) {
+        const double power = amplitude[order] * amplitude[order];
+        all += power;
+        below += static_cast<double>(order) / length_s < 2.0 * low_pass_Hz ? power : 0.0;
+    }
+    return {std::sqrt(sum / static_cast<double>(noise.size())), below / all};
+}
+
+}  // namespace
+
+// Of white noise behind a Butterworth filter of order 4 lies 1.1e-3 of the power beyond twice the
+// corner: the integral of 1/(1 + x^8) from 2 on over that from 0 on. What folds back lies there
+// too.
+TEST_CASE("Noise by density is limited by the low-pass, and a faster sensor has as much of it") {
+    const Folder folder;
+    const auto study = mc::read_study(kSmall).study;
+    REQUIRE(study);
+    const double low_pass = study->sensor.low_pass_Hz, sampling = study->sensor.sampling_Hz;
+    const std::string density = by_density(folder, "0.01");
+    const double expected = 0.01 * std::sqrt(low_pass * (M_PI / 8.0) / std::sin(M_PI / 8.0));
+    const std::string fast = " --set sensor.sampling_Hz=" + std::to_string(4.0 * sampling) + " ";
+    for (const std::string& options : {std::string(" "), fast}) {
+        const Noise noise = noise_of(density, options, folder.file("s.csv"), low_pass);
+        CHECK(noise.rms == Approx(expected).epsilon(0.05));
+        CHECK(noise.below > 0.997);
+    }
+    // White whatever the low-pass: the same rms over four times the band.
+    const Noise white = noise_of(kSmall, fast, folder.file("w.csv"), low_pass);
+    CHECK(white.rms == Approx(study->sensor.noise_m_s2).epsilon(0.05));
+    CHECK(white.below == Approx(240.0 / 560.0).epsilon(0.05));
+}
+
+TEST_CASE("Features of noise by density are those of the signal that is written") {
+    const Folder folder;
+    const std::string study = by_density(folder, "0.02") + " --set fault.reduction=0.5";
+    const std::string signal = folder.file("s.h5");
+    const auto simulated =
+        program("simulate " + study + " --instance 2 --meshes 455 --out " + signal);
+    REQUIRE(simulated.code == 0);
+    const auto measured =
+        program("features " + signal + " --sensor sensor_noise_1 --study " + study);
+    INFO(measured.output);
+    REQUIRE(measured.code == 0);
+    const auto value = [](const std::string& text, const std::string& name) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            std::string first;
+            double number = 0.0;
+            if (words >> first >> number && first == name) {
+                return number;
+            }
+        }
+        return 0.0;
+    };
+    INFO(simulated.output);
+    for (const char* name : {"sensor_rms", "window_ratio", "window_z", "window_kurtosis"}) {
+        INFO(name);
+        CHECK(value(simulated.output, name) > 0.0);
+        CHECK(value(simulated.output, name) == Approx(value(measured.output, name)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("A run with noise by density has the same bits for any lanes and threads") {
+    const Folder folder;
+    const std::string run = "run " + by_density(folder, "0.02") +
+                            " --quiet --set fault.reduction=0.3 --set ensemble.instances=9"
+                            " --set ensemble.threshold_instances=4 --out ";
+    REQUIRE(program(run + folder.file("a.h5")).code == 0);
+    REQUIRE(program(run + folder.file("b.h5") + " --set numerics.threads=1").code == 0);
+    CHECK(bits(folder.file("a.h5")) == bits(folder.file("b.h5")));
+}
+
+TEST_CASE("A study gives its noise by rms or by density, not both") {
+    using tests::example_with;
+    const auto read = [](const std::string& text) { return mc::read_study_text(text, "s.toml"); };
+    const std::string rms = "noise_m_s2 = 0.3", density = "noise_density_m_s2_per_sqrt_Hz = 0.01";
+    const auto both = read(example_with(rms, rms + "\n" + density));
+    REQUIRE(both.problems.size() == 1);
+    CHECK(both.problems[0].key == "sensor.noise_m_s2");
+
+    const auto one = read(example_with(rms, density));
+    REQUIRE(one.study);
+    CHECK(mc::sensor_noise_m_s2(*one.study) == Approx(0.01 * std::sqrt(1.0261721529 * 800.0)));
+    const auto again = read(resolved_text(*one.study));
+    REQUIRE(again.study);
+    CHECK(*again.study == *one.study);
+
+    // Random only: its median is the nominal value.
+    std::string text = example_with(rms + "\n", "");
+    text.insert(text.find("[random]\n") + 9,
+                "sensor.noise_density_m_s2_per_sqrt_Hz = { distribution = \"lognormal\", median = "
+                "0.02, cv = 0.2 }\n");
+    const auto random = read(text);
+    INFO(format(random.problems));
+    REQUIRE(random.study);
+    CHECK(mc::noise_by_density(*random.study));
+    CHECK(mc::sensor_noise_m_s2(*random.study) == Approx(0.02 * std::sqrt(1.0261721529 * 800.0)));
+
+    const auto fine = read(example_with(rms + "\nnoise_levels", density + "\nnoise_levels"));
+    REQUIRE(fine.study);
+    std::string slow = example_with(rms, density);
+    slow.replace(slow.find("low_pass_Hz = 800"), 17, "low_pass_Hz = 50 ");
+    const auto coarse = read(slow);
+    REQUIRE(coarse.problems.size() == 1);
+    CHECK(coarse.problems[0].key == "sensor.sampling_Hz");
+}
+
+// What a background of 2 m/s^2 rms is at most, in the key's unit, behind 800 Hz.
+TEST_CASE("A study with noise by density is calibrated by its density") {
+    const auto study =
+        mc::read_study_text(
+            tests::example_with("noise_m_s2 = 0.3", "noise_density_m_s2_per_sqrt_Hz = 0.01"),
+            "s.toml")
+            .study;
+    REQUIRE(study);
+    const auto inputs = mc::usual_inputs(*study, 2.0);
+    const auto at = std::ranges::find(inputs, "sensor.noise_density_m_s2_per_sqrt_Hz",
+                                      &mc::CalibratedInput::key);
+    REQUIRE(at != inputs.end());
+    CHECK(at->high == Approx(1.05 * 2.0 / std::sqrt(1.0261721529 * 800.0)));
+    CHECK(at->after_march());
+    CHECK(std::ranges::find(inputs, "sensor.noise_m_s2", &mc::CalibratedInput::key) ==
+          inputs.end());
+}

@@ -1,0 +1,178 @@
+// How long records are and under what loads: against whole spans, many short ones, and marches.
+#include <cmath>
+
+#include "mc/gearbox/instance_features.hpp"
+#include "mc/lives/campaign.hpp"
+#include "tests/mc/lives/life_example.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+// Without noise, of features that short records have.
+mc::Study quiet_study(std::vector<std::string> more) {
+    for (const char* one : {"features.use=[\"sensor_rms\",\"window_ratio\"]", "sensor.noise_m_s2=0",
+                            "sensor.encoder_noise_arcsec=0"}) {
+        more.emplace_back(one);
+    }
+    return life_study(std::move(more));
+}
+
+mc::GearboxLife healthy_life(const mc::Scene& scene) {
+    const mc::GearboxId id{mc::Group::graded, 0};
+    mc::LifeCosts costs;
+    return mc::LifeTiles(scene).run(std::span(&id, 1), false, costs).front();
+}
+
+TEST_CASE("A recording of all turns, or of twice as many, is the whole span") {
+    const mc::Scene plain(quiet_study({"life.records=8"}));
+    const auto whole = healthy_life(plain);
+    // 31 planet teeth and 81 ring teeth: the carrier's 31 turns.
+    for (const char* turns : {"life.record_turns=31", "life.record_turns=62"}) {
+        const mc::Scene scene(quiet_study({"life.records=8", turns}));
+        const auto life = healthy_life(scene);
+        for (std::size_t f = 0; f < 2; ++f) {
+            CHECK(life.values[f][0] == Approx(whole.values[f][0]).epsilon(1e-9));
+        }
+    }
+    CHECK(mc::record_text(plain).find("each of the 31 teeth in all its 81 meetings") !=
+          std::string::npos);
+}
+
+TEST_CASE("Short recordings hear a part of the turns, and many of them all") {
+    const mc::Scene plain(quiet_study({"life.records=8"}));
+    const auto whole = healthy_life(plain);
+    const auto spread = [&](const std::vector<std::string>& more) {
+        const mc::Scene scene(quiet_study(more));
+        const auto life = healthy_life(scene);
+        double sum = 0.0;
+        for (const double value : life.values[0]) {
+            sum += std::pow(value / whole.values[0][0] - 1.0, 2);
+        }
+        return std::sqrt(sum / static_cast<double>(life.values[0].size()));
+    };
+    // 1.2 turns of the carrier are three of the planet. The path weighs each of them otherwise.
+    const double few = spread({"life.records=20", "life.record_turns=1.2"});
+    const double some = spread({"life.records=20", "life.record_turns=1.2", "life.recordings=16"});
+    CHECK(few > 1e-4);
+    CHECK(some < 0.6 * few);  // a quarter, but for 20 records' chance
+    const mc::Scene scene(quiet_study({"life.records=8", "life.record_turns=4"}));
+    CHECK(mc::record_text(scene).find("10 turns of 31 mesh periods") == 0);
+    CHECK(mc::record_text(scene).find("each of the 31 teeth in 10 of its 81 meetings") !=
+          std::string::npos);
+    // The same time in seconds: 8.87 turns a minute.
+    const double seconds = 4.0 * 60.0 / 8.87 + 1e-6;
+    const mc::Scene timed(
+        quiet_study({"life.records=8", "life.record_s=" + std::to_string(seconds)}));
+    CHECK(mc::record_text(timed) == mc::record_text(scene));
+}
+
+TEST_CASE("Noise of a record falls with the root of what it takes in") {
+    const auto deviation = [](const std::vector<std::string>& more) {
+        auto all = more;
+        all.emplace_back("features.use=[\"window_z\",\"sensor_rms\"]");
+        all.emplace_back("sensor.noise_m_s2=20");
+        all.emplace_back("life.records=60");
+        const mc::Scene scene(life_study(all));
+        const auto values = healthy_life(scene).values[1];
+        double mean = 0.0, square = 0.0;
+        for (const double value : values) {
+            mean += value / 60.0;
+        }
+        for (const double value : values) {
+            square += (value - mean) * (value - mean) / 59.0;
+        }
+        return std::sqrt(square);
+    };
+    const double one = deviation({});
+    CHECK(deviation({"life.recordings=16"}) == Approx(0.25 * one).epsilon(0.35));
+}
+
+TEST_CASE("A record at another speed is near what is marched at that speed") {
+    const mc::Scene scene(quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05"}));
+    const mc::LifeTiles tiles(scene);
+    const mc::GearboxId id{mc::Group::graded, 1};
+    mc::LifeCosts costs;
+    const auto life = tiles.run(std::span(&id, 1), false, costs).front();
+    const auto errors = tiles.interpolation_errors(std::span(&id, 1)).front();
+    CHECK(errors.load > 0.0);
+    CHECK(errors.load < 0.05);
+    const mc::HealthyReference none;
+    mc::InstanceFeatures features(scene, &none);
+    double apart = 0.0;
+    for (std::size_t r = 0; r < 4; ++r) {
+        const mc::LifeRecord& record = life.history.records[r];
+        CHECK(record.speed != 1.0);
+        apart = std::max(apart, std::abs(record.speed - 1.0));
+        mc::InstanceInputs inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+        inputs.fault_size = 0.0;
+        inputs.torque_N_m *= record.torque;
+        inputs.speed_rad_s *= record.speed;
+        const auto path = mc::path_grid(scene);
+        const auto tile = mc::run_given(scene, path, std::span(&id, 1), {inputs}, 1);
+        const auto marched =
+            features.compute(mc::lane_signals(scene, path, tile, 0, 0), inputs, id);
+        for (std::size_t f = 0; f < marched.size(); ++f) {
+            CHECK(life.values[f][r] == Approx(marched[f]).epsilon(5.0 * errors.load));
+        }
+    }
+    CHECK(apart < 0.03);
+}
+
+TEST_CASE("A crack follows the given curve at its gearbox's pace") {
+    const std::vector<std::string> curve{"life.curve_h=[0,50,100]", "life.curve_depth_mm=[1,2,4]",
+                                         "life.curve_pace=2"};
+    std::vector<std::string> all;
+    for (const std::string& one : kLife) {
+        if (!one.starts_with("life.first_depth") && !one.starts_with("life.paris")) {
+            all.push_back(one);
+        }
+    }
+    all.insert(all.end(), curve.begin(), curve.end());
+    const mc::Scene scene(shipped_study("planet-crack-ideal.toml", all));
+    const mc::GearboxId id{mc::Group::graded, 0};
+    const auto inputs = mc::Sampler(scene.study()).sample(id.group, id.index);
+    const auto history = mc::CrackLife(scene).history(id, inputs, true);
+    // Twice as fast: 25 h to 2 mm, 50 h to 4 mm, behind six records of 5 h each.
+    REQUIRE(history.end_hours);
+    CHECK(*history.end_hours == Approx(30.0 + 50.0));
+    REQUIRE(history.records.size() == 16);
+    CHECK(history.records[5].depth_m == 0.0);
+    CHECK(history.records[6].depth_m == Approx(1e-3));
+    CHECK(history.records[11].depth_m == Approx(2e-3));
+    CHECK(history.records[13].depth_m == Approx(2.8e-3));
+}
+
+TEST_CASE("Records and curves that cannot be are refused with the key") {
+    const auto refused = [&](const std::string& more) {
+        std::string options;
+        for (const std::string& one : kLife) {
+            options += " --set '" + one + "'";
+        }
+        const Outcome outcome = program("lives " + study("planet-crack-ideal.toml") + options +
+                                        " --set 'features.use=[\"sensor_rms\"]' --quiet " + more);
+        INFO(outcome.output);
+        CHECK(outcome.code == 2);
+        return outcome;
+    };
+    CHECK(refused("--set life.record_turns=1").mentions("windows return every 31"));
+    CHECK(refused("--set life.record_s=60 --set life.record_turns=9")
+              .mentions("given beside record_s"));
+    CHECK(refused("--set 'features.use=[\"te_rms\"]' --set life.record_s=60")
+              .mentions("recordings have another length"));
+    CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
+              .mentions("life.first_depth_mm"));
+    CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
+}
+
+TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
+    const Outcome said = program("describe " + study("planet-life.toml"));
+    CHECK(said.code == 0);
+    CHECK(said.mentions("drawn for a gearbox"));
+    CHECK(said.mentions("torque of a record"));
+    CHECK(said.mentions("interpolated between marches at 0.97 and 1.03"));
+    CHECK(said.mentions("speed of a record"));
+}
+
+}  // namespace
+}  // namespace gearpod::test

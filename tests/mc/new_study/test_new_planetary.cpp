@@ -1,0 +1,153 @@
+// gearpod new planetary: a study from a datasheet.
+#include <algorithm>
+
+#include "mc/new_study/planetary.hpp"
+#include "mc/study/gears.hpp"
+#include "mc/study/study.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::Folder;
+using test::program;
+
+namespace {
+
+mc::PlanetaryDatasheet wind_turbine() {
+    mc::PlanetaryDatasheet data;
+    data.sun = 21;
+    data.planet = 39;
+    data.ring = 99;
+    data.module_mm = 12;
+    data.input = "carrier";
+    data.torque_N_m = 800e3;
+    data.speed_rpm = 18;
+    return data;
+}
+
+std::string all_of(const mc::Problems& problems) {
+    return format(problems);
+}
+
+}  // namespace
+
+TEST_CASE("A study of a datasheet's gears has them, their load and bodies of steel") {
+    const mc::NewStudy made = new_planetary(wind_turbine(), "new planetary");
+    INFO(format(made.problems));
+    REQUIRE(made.problems.empty());
+    const auto reading = mc::read_study_text(made.text, "s.toml");
+    REQUIRE(reading.study);
+    const mc::Study& study = *reading.study;
+    CHECK(mc::teeth_of(study, mc::Member::ring) == 99);
+    CHECK(study.operation.torque_N_m == 800e3);
+    CHECK(*study.operation.carrier_speed_rad_s == Approx(18.0 * M_PI / 30.0));
+    // A planet of 39 teeth of 12 mm: steel between 468 mm and its bore, 151 mm wide (4 pi 12).
+    const mc::MemberValues& planet = study.gearbox.bodies[mc::Member::planet];
+    CHECK(*study.gearbox.face_width_m == Approx(0.151));
+    const double outer = 0.234, inner = 0.5 * *planet.held_diameter_m;
+    CHECK(*planet.mass_kg ==
+          Approx(7850.0 * M_PI * (outer * outer - inner * inner) * 0.151).epsilon(1e-3));
+    CHECK(inner == Approx(0.219 - 1.2 * 0.027).epsilon(1e-3));
+    // Every rule of thumb has its source or says that it is chosen.
+    for (const char* word : {"Shigley", "AGMA 2001", "Kraemer", "Kasuba", "ISO 286", "chosen"}) {
+        INFO(word);
+        CHECK(made.text.find(word) != std::string::npos);
+    }
+}
+
+TEST_CASE("Power stands in for torque or speed") {
+    mc::PlanetaryDatasheet data = wind_turbine();
+    data.torque_N_m.reset();
+    data.power_kW = 1508;
+    const auto made = new_planetary(data, "new planetary");
+    REQUIRE(made.problems.empty());
+    const auto study = mc::read_study_text(made.text, "s.toml").study;
+    REQUIRE(study);
+    CHECK(study->operation.torque_N_m == Approx(1508e3 / (18.0 * M_PI / 30.0)).epsilon(1e-3));
+
+    data.torque_N_m = 1.0;
+    CHECK(all_of(new_planetary(data, "c").problems).find("3 of the three are given") !=
+          std::string::npos);
+    data.torque_N_m.reset();
+    data.power_kW = -2;
+    CHECK(all_of(new_planetary(data, "c").problems).find("--power") != std::string::npos);
+}
+
+TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
+    const auto refused = [](const auto& change) {
+        mc::PlanetaryDatasheet data = wind_turbine();
+        change(data);
+        const auto made = new_planetary(data, "new planetary");
+        CHECK(made.text.empty());
+        return all_of(made.problems);
+    };
+    const auto ring = refused([](auto& data) { data.ring = 98; });
+    CHECK(ring.find("--ring") != std::string::npos);
+    CHECK(ring.find("99") != std::string::npos);  // what would be right
+    const auto crowded = refused([](auto& data) { data.planets = 7; });
+    INFO(crowded);
+    CHECK(crowded.find("new planetary: --") != std::string::npos);
+    const auto undercut = refused([](auto& data) {
+        data.sun = 9;
+        data.ring = 87;
+    });
+    CHECK(undercut.find("--sun") != std::string::npos);
+    const auto two = refused([](auto& data) {
+        data.ring = 98;
+        data.speed_rpm.reset();
+    });
+    CHECK(std::count(two.begin(), two.end(), '\n') == 2);
+    const auto module = refused([](auto& data) { data.module_mm = -3; });
+    CHECK(module == "new planetary: --module: must be > 0, but is -3\n");
+    const auto huge = refused([](auto& data) { data.planet = 2000000000; });
+    CHECK(huge.find("--planet: must be between") != std::string::npos);
+    const auto heavy = refused([](auto& data) { data.torque_N_m = 1e300; });
+    CHECK(heavy.find("--torque") != std::string::npos);
+    const auto nothing = refused([](auto& data) {
+        data.torque_N_m.reset();
+        data.power_kW = 1e-320;
+    });
+    CHECK(nothing.find("--torque") != std::string::npos);
+}
+
+TEST_CASE("The study that new writes is described and run as it stands") {
+    const Folder folder;
+    const std::string file = folder.file("p.toml");
+    const std::string command =
+        "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 46.7 "
+        "--out " +
+        file;
+    const auto written = program(command);
+    INFO(written.output);
+    REQUIRE(written.code == 0);
+    CHECK(written.mentions("gearpod run " + file));
+    CHECK(test::bytes_of(file).find("--module 3.2 --torque 429") != std::string::npos);
+    const auto again = program(command);
+    CHECK(again.code == 2);
+    CHECK(again.mentions("--force"));
+    CHECK(program(command + " --force").code == 0);
+
+    const auto described = program("describe " + file);
+    INFO(described.output);
+    CHECK(described.code == 0);
+    CHECK(described.mentions("% of the largest that the tooth holds"));
+    CHECK(!described.mentions("  damping  "));
+
+    const auto run = program("run " + file +
+                             " --quiet --instances 7 --set "
+                             "ensemble.threshold_instances=4 --out " +
+                             folder.file("p.h5"));
+    INFO(run.output);
+    CHECK(run.code == 0);
+}
+
+TEST_CASE("new refuses what is no gear set and writes nothing") {
+    const Folder folder;
+    const auto said = program(
+        "new planetary --sun 21 --planet 39 --ring 98 --module 12 --torque 5 "
+        "--speed 3 --out " +
+        folder.file("p.toml"));
+    CHECK(said.code == 2);
+    CHECK(said.mentions("--ring"));
+    CHECK(folder.empty());
+    CHECK(program("new bevel --sun 21 --planet 39 --module 12").code == 2);
+}

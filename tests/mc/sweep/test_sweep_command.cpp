@@ -1,0 +1,126 @@
+// gearpod sweep: a study at every combination of some values.
+#include <nlohmann/json.hpp>
+
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::bits;
+using test::bytes_of;
+using test::Folder;
+using test::Outcome;
+using test::program;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string study_of(int instances) {
+    return test::study("planet-crack-ideal.toml") + " --instances " + std::to_string(instances) +
+           " --set ensemble.threshold_instances=20 ";
+}
+const std::string kStudy = study_of(22);
+
+std::string sweep(const Folder& folder, const std::string& rest, int instances = 22) {
+    return "sweep " + study_of(instances) + " --out " + folder.file("s") + " " + rest;
+}
+
+}  // namespace
+
+TEST_CASE("A sweep's points are runs with the same gearboxes, and are not computed twice") {
+    const Folder folder;
+    const std::string vary = "--vary sensor.noise_m_s2=[1,3] ";
+    const Outcome first = program(sweep(folder, vary + "--json " + folder.file("s.json")));
+    INFO(first.output);
+    REQUIRE(first.code == 0);
+    CHECK(first.mentions("2 of 2, noise_m_s2=3: begins"));
+    const std::string one = folder.file("s/noise_m_s2=1.h5"),
+                      three = folder.file("s/noise_m_s2=3.h5");
+    for (const auto& [file, value] : {std::pair{one, "1"}, std::pair{three, "3"}}) {
+        REQUIRE(program("run " + kStudy + " --quiet --force --set sensor.noise_m_s2=" + value +
+                        " --out " + folder.file("run.h5"))
+                    .code == 0);
+        CHECK(bits(file) == bits(folder.file("run.h5")));
+    }
+    // Paired as `compare` pairs them: the same seed, gearboxes and fault sizes.
+    CHECK(
+        program("compare " + one + " " + three).mentions("22 graded gearboxes that are the same"));
+
+    const auto json = nlohmann::json::parse(bytes_of(folder.file("s.json")));
+    REQUIRE(json["points"].size() == 2);
+    CHECK(json["points"][1]["values"]["sensor.noise_m_s2"] == "3");
+    CHECK(json["points"][0]["gearboxes"] == 42);
+    CHECK(json["points"][0]["results"] == one);
+    const auto report = nlohmann::json::parse(program("report " + one + " --json -").output);
+    int found = 0;
+    for (const auto& feature : json["points"][0]["features"]) {
+        for (const auto& reported : report["reliability"]["features"]) {
+            for (const auto& level : reported["levels"]) {
+                if (reported["name"] == feature["feature"] &&
+                    level["noise_level"] == feature["noise_level"]) {
+                    CHECK(level["auc"]["auc"] == feature["auc"]);
+                    ++found;
+                }
+            }
+        }
+    }
+    CHECK(found == 35);  // seven features at five noise levels
+
+    const std::string before = bytes_of(one);
+    const Outcome again = program(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
+    INFO(again.output);
+    REQUIRE(again.code == 0);
+    CHECK(again.mentions("1 of 3, noise_m_s2=1: is finished"));
+    CHECK(again.mentions("2 of 3, noise_m_s2=2: begins"));
+    CHECK(again.mentions("3 of 3, noise_m_s2=3: is finished"));
+    CHECK(bytes_of(one) == before);
+    CHECK(fs::exists(folder.file("s/noise_m_s2=2.h5")));
+}
+
+TEST_CASE("A sweep goes on where it was stopped, and adds gearboxes") {
+    const Folder folder;
+    const std::string vary = "--vary sensor.gain=[1,2] ";
+    REQUIRE(program(sweep(folder, vary + "--quiet")).code == 0);
+    const auto whole = bits(folder.file("s/gain=2.h5"));
+    const std::string part =
+        "run " + kStudy + " --quiet --set sensor.gain=2 --out " + folder.file("s/gain=2.h5");
+    fs::remove(folder.file("s/gain=2.h5"));
+    CHECK(program(part + " --time-limit 00:00:00").code == 4);
+    const Outcome on = program(sweep(folder, vary));
+    INFO(on.output);
+    CHECK(on.code == 0);
+    CHECK(on.mentions("1 of 2, gain=1: is finished"));
+    CHECK(on.mentions("2 of 2, gain=2: goes on"));
+    CHECK(bits(folder.file("s/gain=2.h5")) == whole);
+
+    const Outcome more = program(sweep(folder, vary, 33));
+    INFO(more.output);
+    CHECK(more.code == 0);
+    CHECK(more.mentions("1 of 2, gain=1: goes on"));
+    CHECK(mc::read_results(folder.file("s/gain=1.h5")).status.size() == 53);
+}
+
+TEST_CASE("A sweep says every problem once before anything is computed") {
+    const Folder folder;
+    const Outcome bad =
+        program(sweep(folder, "--vary sensor.nois=[1,2,3] --vary sensor.gain=[1,-2]"));
+    INFO(bad.output);
+    CHECK(bad.code == 2);
+    CHECK(bad.mentions("--vary: sensor.nois: unknown key"));
+    CHECK(bad.mentions("--vary: sensor.gain: must be > 0"));
+    CHECK(std::count(bad.output.begin(), bad.output.end(), '\n') == 2);
+    CHECK(folder.empty());
+    CHECK(program(sweep(folder, "--vary sensor.gain=2")).code == 2);
+    CHECK(program("sweep " + kStudy).code == 2);
+}
+
+TEST_CASE("A sweep does not write over another study's results") {
+    const Folder folder;
+    const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
+    REQUIRE(program(sweep(folder, vary)).code == 0);
+    const std::string before = bytes_of(folder.file("s/gain=1.h5"));
+    const Outcome other = program(sweep(folder, vary + "--set operation.torque_N_m=300"));
+    INFO(other.output);
+    CHECK(other.code == 2);
+    CHECK(bytes_of(folder.file("s/gain=1.h5")) == before);
+    CHECK(program(sweep(folder, vary + "--set operation.torque_N_m=300 --force")).code == 0);
+    CHECK(bytes_of(folder.file("s/gain=1.h5")) != before);
+}

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Computes some rows of the tables anew and holds them against what is stored (ctest fem-gear-pairs of
+-C long). Exit code 77 where gmsh, CalculiX, numpy or scipy are not there."""
+import csv
+import pathlib
+import shutil
+import sys
+
+if not shutil.which("gmsh") or not shutil.which("ccx"):
+    print("gmsh or CalculiX not there")
+    sys.exit(77)
+try:
+    import helical_fem
+    import pairs_fem
+except ImportError as missing:
+    print(missing)
+    sys.exit(77)
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+FAILED = []
+
+
+def stored(table, **wanted):
+    with open(FOLDER / table, newline="") as f:
+        return next(row for row in csv.DictReader(f)
+                    if all(row[column] == value for column, value in wanted.items()))
+
+
+def compare(what, found, row, columns, tolerance):
+    for column, value in zip(columns, found):
+        off = value / float(row[column]) - 1
+        print(f"{what}, {column}: {value:.6g}, stored {row[column]} ({off:+.1e})", flush=True)
+        if not abs(off) < tolerance:
+            FAILED.append(f"{what}, {column}")
+
+
+def row_of(name, index):
+    """Case, touching pairs' positions, and phase as the tables print it."""
+    pair = pairs_fem.CASES[name][0]()
+    pairs, phase = pairs_fem.phases(pair.contact_ratio)[index]
+    return pair, tuple(phase + i for i in range(pairs)), f"{phase:.6f}"
+
+
+def main():
+    for name, index in (("bell-sun", 2), ("bell-ring", 7)):
+        pair, taus, phase = row_of(name, index)
+        flank, centre, gears = pairs_fem.mesh_row(1.0, pair, taus)
+        compare(name, (flank, centre), stored("mesh.csv", case=name, phase=phase),
+                ("flank_N_m", "centre_N_m"), 1e-3)
+        tooth = stored("teeth.csv", case=name, gear="1", tau=phase)
+        compare(name + ", tooth", [1e-3 * m[0, 0] for m in gears[0]], tooth,
+                ("flank_m_N", "centre_m_N"), 1e-3)
+    name = "liang-ring-4.28"
+    pair, taus, phase = row_of(name, 7)
+    compare(name, pairs_fem.mesh_row(1.0, pair, taus, 4.28, 0)[:2],
+            stored("mesh.csv", case=name, phase=phase, cracked="0"),
+            ("flank_N_m", "centre_N_m"), 1e-3)
+    compare("drop", pairs_fem.drop_row(1.0, pair, taus), stored("drop.csv", phase=phase),
+            ("root_N_m", "root_centre_N_m", "base_N_m", "base_centre_N_m"), 1e-3)
+    for what, tau, solid, slices in helical_fem.rows("helix-20", 1.5, 4):  # coarse
+        if what == "mesh":
+            row = stored("helical.csv", case="helix-20", what=what, tau=f"{tau:.6f}")
+            compare(f"helix-20 at {tau:.1f}", (*solid, *slices), row,
+                    ("solid_N_m", "solid_weber_N_m", "slices_N_m", "slices_weber_N_m"), 0.015)
+    print(f"{len(FAILED)} differ" if FAILED else "all as stored")
+    return 1 if FAILED else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,75 @@
+"""The notebook's cells, one after the other: python3 test_notebook.py PROGRAM SOURCES
+
+In a copy of the studies' folder, by a kernel of a fresh virtual environment that has the package installed without the
+network (without python3-venv by the system's, with the package's folder in its path). Ends with 77 without nbclient, a kernel, pandas, matplotlib or h5py (Debian:
+python3-nbclient, python3-ipykernel, python3-pandas, python3-matplotlib, python3-h5py).
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+
+try:
+    import h5py  # noqa: F401
+    import ipykernel  # noqa: F401
+    import matplotlib  # noqa: F401
+    import nbclient
+    import nbformat
+    import pandas  # noqa: F401
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+NOTEBOOK = SOURCES / "studies" / "first-steps.ipynb"
+PACKAGE = SOURCES / "analysis" / "python"
+
+
+def fresh_kernel(place):
+    """The name of a kernel that runs in a new environment; as pip builds a package in its folder, from a copy of it."""
+    made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", place / "venv"],
+                          capture_output=True, check=False)
+    if made.returncode != 0:
+        os.environ["PYTHONPATH"] = str(PACKAGE)
+        return "python3"
+    os.environ.pop("PYTHONPATH", None)
+    shutil.copytree(PACKAGE, place / "package")
+    python = place / "venv" / "bin" / "python"
+    for arguments in (["pip", "install", "--no-index", "--quiet", place / "package"],
+                      ["ipykernel", "install", "--prefix", place / "venv", "--name", "fresh"]):
+        subprocess.run([python, "-m", *arguments], check=True, capture_output=True)
+    os.environ["JUPYTER_PATH"] = str(place / "venv" / "share" / "jupyter")
+    return "fresh"
+
+
+class Notebook(unittest.TestCase):
+    def test_every_cell_runs_and_shows_what_it_says(self):
+        notebook = nbformat.read(NOTEBOOK, as_version=4)
+        nbformat.validate(notebook)
+        for cell in notebook.cells:
+            self.assertFalse(cell.get("outputs"), "outputs are not kept in the sources")
+        os.environ["GEARPOD_PROGRAM"] = str(PROGRAM)
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as place:
+            for study in (SOURCES / "studies").glob("*.toml"):
+                shutil.copy(study, folder)
+            kernel = fresh_kernel(pathlib.Path(place))
+            nbclient.NotebookClient(notebook, timeout=600, kernel_name=kernel,
+                                    resources={"metadata": {"path": folder}}).execute()
+        figures, texts = 0, []
+        for cell in notebook.cells:
+            for output in cell.get("outputs", []):
+                figures += "image/png" in output.get("data", {})
+                texts.append(output.get("data", {}).get("text/plain", ""))
+        self.assertEqual(figures, 4)
+        said = "\n".join(texts)
+        self.assertIn("gearpod results", said)
+        self.assertIn("'window_ratio')", said)  # smallest fault, found by it
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,56 @@
+// What a study without thresholds prints: its features' values.
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "mc/report/feature_values.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/report/report_cases.hpp"
+
+using namespace gearpod;
+using test::Folder;
+using test::program;
+
+TEST_CASE("Values stand where there are no thresholds, and few gearboxes, only") {
+    int with = 0;
+    for (const tests::ReportCase& made : tests::report_cases()) {
+        INFO(made.name);
+        const std::string text =
+            mc::feature_values_text(made.results, mc::ColumnRows(made.results));
+        for (const auto& feature : made.results.detection) {
+            for (const auto& level : feature.levels) {
+                CHECK((text.empty() || std::isnan(level.threshold)));
+            }
+        }
+        with += !text.empty();
+    }
+    CHECK(with > 0);
+}
+
+TEST_CASE("A study without noise prints the values of its file, not dashes") {
+    const Folder folder;
+    const std::string file = folder.file("r.h5");
+    REQUIRE(program("run " + test::study("park-fig-13.toml") + " --quiet --out " + file).code == 0);
+    const auto report = program("report " + file);
+    REQUIRE(report.code == 0);
+    CHECK(!report.mentions("-    "));
+    CHECK(report.mentions("Feature values"));
+    // The line of each graded gearbox: row, loss of stiffness, then the four features.
+    const mc::Results results = mc::read_results(file);
+    int found = 0;
+    std::istringstream lines(report.output);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream cells(line);
+        std::size_t row = 0;
+        double size = 0.0;
+        if (!(cells >> row >> size) || row == 0 || row >= results.status.size()) {
+            continue;
+        }
+        for (const mc::FeatureResult& feature : results.features) {
+            double shown = 0.0;
+            REQUIRE(cells >> shown);
+            CHECK(shown == Approx(feature.values[row]).epsilon(1e-4));
+        }
+        ++found;
+    }
+    CHECK(found == 4);
+}

@@ -1,0 +1,102 @@
+"""The summary of a report on one sheet: python3 test_summary_sheet.py CASES PROGRAM SOURCES"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
+sys.path.insert(0, str(SOURCES / "analysis" / "report"))
+
+try:
+    import headline
+    import summary_sheet
+    from matplotlib.text import Text
+    from report import Report
+except ImportError as error:
+    print(f"skipped: {error} (Debian: python3-matplotlib)")
+    sys.exit(77)
+
+DPI = 72
+
+
+def reports():
+    for file in sorted(CASES.glob("*.json")):
+        data = json.loads(file.read_text())
+        if "kind" not in data:
+            yield file.stem, Report(data)
+
+
+def boxes(figure):
+    """Every text that is shown, with its box in points."""
+    figure.set_dpi(DPI)
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    found = []
+    for text in figure.findobj(Text):
+        if text.get_text().strip() and text.get_visible():
+            found.append((text.get_text(), text.get_window_extent(renderer)))
+    return found
+
+
+class Sheets(unittest.TestCase):
+    def test_everything_is_on_the_sheet_and_nothing_on_another(self):
+        seen = 0
+        for name, report in reports():
+            with self.subTest(name), warnings.catch_warnings():
+                warnings.filterwarnings("ignore", message="Glyph")
+                figure = summary_sheet.sheet_of(report).figure
+                placed = boxes(figure)
+                width, height = DPI * summary_sheet.WIDTH, DPI * summary_sheet.HEIGHT
+                for text, box in placed:
+                    self.assertTrue(box.x0 > 20 and box.x1 < width - 20 and box.y0 > 20
+                                    and box.y1 < height - 20, (text, box))
+                for k, (text, box) in enumerate(placed):
+                    for other, beside in placed[k + 1:]:
+                        over = (min(box.x1, beside.x1) - max(box.x0, beside.x0),
+                                min(box.y1, beside.y1) - max(box.y0, beside.y0))
+                        self.assertFalse(min(over) > 1.5, (text, other, over))
+                words = " ".join(text for text, _ in placed)
+                for text in headline.answers(report) + headline.limits(report):
+                    for word in text.split(" "):
+                        self.assertIn(word[:12], words)
+                seen += 1
+        self.assertGreater(seen, 15)
+
+    def test_a_pdf_of_one_page_the_same_each_time(self):
+        shown = {name: report for name, report in reports() if name in ("usual", "no_features")}
+        self.assertEqual(len(shown), 2)
+        for name, report in shown.items():
+            first = summary_sheet.pdf(report)
+            self.assertTrue(first.startswith(b"%PDF-"), name)
+            self.assertEqual(len(re.findall(rb"/Type /Page\b", first)), 1, name)
+            self.assertEqual(first, summary_sheet.pdf(report), name)
+
+
+class Program(unittest.TestCase):
+    def test_report_writes_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results, sheet = os.path.join(folder, "r.h5"), os.path.join(folder, "r.pdf")
+
+            def gearpod(*arguments):
+                return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True,
+                                      check=False)
+
+            gearpod("run", SOURCES / "studies" / "park-fig-13.toml", "--quiet", "--out", results)
+            made = gearpod("report", results, "--pdf", sheet)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            self.assertIn(f"sheet: {sheet}", made.stdout)
+            self.assertTrue(pathlib.Path(sheet).read_bytes().startswith(b"%PDF-"))
+            over = gearpod("report", results, "--pdf", results)
+            self.assertEqual(over.returncode, 2)
+            self.assertIn("is the results file as well", over.stderr)
+            self.assertEqual(gearpod("report", results).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
