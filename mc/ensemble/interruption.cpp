@@ -17,6 +17,7 @@ volatile std::sig_atomic_t caught = 0;
 // When, on the steady clock, in nanoseconds: a handler may set no other type.
 std::atomic<long long> caught_ns{0};
 static_assert(std::atomic<long long>::is_always_lock_free);
+constexpr std::chrono::nanoseconds kSameRequest = Interruption::kSameRequest;
 
 long long steady_ns() {
     timespec now{};
@@ -25,7 +26,8 @@ long long steady_ns() {
 }
 
 extern "C" void note_signal(int number) {
-    if (caught != 0 && number != SIGUSR1) {
+    const bool again = caught != 0 && steady_ns() - caught_ns >= kSameRequest.count();
+    if (again && number != SIGUSR1) {
         std::signal(number, SIG_DFL);
         std::raise(number);
         return;

@@ -11,13 +11,16 @@
 namespace gearpod::mc {
 
 // While it lives, SIGINT, SIGTERM and SIGUSR1 (a queue's warning) only ask the run to end and save;
-// a second SIGINT or SIGTERM ends the program at once. Whatever is computed leaves off (StopWish) a
-// second after the first signal, or when the time limit is over. Writing beyond a limit on the file
-// size is an error of the write and no signal. One object at a time.
+// a second SIGINT or SIGTERM ends the program at once, but for one that comes with the first:
+// `timeout` and batch queues signal a program and then its process group. Whatever is computed
+// leaves off (StopWish) a second after the first signal, or when the time limit is over. Writing
+// beyond a limit on the file size is an error of the write and no signal. One object at a time.
 class Interruption final : public machine::StopWish {
   public:
     // For what is about to be finished when a signal comes.
     static constexpr std::chrono::seconds kGrace{1};
+    // Signals that come so soon after the first are one request with it.
+    static constexpr std::chrono::milliseconds kSameRequest{500};
 
     // The limit counts from now; none if empty.
     explicit Interruption(std::optional<std::chrono::seconds> limit);

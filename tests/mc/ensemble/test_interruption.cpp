@@ -1,4 +1,7 @@
 // Signals and the time limit as the run sees them.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
@@ -27,6 +30,24 @@ TEST_CASE("A signal is a reason to stop, for as long as somebody watches") {
         std::raise(number);
         CHECK_FALSE(interruption.reason({}).empty());
     }
+}
+
+TEST_CASE("Signals that come together ask once, a later one ends the program") {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        const Interruption interruption(std::nullopt);
+        std::raise(SIGTERM);
+        std::raise(SIGTERM);
+        std::this_thread::sleep_for(Interruption::kSameRequest);
+        std::raise(SIGUSR1);
+        std::raise(SIGINT);
+        _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+    CHECK(WTERMSIG(status) == SIGINT);
 }
 
 TEST_CASE("The time limit counts what finishing will take") {
