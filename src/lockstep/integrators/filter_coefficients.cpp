@@ -28,9 +28,9 @@ void filter_step(Integrator integrator, double w, double h,
             coefficients[kFilterYY + 2 * i + j] = map.transition(2 + i, 2 + j);
         }
     }
-    for (int node = 0; node < 3; ++node) {
+    for (int stage = 0; stage < kFilterInputs; ++stage) {
         for (int i = 0; i < kFilterStates; ++i) {
-            coefficients[kFilterInput + 4 * node + i] = map.inputs(i, node);
+            coefficients[kFilterInput + kFilterStates * stage + i] = map.inputs(i, stage);
         }
     }
 }

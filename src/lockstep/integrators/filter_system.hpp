@@ -1,22 +1,25 @@
 // The sensor's low-pass z' = A z + b u (sensor_filter.hpp) along one step of h seconds, as the
-// methods' filter() sees it: what z becomes is linear in z and in the input u at the stage nodes.
+// methods' filter() sees it: what z becomes is linear in z and in the input u at the stages.
 #pragma once
 
 #include <Eigen/Dense>
 
+#include "lockstep/integrators/sensor_filter.hpp"
+
 namespace gearpod::lockstep {
 
-// next = transition * z + inputs * (u at up to three stage nodes).
+// next = transition * z + inputs * (u at the stages).
 struct FilterMap {
-    Eigen::Matrix4d transition;
-    Eigen::Matrix<double, 4, 3> inputs;
+    Eigen::Matrix4d transition = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 4, kFilterInputs> inputs =
+        Eigen::Matrix<double, 4, kFilterInputs>::Zero();
 };
 
 struct FilterSystem {
     using Matrix = Eigen::Matrix4d;
     using Map = FilterMap;
-    // A vector as the sum of z (columns 0-3) and u at three nodes (4-6).
-    using Parts = Eigen::Matrix<double, 4, 7>;
+    // A vector as the sum of z (columns 0-3) and u at the stages (the others).
+    using Parts = Eigen::Matrix<double, 4, 4 + kFilterInputs>;
 
     Matrix a;  // h A
     double h = 0.0;
@@ -30,12 +33,12 @@ struct FilterSystem {
         return parts;
     }
     // h times the slope of a stage at z = `from`.
-    Parts slope(const Parts& from, int node) const {
+    Parts slope(const Parts& from, int stage) const {
         Parts k = a * from;
-        k.col(4 + node) += h * b;
+        k.col(4 + stage) += h * b;
         return k;
     }
-    static Map map(const Parts& end) { return {end.leftCols<4>(), end.rightCols<3>()}; }
+    static Map map(const Parts& end) { return {end.leftCols<4>(), end.rightCols<kFilterInputs>()}; }
 
     // With the input at the step's ends, nodes 0 and 2.
     Map trapezoidal() const {
@@ -43,7 +46,6 @@ struct FilterSystem {
         Map result;
         result.transition = solve * (one() + a / 2.0);
         result.inputs.col(0) = result.inputs.col(2) = solve * (h * b) / 2.0;
-        result.inputs.col(1).setZero();
         return result;
     }
 };
