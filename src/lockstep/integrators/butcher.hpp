@@ -1,0 +1,147 @@
+// Butcher's method of order 5 with six stages, explicit (J. C. Butcher, On Runge-Kutta processes of
+// high order, 1964).
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "lockstep/integrators/explicit_stage.hpp"
+
+namespace gearpod::lockstep {
+
+struct Butcher {
+    static constexpr const char* kName = "rk5";
+    static constexpr int kOrder = 5;
+    static constexpr double kStageNodes[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+    static constexpr double kStepsInBand = 12.0;
+    static constexpr StepCost kCost{1.7, 1.7, 1.7};
+
+    static constexpr int kStages = 6;
+    static constexpr std::array<int, kStages> kNodeOfStage{0, 1, 1, 2, 3, 4};
+    static constexpr double kTable[kStages + 1][kStages]{
+        {},
+        {1.0 / 4},
+        {1.0 / 8, 1.0 / 8},
+        {0.0, -1.0 / 2, 1.0},
+        {3.0 / 16, 0.0, 0.0, 9.0 / 16},
+        {-3.0 / 7, 2.0 / 7, 12.0 / 7, -12.0 / 7, 8.0 / 7},
+        {7.0 / 90, 0.0, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 / 90}};  // the step
+
+    // The positions follow from the accelerations as the velocities do, by the table times itself,
+    // so only those are kept. Its last column: the sum of a row, the share of the step.
+    static constexpr auto kTwice = [] {
+        std::array<std::array<double, kStages + 1>, kStages + 1> twice{};
+        for (std::size_t row = 0; row <= kStages; ++row) {
+            for (std::size_t by = 0; by < kStages; ++by) {
+                twice[row][kStages] += kTable[row][by];
+                for (std::size_t from = 0; from < kStages; ++from) {
+                    twice[row][from] += kTable[row][by] * kTable[by][from];
+                }
+            }
+        }
+        return twice;
+    }();
+
+    template <class Complex>
+    static Complex growth(Complex z) {
+        return 1.0 +
+               z * (1.0 +
+                    z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0 + z * z * 0.0375))));
+    }
+
+    template <class System>
+    static auto filter(const System& s) {
+        std::array<typename System::Parts, kStages> k;
+        const auto z = s.start();
+        auto at = z;
+        for (int stage = 0; stage <= kStages; ++stage) {
+            at = z;
+            for (int from = 0; from < stage; ++from) {
+                at += kTable[stage][from] * k[static_cast<std::size_t>(from)];
+            }
+            if (stage < kStages) {
+                k[static_cast<std::size_t>(stage)] = s.slope(at, stage);
+            }
+        }
+        return s.map(at);
+    }
+
+    template <class Model>
+    using Stages = ExplicitStages<Model, kStages>;
+
+    template <class Model, class State, class Filter, int W = Model::kWidth>
+    static GEARPOD_INLINE void step(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                    const Filter& filter, const MeshOverrides& overrides, int i,
+                                    State& state, Stages<Model>& s) {
+        const ExplicitStep<Model, State> x(plan, lanes, i, state);
+        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
+        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
+        later_stages<Model>(plan, lanes, overrides, i, x, s,
+                            std::make_integer_sequence<int, kStages - 1>());
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const int at = j + l;
+                x.q[at] = advance(x.q[at], x.h[l], slope<kStages>(x, s, at, l), x.q_rest, at);
+                x.v[at] = advance(x.v[at], x.h[l], rise<kStages>(s, at), x.v_rest, at);
+            }
+        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2],
+                       s.input[3], s.input[4], s.input[5]);
+    }
+
+  private:
+    // What the accelerations of the stages before `Row` come to, by the table and by it twice.
+    template <int Row, class Stages>
+    static GEARPOD_INLINE auto rise(const Stages& s, int at) {
+        using Real = std::remove_cvref_t<decltype(s.q[0])>;
+        Real total = Real(kTable[Row][Row - 1]) * s.a[Row - 1][at];
+        for (int from = Row - 2; from >= 0; --from) {
+            if (kTable[Row][from] != 0.0) {
+                total = std::fma(Real(kTable[Row][from]), s.a[from][at], total);
+            }
+        }
+        return total;
+    }
+    template <int Row, class Step, class Stages>
+    static GEARPOD_INLINE auto slope(const Step& x, const Stages& s, int at, int l) {
+        using Real = std::remove_cvref_t<decltype(s.q[0])>;
+        Real total = Real(0);
+        for (int from = Row - 2; from >= 0; --from) {
+            if (kTwice[Row][static_cast<std::size_t>(from)] != 0.0) {
+                total = std::fma(Real(kTwice[Row][static_cast<std::size_t>(from)]), s.a[from][at],
+                                 total);
+            }
+        }
+        return std::fma(x.h[l], total, Real(kTwice[Row][kStages]) * x.v[at]);
+    }
+
+    template <class Model, class Step, int... Before>
+    static GEARPOD_INLINE void later_stages(const MarchPlan& plan,
+                                            const typename Model::Lanes& lanes,
+                                            const MeshOverrides& overrides, int i, const Step& x,
+                                            Stages<Model>& s,
+                                            std::integer_sequence<int, Before...>) {
+        (stage<Before + 1, Model>(plan, lanes, overrides, i, x, s), ...);
+    }
+
+    template <int Stage, class Model, class Step, int W = Model::kWidth>
+    static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
+                                     const MeshOverrides& overrides, int i, const Step& x,
+                                     Stages<Model>& s) {
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const int at = j + l;
+                s.q[at] = std::fma(x.h[l], slope<Stage>(x, s, at, l), x.q[at]);
+                s.v[at] = std::fma(x.h[l], rise<Stage>(s, at), x.v[at]);
+            }
+        }
+        if constexpr (kNodeOfStage[Stage] != kNodeOfStage[Stage - 1]) {
+            load_pairs<Model>(plan, lanes, overrides, i, kNodeOfStage[Stage], s.pairs);
+        }
+        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[Stage], s.input[Stage]);
+    }
+};
+
+}  // namespace gearpod::lockstep
