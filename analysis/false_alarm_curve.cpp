@@ -46,14 +46,25 @@ std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, c
                        one_sided_bound(confidence));
 }
 
-RatePoint point_of(const GradedValues& values, const std::vector<double>& healthy, double rate,
-                   const Threshold& threshold, double confidence) {
+// How many times rarer than one in the sample, or in the gearboxes whose records are tilted; 0 if
+// it is not.
+double extrapolation_of(const Threshold& threshold, double rate) {
+    const auto rarer = [&](long sample) { return 1.0 / (rate * static_cast<double>(sample)); };
+    if (threshold.tilted) {
+        const double beyond = rarer(threshold.gearboxes);
+        return beyond > 1.0 ? beyond : 0.0;
+    }
+    return threshold.tail ? rarer(threshold.sample) : 0.0;
+}
+
+RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshold& threshold,
+                   double confidence) {
     RatePoint point;
     point.false_alarm_rate = rate;
     point.threshold = threshold.value;
-    point.extrapolation =
-        threshold.tail ? 1.0 / (rate * static_cast<double>(threshold.sample)) : 0.0;
-    point.threshold_bounds = threshold_interval(healthy, values.alarm, rate, confidence);
+    point.extrapolation = extrapolation_of(threshold, rate);
+    point.tilted = threshold.tilted.has_value();
+    point.threshold_bounds = healthy.value_bounds(threshold, rate, confidence);
     return point;
 }
 
@@ -68,15 +79,15 @@ double share_beyond(std::span<const double> ascending, double threshold) {
 FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& form,
                                   double confidence) {
     FalseAlarmCurve curve;
-    const std::vector<double> healthy(values.healthy.begin(), values.healthy.end());
+    const HealthyThresholds healthy(values.healthy, values.alarm);
     // Both one-sided bounds of either kind: half the chance of error each.
     const double half = 1.0 - 0.5 * (1.0 - confidence), two_sided = confidence;
     for (const double rate : kCurveRates) {
-        const Threshold threshold = alarm_threshold(healthy, values.alarm, rate);
+        const Threshold threshold = healthy.at(rate, two_sided);
         if (std::isnan(threshold.value)) {
             break;
         }
-        RatePoint point = point_of(values, healthy, rate, threshold, two_sided);
+        RatePoint point = point_of(healthy, rate, threshold, two_sided);
         PodForm at = form;
         at.floor = form.floor > 0.0 ? rate : 0.0;
         // The side towards the healthy ones finds more.
@@ -104,9 +115,10 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& for
 std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
                                     double confidence) {
     const double sign = values.alarm == Alarm::high ? 1.0 : -1.0;
-    const std::vector<double> all(values.healthy.begin(), values.healthy.end());
+    const HealthyThresholds all(values.healthy, values.alarm);
     const std::vector<double> healthy =
-        largest_values(all, values.alarm, static_cast<long>(all.size()));
+        largest_values(all.plain(), values.alarm, static_cast<long>(all.plain().size()));
+    const double half = 1.0 - 0.5 * (1.0 - confidence);
     std::vector<double> faulty;
     for (std::size_t i = 0; i < values.value.size(); ++i) {
         if (values.size[i] > 0.0 && std::isfinite(values.value[i])) {
@@ -140,16 +152,15 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
         consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0));
     }
     for (const double rate : kCurveRates) {
-        if (const Threshold beyond = alarm_threshold(all, values.alarm, rate); beyond.tail) {
+        if (const Threshold beyond = all.at(rate, half); beyond.tail || beyond.tilted) {
             consider(sign * beyond.value, rate);
         }
     }
     // At a rate between two whole ranks the order statistic is the same one.
-    const Threshold chosen = alarm_threshold(all, values.alarm, least.false_alarm_rate);
-    const double half = 1.0 - 0.5 * (1.0 - confidence);
-    least.extrapolation =
-        chosen.tail ? 1.0 / (least.false_alarm_rate * static_cast<double>(chosen.sample)) : 0.0;
-    least.rate_bounds = rate_of(chosen, values.alarm, least.false_alarm_rate, 0, 0, half).bounds;
+    const Threshold chosen = all.at(least.false_alarm_rate, half);
+    least.extrapolation = extrapolation_of(chosen, least.false_alarm_rate);
+    least.tilted = chosen.tilted.has_value();
+    least.rate_bounds = all.rate_bounds(chosen, least.false_alarm_rate, half);
     least.pd_bounds = wilson_interval(std::lround(least.pd * static_cast<double>(faulty.size())),
                                       static_cast<long>(faulty.size()), half);
     least.bounds = {cost(least.rate_bounds.lower, least.pd_bounds.upper),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
+#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/pod/pod_curve.hpp"
 #include "analysis/pod/size_estimate.hpp"
 #include "analysis/statistics/interval.hpp"
@@ -23,6 +24,7 @@ struct RatePoint {
     double false_alarm_rate = 0.0;  // asked for
     double threshold = 0.0;
     double extrapolation = 0.0;  // so many times beyond the sample; 0: an order statistic
+    bool tilted = false;         // of tilted records, beyond as many gearboxes
     Interval threshold_bounds;   // an infinite side: the sample does not fix it
     // The bounds also hold the threshold's own scatter: a90's at the threshold's, each with half
     // the chance of error.
@@ -37,7 +39,7 @@ struct FalseAlarmCurve {
 // One feature at one noise level.
 struct GradedValues {
     Alarm alarm = Alarm::high;
-    std::span<const double> healthy;  // threshold sample
+    HealthyValues healthy;  // threshold sample
     std::span<const double> size, value;
 };
 
@@ -53,6 +55,7 @@ struct Costs {
 struct LeastCost {
     double threshold = 0.0;
     double extrapolation = 0.0;  // as above
+    bool tilted = false;
     double false_alarm_rate = 0.0;
     Interval rate_bounds;
     double pd = 0.0;  // of the study's faults, all sizes as they were drawn

@@ -32,7 +32,9 @@ LevelValues level_values(const ReliabilityData& data, const FeatureColumns& feat
                          const std::vector<std::size_t>& group, std::size_t groups,
                          std::size_t level, std::size_t levels) {
     LevelValues values;
-    values.healthy = values.thresholds = column(feature.healthy, level, levels);
+    values.healthy = column(feature.healthy, level, levels);
+    values.thresholds =
+        feature.records.empty() ? values.healthy : column(feature.records, level, levels);
     values.graded = column(feature.graded, level, levels);
     values.by_size.resize(groups);
     for (std::size_t i = 0; i < values.graded.size(); ++i) {
@@ -78,7 +80,12 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
         }
     }
     // Thresholds are set by the threshold sample alone.
-    const GradedValues graded{feature.alarm, values.thresholds, data.graded_size, values.graded};
+    HealthyValues sample{values.thresholds};
+    if (!feature.records.empty()) {
+        sample.gearbox = data.record_gearbox;
+        sample.weights = feature.weights;
+    }
+    const GradedValues graded{feature.alarm, sample, data.graded_size, values.graded};
     level.by_rate = level.hit_miss.refusal.empty()
                         ? false_alarm_curve(graded, level.hit_miss.chosen.curve.form, confidence)
                         : FalseAlarmCurve{{}, level.hit_miss.refusal};

@@ -65,6 +65,10 @@ struct FeatureColumns {
     Alarm alarm = Alarm::high;
     std::span<const double> healthy;  // threshold sample, gearboxes x noise levels
     std::span<const double> graded;
+    // Of several records of each gearbox of the threshold sample all of them, records x noise
+    // levels, and the weights of tilted ones: for thresholds. `healthy` has the first of each.
+    std::span<const double> records = {};
+    std::span<const double> weights = {};
 };
 
 struct ReliabilityData {
@@ -75,6 +79,7 @@ struct ReliabilityData {
     std::vector<InputColumn> uncertain;      // those of them that are (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
+    std::vector<std::size_t> record_gearbox = {};  // of the features' records
 };
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the

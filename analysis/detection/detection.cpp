@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/size_groups.hpp"
-#include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/clopper_pearson.hpp"
 #include "analysis/statistics/interval.hpp"
 
@@ -53,6 +53,9 @@ const DetectionCell* healthy_cell(const LevelDetection& level) {
 // Healthy values that equal the threshold raise no alarm: the rate is then below the order
 // statistic's, by an amount that the sample does not tell.
 bool tied(const LevelDetection& level, const DetectionRequest& request) {
+    if (level.tilted) {
+        return false;
+    }
     const long rank = threshold_rank(level.threshold_sample, request.false_alarm_rate);
     return level.threshold_alarms < level.threshold_sample - rank;
 }
@@ -112,16 +115,16 @@ void rate_healthy(LevelDetection& level, const Threshold& threshold, Alarm alarm
     const HealthyRate rate = known(alarms, tested);
     level.healthy_rate = rate.rate;
     level.healthy_rate_bounds = rate.bounds;
-    if (!level.tail) {
+    if (!level.tail && !level.tilted) {
         level.expected_rate =
             expected_rate_interval(level.threshold_sample, alarms, tested, confidence);
     }
 }
 
-// Of a threshold beyond its sample; how far it lies stands with it.
+// Of a threshold beyond its sample, or from tilted records; how far it lies stands with it.
 void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
-    if (!level.tail->steady) {
+    if (level.tail && !level.tail->steady) {
         warnings.push_back(fmt::format(
             "noise level {:g}: fewer of the most extreme healthy ones give the threshold a rate "
             "outside its interval: the law does not hold, do not trust the threshold",
@@ -141,7 +144,7 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
 void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     const double rate = request.false_alarm_rate;
-    if (level.tail) {
+    if (level.tail || level.tilted) {
         return warn_of_tail(level, request, warnings);
     }
     if (level.threshold_rate.upper > 2.0 * rate) {
@@ -211,16 +214,24 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     result.feature = feature;
     result.alarm = alarm;
     const std::vector<std::size_t> group = groups_of(graded.fault_size, request.groups);
+    const std::span<const std::size_t> none;
     for (std::size_t n = 0; n < levels; ++n) {
         LevelDetection level;
         level.noise_level = request.noise_levels[n];
         const std::vector<double> sample = column(healthy, n, levels);
-        const Threshold threshold = alarm_threshold(sample, alarm, request.false_alarm_rate);
+        const HealthyThresholds thresholds(
+            {sample, healthy.weights.empty() ? none : healthy.gearbox, healthy.weights}, alarm);
+        const Threshold threshold = thresholds.at(request.false_alarm_rate, request.confidence);
         level.threshold = threshold.value;
         level.threshold_sample = threshold.sample;
         level.threshold_alarms = threshold.alarms;
         if (threshold.tail) {
-            level.tail = tail_threshold(sample, alarm, threshold, request);
+            level.tail = tail_threshold(thresholds.plain(), alarm, threshold, request);
+        }
+        if (threshold.tilted) {
+            level.tilted = {
+                threshold.gearboxes, threshold.tilted->carrying,
+                1.0 / (request.false_alarm_rate * static_cast<double>(threshold.gearboxes))};
         }
         level.cells.resize(request.groups.size());
         for (std::size_t g = 0; g < request.groups.size(); ++g) {
@@ -235,7 +246,8 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
             rate(cell, !std::isnan(level.threshold), request.confidence);
         }
         rate_healthy(level, threshold, alarm, request);
-        warn(level, healthy.fault_size.size(), request.false_alarm_rate, result.warnings);
+        warn(level, level.tilted ? sample.size() : thresholds.plain().size(),
+             request.false_alarm_rate, result.warnings);
         warn_of_rate(level, request, result.warnings);
         result.levels.push_back(std::move(level));
     }

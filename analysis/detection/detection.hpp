@@ -14,9 +14,14 @@ namespace gearpod::analysis {
 struct FeatureSample {
     std::span<const double> fault_size;  // one per gearbox
     std::span<const double> values;      // gearboxes x noise levels
+    // Of a healthy sample of several records of each gearbox; weights of tilted ones.
+    std::span<const std::size_t> gearbox = {};
+    std::span<const double> weights = {};
 };
 
-// Thresholds from `healthy` (all of them, whatever their fault_size), rates from `graded`.
+// Thresholds from `healthy` (all of them, whatever their fault_size; healthy_thresholds.hpp), rates
+// from `graded`. Intervals are of independent values or of tilted records: detect_clustered()
+// (clusters.hpp) has those of several plain records of each gearbox.
 // Throws std::invalid_argument if the shapes disagree.
 FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSample& healthy,
                         const FeatureSample& graded, const DetectionRequest& request);

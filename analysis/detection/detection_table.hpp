@@ -48,6 +48,13 @@ struct TailThreshold {
     bool steady = true;  // the others' rates lie in the interval of the threshold's rate
 };
 
+// A threshold from tilted records (tilted_sample.hpp).
+struct TiltedThreshold {
+    long gearboxes = 0;
+    double carrying = 0.0;       // gearboxes that have the alarms
+    double extrapolation = 1.0;  // so many times rarer than one in the gearboxes is the rate
+};
+
 // One feature at one noise level.
 struct LevelDetection {
     double noise_level = 0.0;           // factor on the sensor and encoder noise
@@ -55,7 +62,8 @@ struct LevelDetection {
     long threshold_sample = 0;          // healthy gearboxes that set it
     long threshold_alarms = 0;          // of these, how many lie beyond it
     std::optional<TailThreshold> tail;  // else the threshold is an order statistic of the sample
-    std::vector<DetectionCell> cells;   // ascending size
+    std::optional<TiltedThreshold> tilted = {};  // or from weighted records
+    std::vector<DetectionCell> cells;            // ascending size
     // What the healthy sample alone says of this threshold's false-alarm rate, whatever the
     // feature's distribution (false_alarm_rate.hpp, tail.hpp).
     Interval threshold_rate = {};
@@ -96,6 +104,7 @@ struct DetectionRequest {
     std::vector<std::string> uncertain = {};
     // Rows of a gearbox that sets thresholds, one after another: records that differ in noise.
     std::size_t threshold_records = 1;
+    bool threshold_tilt = false;  // those of the accelerometer's features are tilted
 };
 
 }  // namespace gearpod::analysis

@@ -52,6 +52,9 @@ Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false
 
 HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_rate, long alarms,
                     long tested, double confidence) {
+    if (threshold.tilted) {
+        return {false_alarm_rate, threshold.tilted->rate};
+    }
     return threshold.tail
                ? threshold.tail->rate(sign_of(alarm) * threshold.value, alarms, tested, confidence)
                : healthy_rate(threshold.sample, false_alarm_rate, alarms, tested, confidence);

@@ -7,6 +7,7 @@
 #include "analysis/detection/detection_table.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/tail.hpp"
+#include "analysis/detection/tilted_sample.hpp"
 
 namespace gearpod::analysis {
 
@@ -16,6 +17,9 @@ struct Threshold {
     long alarms = 0;     // of these, how many lie beyond it
     // Where it is no order statistic: the law of the largest values, of smallest ones negated.
     std::optional<TailFit> tail;
+    // Where it is from tilted records, of so many gearboxes.
+    std::optional<TiltedSample::Estimate> tilted = {};
+    long gearboxes = 0;
 };
 
 // The ceil((n+1)(1-rate))-th smallest of n values (for a low alarm: largest). A further healthy
@@ -26,7 +30,7 @@ struct Threshold {
 Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false_alarm_rate);
 
 // The false-alarm rate of this threshold, as its own sample and `alarms` of `tested` further
-// healthy gearboxes know it. NaN without a threshold.
+// healthy gearboxes know it; of tilted records as they alone do. NaN without a threshold.
 HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_rate, long alarms,
                     long tested, double confidence);
 

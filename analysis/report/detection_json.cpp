@@ -38,6 +38,12 @@ nlohmann::json to_json(const TailThreshold& tail) {
     return {{"extrapolation", tail.extrapolation}, {"steady", tail.steady}, {"choices", choices}};
 }
 
+nlohmann::json to_json(const TiltedThreshold& tilted) {
+    return {{"gearboxes", tilted.gearboxes},
+            {"carrying", tilted.carrying},
+            {"extrapolation", tilted.extrapolation}};
+}
+
 }  // namespace
 
 nlohmann::json level_json(const LevelDetection& level) {
@@ -55,6 +61,7 @@ nlohmann::json level_json(const LevelDetection& level) {
             {"threshold_alarms", level.threshold_alarms},
             {"threshold_rate", to_json(level.threshold_rate)},
             {"tail", level.tail ? to_json(*level.tail) : nlohmann::json(nullptr)},
+            {"tilted", level.tilted ? to_json(*level.tilted) : nlohmann::json(nullptr)},
             {"healthy_rate", number(level.healthy_rate)},
             {"healthy_rate_bounds", to_json(level.healthy_rate_bounds)},
             {"expected_rate", to_json(level.expected_rate)},

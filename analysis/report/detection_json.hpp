@@ -15,7 +15,8 @@ namespace gearpod::analysis {
 //   "features": [{"name", "alarm", "warnings": [...], "levels": [{"noise_level", "threshold",
 //     "threshold_sample", "threshold_alarms", "threshold_rate": [lower, upper], "tail": null where
 //     the threshold is an order statistic, else {"extrapolation", "steady", "choices":
-//     [{"exceedances", "above", "shape", "scale", "threshold", "rate"}]}, "healthy_rate",
+//     [{"exceedances", "above", "shape", "scale", "threshold", "rate"}]}, "tilted": null unless it
+//     is from tilted records, then {"gearboxes", "carrying", "extrapolation"}, "healthy_rate",
 //     "healthy_rate_bounds", "expected_rate", "reliable_size": [low, high] or null,
 //     "sizes": [{"size_low", "size_high", "tested", "detected", "failed", "pd", "lower",
 //     "upper", "exact": [lower, upper]}]}]}]}; sizes in their unit.

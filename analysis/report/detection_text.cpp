@@ -97,6 +97,14 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
                              : std::string("no");
         });
     }
+    if (std::any_of(features.begin(), features.end(),
+                    [n](const FeatureDetection& f) { return f.levels[n].tilted.has_value(); })) {
+        add_row(out, "by tilted records, carried by", features, [n](const FeatureDetection& f) {
+            const auto& tilted = f.levels[n].tilted;
+            return tilted ? fmt::format("{:.0f} of {}", tilted->carrying, tilted->gearboxes)
+                          : std::string("no");
+        });
+    }
     const std::vector<DetectionCell>& cells = features.front().levels[n].cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const std::string label = fmt::format(

@@ -62,9 +62,48 @@ Json pair_json(const Interval& bounds) {
     return Json::array({number(bounds.lower), number(bounds.upper)});
 }
 
-std::string beyond_text(double extrapolation) {
-    return extrapolation > 0.0 ? fmt::format(" ({:.2g}-fold beyond the sample)", extrapolation)
+std::string beyond_text(double extrapolation, bool tilted) {
+    return extrapolation > 0.0 ? fmt::format(" ({:.2g}-fold beyond the {})", extrapolation,
+                                             tilted ? "gearboxes, by tilted records" : "sample")
                                : "";
+}
+
+// Which thresholds are from tilted records, and what the others rest on.
+std::string tilted_text(std::span<const FeatureDetection> features,
+                        const DetectionRequest& request) {
+    long from_tilted = 0, all = 0, gearboxes = 0, fewest = 0;
+    for (const FeatureDetection& feature : features) {
+        for (const LevelDetection& level : feature.levels) {
+            ++all;
+            const auto records = static_cast<long>(request.threshold_records);
+            if (level.tilted) {
+                ++from_tilted;
+                gearboxes = std::max(gearboxes, level.tilted->gearboxes);
+            } else if (level.threshold_sample % records == 0) {
+                fewest = std::max(fewest, level.threshold_sample / records);
+            }
+        }
+    }
+    gearboxes = std::max(gearboxes, fewest);
+    std::string text;
+    if (const double rarer = 1.0 / (request.false_alarm_rate * static_cast<double>(gearboxes));
+        from_tilted > 0) {
+        text = fmt::format(
+            "{} of the {} thresholds are from {} tilted records of each of {} healthy gearboxes{}.",
+            from_tilted, all, request.threshold_records, gearboxes,
+            rarer > 1.0
+                ? fmt::format(", for a false-alarm rate {:.2g}-fold rarer than one in these", rarer)
+                : "");
+    }
+    if (from_tilted == all) {
+        return text;
+    }
+    const std::string others = sample_shortage(gearboxes, request.false_alarm_rate,
+                                               request.confidence, Subject::gearboxes);
+    return others.empty() ? text
+                          : text + (text.empty() ? "" : " ") +
+                                fmt::format("Of the {}others too few gearboxes have the alarms. {}",
+                                            from_tilted > 0 ? "" : "features all or ", others);
 }
 
 // Of gearboxes with several records each: nothing is known beyond these, whose tails go together.
@@ -97,7 +136,17 @@ std::string record_shortage(long gearboxes, long records, double false_alarm_rat
 }  // namespace
 
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject, long records) {
+                            Subject subject, long records, bool tilted) {
+    if (records > 1 && tilted) {
+        const std::string others = sample_shortage(healthy, false_alarm_rate, confidence, subject);
+        return others.empty()
+                   ? ""
+                   : fmt::format(
+                         "Tilted records carry a false-alarm rate of {:g} for features of the "
+                         "accelerometer whose alarms noise makes in 20 or more of the {} healthy "
+                         "gearboxes; the report says which. All other thresholds: {}",
+                         false_alarm_rate, healthy, others);
+    }
     if (records > 1) {
         return record_shortage(healthy, records, false_alarm_rate, confidence);
     }
@@ -139,6 +188,9 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
                             const DetectionRequest& request, Subject subject) {
     if (features.empty() || features.front().levels.empty()) {
         return "";
+    }
+    if (request.threshold_tilt) {
+        return tilted_text(features, request);
     }
     const std::size_t levels = features.front().levels.size();
     std::vector<std::string> without;
@@ -187,8 +239,8 @@ std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& 
     };
     for (const RatePoint& point : curve.points) {
         text += fmt::format(" {:g}{}: {} [{}, {}];", point.false_alarm_rate,
-                            beyond_text(point.extrapolation), size(point.a90.estimate),
-                            size(point.a90.lower), size(point.a90.upper));
+                            beyond_text(point.extrapolation, point.tilted),
+                            size(point.a90.estimate), size(point.a90.lower), size(point.a90.upper));
     }
     return curve.points.back().false_alarm_rate > kCurveRates.back()
                ? text + " rarer ones: too few healthy ones"
@@ -201,9 +253,9 @@ std::string least_cost_text(const std::string& feature, const LeastCost& least, 
         "false-alarm rate {:.2g} [{:.2g}, {:.2g}], Pd {:.2f} [{:.2f}, {:.2f}] of the study's "
         "faults, bounds together at {:g} %; without any alarm {:.3g}{}",
         feature, least.cost, least.bounds.lower, least.bounds.upper, least.threshold,
-        beyond_text(least.extrapolation), least.false_alarm_rate, least.rate_bounds.lower,
-        least.rate_bounds.upper, least.pd, least.pd_bounds.lower, least.pd_bounds.upper,
-        100.0 * confidence, least.without,
+        beyond_text(least.extrapolation, least.tilted), least.false_alarm_rate,
+        least.rate_bounds.lower, least.rate_bounds.upper, least.pd, least.pd_bounds.lower,
+        least.pd_bounds.upper, 100.0 * confidence, least.without,
         least.rarest ? "; rarer alarms may cost less still, the healthy sample does not carry them"
                      : "");
 }
@@ -215,6 +267,7 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
             {{"false_alarm_rate", point.false_alarm_rate},
              {"threshold", number(point.threshold)},
              {"extrapolation", point.extrapolation > 0.0 ? Json(point.extrapolation) : nullptr},
+             {"tilted", point.tilted},
              {"threshold_bounds", pair_json(point.threshold_bounds)},
              {"a90", to_json(point.a90)}});
     }
@@ -224,6 +277,7 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
 nlohmann::json least_cost_json(const LeastCost& least) {
     return {{"threshold", number(least.threshold)},
             {"extrapolation", least.extrapolation > 0.0 ? Json(least.extrapolation) : nullptr},
+            {"tilted", least.tilted},
             {"false_alarm_rate", least.false_alarm_rate},
             {"rate_bounds", pair_json(least.rate_bounds)},
             {"pd", least.pd},

@@ -14,9 +14,10 @@ namespace gearpod::analysis {
 
 // Of `healthy` that set thresholds: that there is none, that they lie beyond the sample, or that
 // their false-alarm rate may be more than twice the one asked for, and how many it takes; "" where
-// they suffice. One sentence or two.
+// they suffice. One sentence or two. Of several records each, `tilted` ones serve some features
+// only: what the others rest on.
 std::string sample_shortage(long healthy, double false_alarm_rate, double confidence,
-                            Subject subject, long records = 1);
+                            Subject subject, long records = 1, bool tilted = false);
 
 // The same of the smallest sample among a report's thresholds, which names the noise levels that
 // have none at all.
@@ -35,10 +36,11 @@ std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& 
 std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence);
 
 // {"refusal", "points": [{"false_alarm_rate", "threshold", "extrapolation": null for an order
-//   statistic, "threshold_bounds": [lower, upper] (null: open), "a90": {"estimate", "lower",
-//   "upper"}}]}
+//   statistic, "tilted": of tilted records, "threshold_bounds": [lower, upper] (null: open), "a90":
+//   {"estimate", "lower", "upper"}}]}
 nlohmann::json false_alarm_json(const FalseAlarmCurve& curve);
-// {"threshold", "extrapolation", "false_alarm_rate", "rate_bounds", "pd", "pd_bounds", "cost",
+// {"threshold", "extrapolation", "tilted", "false_alarm_rate", "rate_bounds", "pd", "pd_bounds",
+// "cost",
 //  "bounds", "without", "rarest"}
 nlohmann::json least_cost_json(const LeastCost& least);
 

@@ -103,7 +103,7 @@ def _costs(report):
 
 
 def thresholds(report, page):
-    rows, extrapolated = [], []
+    rows, extrapolated, tilted = [], [], []
     for f, feature in enumerate(report.detection):
         sign = ">" if feature["alarm"] == "high" else "<"
         for level in feature["levels"]:
@@ -116,6 +116,11 @@ def thresholds(report, page):
             if level["tail"]:
                 extrapolated += [_tail_row(feature, level, choice)
                                  for choice in level["tail"]["choices"]]
+            if level["tilted"]:
+                tilted.append([feature["name"], f"× {number(level['noise_level'])}",
+                               count(level["tilted"]["gearboxes"]),
+                               number(level["tilted"]["carrying"], 3),
+                               f"{number(level['tilted']['extrapolation'], 2)}-fold"])
     units = ", ".join(f"{f['name']} in {f['unit']}" for f in report.data["features"]
                       if f["unit"] not in ("", "1"))
     body = paragraph(
@@ -135,6 +140,14 @@ def thresholds(report, page):
                  + table("Extrapolated thresholds",
                          ["feature", "noise", "beyond the sample", "values fitted", "that lie beyond",
                           "shape", "threshold", "rate expected of the threshold set"], extrapolated)
+                 + "</details>")
+    if tilted:
+        body += (note("Thresholds from tilted records: most have a stretch of noise drawn towards an alarm, "
+                      "and a weight that undoes it.")
+                 + "<details><summary>Which, and how many gearboxes carry them</summary>"
+                 + table("Thresholds from tilted records",
+                         ["feature", "noise", "healthy gearboxes", "of which carry the rate",
+                          "rarer than one in these"], tilted)
                  + "</details>")
     body += '<details><summary>What the features are</summary>' + table(
         "Features", ["feature", "unit", "alarms when", "definition"],

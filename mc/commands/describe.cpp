@@ -71,16 +71,16 @@ void print_false_alarms(const Study& study) {
     const long healthy = study.ensemble.threshold_instances,
                records = study.ensemble.threshold_records;
     print_heading("false alarms");
-    const std::string shortage =
-        analysis::sample_shortage(healthy, rate, confidence, analysis::Subject::gearboxes, records);
+    const std::string shortage = analysis::sample_shortage(
+        healthy, rate, confidence, analysis::Subject::gearboxes, records, study.ensemble.tilted());
     if (!shortage.empty()) {
         std::string text;
         analysis::add_wrapped(text, shortage, 2);
         fmt::print("{}", text);
         return;
     }
-    const analysis::Interval found =
-        analysis::threshold_rate_interval(healthy * records, rate, confidence);
+    const analysis::Interval found = analysis::threshold_rate_interval(
+        healthy * (study.ensemble.tilted() ? 1 : records), rate, confidence);
     print_entry(
         "rate",
         fmt::format("{:g}; {}{} healthy gearboxes fix it to between {:.2g} and {:.2g} at {:g} % "
@@ -138,7 +138,8 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
         fmt::format("{} graded and {} for the thresholds{}, {} noise levels",
                     study.ensemble.instances, study.ensemble.threshold_instances,
                     study.ensemble.threshold_records > 1
-                        ? fmt::format(" ({} records of each)", study.ensemble.threshold_records)
+                        ? fmt::format(" ({} {}records of each)", study.ensemble.threshold_records,
+                                      study.ensemble.tilted() ? "tilted " : "")
                         : "",
                     study.sensor.noise_levels.size()));
     const std::optional<std::size_t> distinct = distinct_marches(scene);

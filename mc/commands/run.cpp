@@ -64,7 +64,7 @@ class Run {
         if (const std::string shortage = analysis::sample_shortage(
                 study_.ensemble.threshold_instances, study_.detection.false_alarm_rate,
                 study_.detection.confidence, analysis::Subject::gearboxes,
-                study_.ensemble.threshold_records);
+                study_.ensemble.threshold_records, study_.ensemble.tilted());
             !shortage.empty()) {
             fmt::print(stderr, "{}: {}\n", options_.study.path, shortage);
         }

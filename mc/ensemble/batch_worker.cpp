@@ -32,9 +32,11 @@ BatchWorker::BatchWorker(const BatchTask& task)
       shape_(row_shape(task.sampler, task.scene.study())) {}
 
 BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
+    const NoiseDraws draws =
+        batch.group == Group::threshold ? threshold_draws(task_.scene.study()) : task_.graded_draws;
     std::vector<GearboxId> ids;
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
-        ids.push_back({batch.group, batch.first_index + i});
+        ids.push_back({batch.group, batch.first_index + i, Record::judged, 0, draws});
     }
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
@@ -60,9 +62,14 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
         const LaneSignals own = std::move(signals[lane]);  // freed when its row is done
         GearboxId id = ids[lane];
         const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
+        const bool tilted = id.draws != NoiseDraws::plain;
         for (id.repeat = 0; id.repeat < records; ++id.repeat) {
             rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
+            const std::size_t weight = rows.values.size() - 2;  // before the fault's size
             add_features(id, computed, lane, own, rows);
+            if (tilted && computed.status[lane] == Status::ok) {
+                rows.values[weight] = features_.noise_weight();
+            }
         }
     }
     const double spent_s = seconds_since(start);

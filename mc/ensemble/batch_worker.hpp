@@ -40,6 +40,8 @@ struct BatchTask {
     const signals::PathGrid path;
     const MarchCache marches;
     const HealthyReference healthy;
+    // Of graded gearboxes of several records; the sampler must have a column for their weights.
+    NoiseDraws graded_draws = NoiseDraws::plain;
 };
 
 // Holds scratch memory: one object per thread.

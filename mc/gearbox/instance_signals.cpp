@@ -1,6 +1,7 @@
 #include "mc/gearbox/instance_signals.hpp"
 
 #include <algorithm>
+#include <boost/random/uniform_01.hpp>
 
 #include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
@@ -94,6 +95,9 @@ void InstanceSignals::draw_sensor_noise(const LaneSignals& gearbox, const Instan
     if (!by_density) {
         Philox engine = noise_stream(scene_.study(), id, "noise.sensor");
         sensor_noise_.draw(engine, bins, noise_.sensor);
+        if (id.draws != NoiseDraws::plain) {
+            tilt_sensor_noise(gearbox, inputs, id);
+        }
     }
     if (!gearbox.sensor.empty()) {
         noise_.samples = sample_noise(scene_, inputs, gearbox.sensor, noise_.sensor, id);
@@ -105,9 +109,36 @@ void InstanceSignals::draw_sensor_noise(const LaneSignals& gearbox, const Instan
     }
 }
 
+void InstanceSignals::tilt_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                                        const GearboxId& id) {
+    const auto same = [&](const GearboxId& other) {
+        return other.group == id.group && other.index == id.index && other.draws == id.draws;
+    };
+    if (!tilt_ || !same(tilted_)) {
+        std::vector<double> sigmas;
+        for (const double level : scene_.study().sensor.noise_levels) {
+            sigmas.push_back(level * inputs.noise_m_s2);
+        }
+        tilt_.emplace(span_, scene_.samples_per_mesh(), scene_.study().features.tukey_taper);
+        tilt_->load(gearbox.folded, sigmas,
+                    id.draws == NoiseDraws::towards_alarms ? signals::NoiseTilt::Towards::loud
+                                                           : signals::NoiseTilt::Towards::quiet);
+        tilted_ = id;
+    }
+    Philox engine = noise_stream(scene_.study(), id, "noise.sensor.tilt");
+    const double pick = boost::random::uniform_01<double>()(engine);
+    tilt_->tilt(id.repeat % signals::NoiseTilt::kKinds, pick, noise_.sensor);
+    is_tilted_ = true;
+}
+
+double InstanceSignals::noise_weight() const {
+    return is_tilted_ ? tilt_->weight(noise_.sensor) : 1.0;
+}
+
 void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
                                  const GearboxId& id) {
     const Stopwatch watch(noise_s_);
+    is_tilted_ = false;
     const std::size_t bins = gearbox.folded.size();
     if (bins > 0 && senses_noise(inputs)) {
         draw_sensor_noise(gearbox, inputs, id);

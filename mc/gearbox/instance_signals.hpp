@@ -1,6 +1,7 @@
 // One gearbox's signals at every noise level, as features look at them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "mc/scene/scene.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/order_spectrum.hpp"
+#include "signals/windowing/noise_tilt.hpp"
 #include "signals/windowing/windowing.hpp"
 
 namespace gearpod::mc {
@@ -55,6 +57,8 @@ class InstanceSignals {
     features::FeatureInput at(std::size_t level);
 
     const NoiseOfInstance& noise() const { return noise_; }
+    // Of the gearbox and draws that were loaded last; 1 of plain ones.
+    double noise_weight() const;
     // Seconds that drawing noise has taken so far.
     double noise_s() const { return noise_s_; }
 
@@ -62,6 +66,9 @@ class InstanceSignals {
     // Whether any level adds noise to the sensor.
     bool senses_noise(const InstanceInputs& inputs) const;
     void draw_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
+                           const GearboxId& id);
+    // The record's kind, from its number.
+    void tilt_sensor_noise(const LaneSignals& gearbox, const InstanceInputs& inputs,
                            const GearboxId& id);
     // Zeros for what no level adds.
     void draw_noise(const LaneSignals& gearbox, const InstanceInputs& inputs, const GearboxId& id);
@@ -74,6 +81,9 @@ class InstanceSignals {
     const signals::SpanLayout span_;
     signals::SensorNoise sensor_noise_;
     signals::Windowing windowing_;
+    std::optional<signals::NoiseTilt> tilt_;  // of the last gearbox whose noise is tilted
+    GearboxId tilted_;                        // which that is
+    bool is_tilted_ = false;                  // the record loaded last
     signals::OrderSpectrum spectrum_;
     SpanAnalysis analysis_;
     bool needs_samples_;

@@ -100,7 +100,8 @@ GearboxId id_of_row(const Study& study, long row) {
     const long thresholds = study.ensemble.threshold_instances * records;
     return row < thresholds
                ? GearboxId{Group::threshold, static_cast<std::uint64_t>(row / records),
-                           Record::judged, static_cast<std::uint64_t>(row % records)}
+                           Record::judged, static_cast<std::uint64_t>(row % records),
+                           threshold_draws(study)}
                : GearboxId{Group::graded, static_cast<std::uint64_t>(row - thresholds)};
 }
 

@@ -164,8 +164,10 @@ class Examples {
                              read_part(frame_.provenance_value("part")).value_or(Part{}));
         const Batch batch = plan.batch(plan.batch_of_row(row));
         const std::size_t within = row - batch.first_row;
-        return {batch.group, batch.first_index + within / batch.records, Record::judged,
-                within % batch.records};
+        return {
+            batch.group, batch.first_index + within / batch.records, Record::judged,
+            within % batch.records,
+            batch.group == Group::threshold ? threshold_draws(scene_.study()) : NoiseDraws::plain};
     }
 
     Json run(const ExampleRow& row) {

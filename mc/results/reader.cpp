@@ -141,6 +141,8 @@ class Reader {
             results_.request.threshold_records = static_cast<std::size_t>(
                 std::clamp(read_number(group.get(), ".", "threshold_records"), 1.0, 1e9));
         }
+        results_.request.threshold_tilt =
+            std::ranges::count(link_names(open_group(root_, "instances").get()), kNoiseWeight) > 0;
         if (std::ranges::count(attribute_names(group.get()), "uncertain_inputs") > 0) {
             std::istringstream names(read_text(group.get(), ".", "uncertain_inputs"));
             for (std::string name; names >> name;) {

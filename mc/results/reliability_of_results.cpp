@@ -34,7 +34,7 @@ struct Columns {
 void check_condition(const Results& frame, const std::string& condition) {
     std::string names;
     for (const ParameterResult& parameter : frame.parameters) {
-        if (parameter.name == frame.request.size.name) {
+        if (parameter.name == frame.request.size.name || parameter.name == kNoiseWeight) {
             continue;
         }
         if (parameter.name == condition) {
@@ -61,21 +61,31 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     if (rows.rows() / records * shape.features * shape.levels > most_values) {
         return std::nullopt;
     }
-    Columns healthy(shape), graded(shape);
+    // Thresholds on all of them, so long as there is room for these.
+    const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
+    Columns healthy(shape), graded(shape), repeats(shape);
+    std::vector<std::size_t> gearbox;
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
             const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
-            const bool repeats = sets_threshold && (block.first + row) % records != 0;
-            if (block.group[row] == kUngraded || repeats) {
+            const double* values = block.values.data() + row * shape.values();
+            if (block.group[row] == kUngraded) {
                 continue;
             }
-            (sets_threshold ? healthy : graded)
-                .add(block.values.data() + row * shape.values(), shape);
+            if (sets_threshold && repeated) {
+                repeats.add(values, shape);
+                gearbox.push_back((block.first + row) / records);
+            }
+            if (!sets_threshold || (block.first + row) % records == 0) {
+                (sets_threshold ? healthy : graded).add(values, shape);
+            }
         }
     });
     const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
     analysis::ReliabilityData data;
     data.costs = costs;
+    data.record_gearbox = std::move(gearbox);
+    std::span<const double> weights;
     data.healthy_size = {no_fault.data(), healthy.rows};
     data.graded_size = {no_fault.data(), graded.rows};
     for (std::size_t p = 0; p < shape.parameters; ++p) {
@@ -83,6 +93,10 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
         if (parameter.name == frame.request.size.name) {
             data.healthy_size = healthy.parameters[p];
             data.graded_size = graded.parameters[p];
+            continue;
+        }
+        if (parameter.name == kNoiseWeight) {
+            weights = repeats.parameters[p];
             continue;
         }
         data.inputs.push_back({parameter.name, parameter.unit, graded.parameters[p]});
@@ -95,8 +109,10 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
         }
     }
     for (std::size_t f = 0; f < shape.features; ++f) {
-        data.features.push_back({frame.features[f].name, frame.features[f].alarm,
-                                 healthy.features[f], graded.features[f]});
+        const std::string& name = frame.features[f].name;
+        data.features.push_back({name, frame.features[f].alarm, healthy.features[f],
+                                 graded.features[f], repeats.features[f],
+                                 sees_tilt(name) ? weights : std::span<const double>()});
     }
     return analysis::assess_reliability(data, frame.detection, frame.request, threads);
 }

@@ -60,6 +60,9 @@ inline constexpr const char* kRecordingsKind = "recordings";
 // holds.
 inline constexpr const char* kLivesKind = "lives";
 
+// The parameter that holds the weights of tilted records (signals/windowing/noise_tilt.hpp).
+inline constexpr const char* kNoiseWeight = "noise_weight";
+
 struct ParameterResult {
     std::string name;
     std::string unit;

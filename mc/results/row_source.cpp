@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "analysis/detection/clusters.hpp"
+#include "features/feature.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -16,6 +17,7 @@ struct Sample {
     std::vector<double> size;
     std::vector<std::vector<double>> values;  // by feature: rows x levels
     std::vector<std::size_t> row;
+    std::vector<double> weight;  // of tilted records, else empty
 };
 
 // Whose records the rows are, by number: as many as a run's gearbox has, one after another, or the
@@ -44,16 +46,15 @@ class Gearboxes {
     std::vector<std::size_t> of_row_;  // the first row of the same one
 };
 
-// Where a row has its fault size, or nowhere.
-std::size_t size_column(const Results& frame) {
-    const auto found =
-        std::find_if(frame.parameters.begin(), frame.parameters.end(),
-                     [&](const auto& p) { return p.name == frame.request.size.name; });
+// Where a row has a parameter, or nowhere.
+std::size_t column_of(const Results& frame, const std::string& name) {
+    const auto found = std::find_if(frame.parameters.begin(), frame.parameters.end(),
+                                    [&](const auto& p) { return p.name == name; });
     return static_cast<std::size_t>(found - frame.parameters.begin());
 }
 
-void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at, std::size_t first,
-              Sample& healthy, Sample& graded) {
+void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
+              std::size_t weight_at, std::size_t first, Sample& healthy, Sample& graded) {
     for (std::size_t row = 0; row < block.count(); ++row) {
         if (block.group[row] == kUngraded) {
             continue;
@@ -62,6 +63,9 @@ void add_rows(const RowBlock& block, const RowShape& shape, std::size_t size_at,
         Sample& sample = block.group[row] == static_cast<int>(Group::threshold) ? healthy : graded;
         sample.row.push_back(block.first + row);
         sample.size.push_back(size_at < shape.parameters ? values[size_at] : 0.0);
+        if (weight_at < shape.parameters) {
+            sample.weight.push_back(values[weight_at]);
+        }
         for (std::size_t f = 0; f < sample.values.size(); ++f) {
             const double* feature = values + shape.value_of(first + f, 0);
             sample.values[f].insert(sample.values[f].end(), feature, feature + shape.levels);
@@ -101,6 +105,11 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
     }
 }
 
+bool sees_tilt(const std::string& feature) {
+    const features::Feature* found = features::find_feature(feature);
+    return found != nullptr && found->from_sensor;
+}
+
 RowShape row_shape(const Results& results) {
     return {results.parameters.size(), results.features.size(), results.noise_levels.size()};
 }
@@ -129,7 +138,8 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     const RowShape shape = row_shape(frame);
     const std::size_t each = 8 * std::max<std::size_t>(1, rows.rows() * shape.levels);
     const std::size_t at_once = std::max<std::size_t>(1, kBytes / each);
-    const std::size_t size_at = size_column(frame);
+    const std::size_t size_at = column_of(frame, frame.request.size.name);
+    const std::size_t weight_at = column_of(frame, kNoiseWeight);
     const Gearboxes gearboxes(frame);
     std::vector<analysis::FeatureDetection> all;
     for (std::size_t first = 0; first < shape.features; first += at_once) {
@@ -138,13 +148,19 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         healthy.values.resize(count);
         graded.values.resize(count);
         rows.visit([&](const RowBlock& block) {
-            add_rows(block, shape, size_at, first, healthy, graded);
+            add_rows(block, shape, size_at, weight_at, first, healthy, graded);
         });
         for (std::size_t f = 0; f < count; ++f) {
             const FeatureResult& feature = frame.features[first + f];
-            all.push_back(analysis::detect_clustered(
-                feature.name, feature.alarm, {healthy.size, healthy.values[f]},
-                gearboxes.of(healthy.row), {graded.size, graded.values[f]}, frame.request));
+            const std::vector<std::size_t> numbers = gearboxes.of(healthy.row);
+            analysis::FeatureSample sample{healthy.size, healthy.values[f]};
+            if (sees_tilt(feature.name)) {
+                sample.gearbox = numbers;
+                sample.weights = healthy.weight;
+            }
+            all.push_back(analysis::detect_clustered(feature.name, feature.alarm, sample, numbers,
+                                                     {graded.size, graded.values[f]},
+                                                     frame.request));
         }
     }
     return all;

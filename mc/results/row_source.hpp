@@ -53,6 +53,10 @@ class ColumnRows final : public RowSource {
 
 RowShape row_shape(const Results& results);
 
+// Whether a feature looks at the noise that tilted records tilt, so that their weights are for it:
+// for others all records are plain.
+bool sees_tilt(const std::string& feature);
+
 // Fills a frame's columns (results_frame()).
 void fill_columns(Results& results, const RowSource& rows);
 

@@ -193,6 +193,10 @@ Philox noise_stream(const Study& study, const GearboxId& id, std::string_view pu
                                std::string(purpose) + ".repeat." + std::to_string(id.repeat));
 }
 
+NoiseDraws threshold_draws(const Study& study) {
+    return study.ensemble.tilted() ? NoiseDraws::towards_alarms : NoiseDraws::plain;
+}
+
 Sampler::Sampler(const Study& study)
     : study_(study), copula_(study), turn_lengths_(turn_lengths(study.random)) {}
 
@@ -274,6 +278,9 @@ std::vector<ParameterColumn> Sampler::columns() const {
         const Key& key = key_of(input);
         columns.push_back({key.column(), std::string(key.unit.si_name)});
     }
+    if (study_.ensemble.tilted()) {
+        columns.push_back({"noise_weight", "1"});
+    }
     columns.push_back(
         {fault_size_column(study_), std::string(fault_size_key(study_).unit.si_name)});
     return columns;
@@ -286,6 +293,9 @@ std::vector<double> Sampler::row(Group group, std::uint64_t index) const {
         if (!is_fault_size(input)) {
             row.push_back(std::get<NumberAccess>(key_of(input).access).get(drawn).value_or(0.0));
         }
+    }
+    if (study_.ensemble.tilted()) {
+        row.push_back(1.0);
     }
     row.push_back(fault_size(drawn));
     return row;

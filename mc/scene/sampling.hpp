@@ -67,12 +67,17 @@ struct InstanceInputs {
 // Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.
 enum class Record { judged, baseline };
 
+// How a record's noise is drawn: as it is, or as one of several kinds in turn, most of them tilted
+// (signals/windowing/noise_tilt.hpp).
+enum class NoiseDraws { plain, towards_alarms, towards_misses };
+
 // Which gearbox: row `index` of its group; and which record of it.
 struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
     Record record = Record::judged;
     std::uint64_t repeat = 0;  // of the judged record, with other noise
+    NoiseDraws draws = NoiseDraws::plain;
 };
 
 // The random numbers for a purpose that belong to the gearbox, the same in all its records.
@@ -81,6 +86,9 @@ Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view 
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 // Those of its noise: every repeat has its own, the first that of the record.
 Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
+
+// How the records that set thresholds are drawn.
+NoiseDraws threshold_draws(const Study& study);
 
 // A random input that is given rather than drawn.
 struct GivenInput {
@@ -116,9 +124,10 @@ class Sampler {
     // The member whose speed InstanceInputs::speed_rad_s is: sun, ring or carrier, or the pinion.
     Member speed_member() const;
 
-    // Every random input, and the fault's size last: what /instances holds.
+    // Every random input, the weight of tilted records, and the fault's size last: what /instances
+    // holds.
     std::vector<ParameterColumn> columns() const;
-    // The values of one instance in that order, SI.
+    // The values of one instance in that order, SI; the weight of a plain record, 1.
     std::vector<double> row(Group group, std::uint64_t index) const;
 
   private:

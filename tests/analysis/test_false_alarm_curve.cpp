@@ -29,7 +29,7 @@ struct Study {
             value.push_back(sign * (size.back() + noise(engine)));
         }
     }
-    GradedValues values(Alarm alarm = Alarm::high) const { return {alarm, healthy, size, value}; }
+    GradedValues values(Alarm alarm = Alarm::high) const { return {alarm, {healthy}, size, value}; }
 };
 
 double true_a90(double rate) {

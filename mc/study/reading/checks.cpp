@@ -11,6 +11,7 @@
 #include "mc/study/reading/parts.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "signals/noise/low_pass_noise.hpp"
+#include "signals/windowing/noise_tilt.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -216,9 +217,23 @@ void check_precision(StudyDraft& draft) {
     }
 }
 
+// As many of each kind of tilted record.
+void check_records(StudyDraft& draft) {
+    const Ensemble& e = draft.study.ensemble;
+    constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
+    if (e.tilted() && draft.all_usable({"ensemble.threshold_records"}) &&
+        e.threshold_records % kKinds != 0) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("{} are no multiple of {} (ensemble.threshold_tilt)",
+                                 e.threshold_records, kKinds),
+                     fmt::format("take {}", (e.threshold_records / kKinds + 1) * kKinds));
+    }
+}
+
 }  // namespace
 
 void check_consistency(StudyDraft& draft) {
+    check_records(draft);
     check_operation(draft);
     check_path(draft);
     check_fixed_shaft_motion(draft);

@@ -340,6 +340,19 @@ Presence noise_density(const Study& s) {
                              : acceleration_detail(s);
 }
 
+Presence white_records(const Study& s) {
+    constexpr std::string_view kRecords = "ensemble.threshold_records";
+    if (s.ensemble.threshold_records == 1) {
+        return {Need::forbidden, "only with ensemble.threshold_records", {kRecords}};
+    }
+    constexpr std::string_view kDensity = "sensor.noise_density_m_s2_per_sqrt_Hz";
+    return s.sensor.noise_density_m_s2_per_sqrt_Hz
+               ? Presence{Need::forbidden,
+                          "noise_density_m_s2_per_sqrt_Hz colours the noise, which is tilted white",
+                          {kDensity, kMotion}}
+               : acceleration_detail(s);
+}
+
 Presence acceleration(const Study& s) {
     const Presence detail = acceleration_detail(s);
     return detail.need == Need::forbidden ? detail : Presence{Need::required, "", {kMotion}};

@@ -77,6 +77,7 @@ Presence damping_constant(const Study&);
 Presence acceleration(const Study&);  // required unless the motion is quasi-static
 Presence noise_rms(const Study&);     // has no place beside the density
 Presence noise_density(const Study&);
+Presence white_records(const Study&);        // only with several records, of white noise
 Presence acceleration_detail(const Study&);  // has no place where it is
 Presence integration(const Study&);          // has no place where nothing is integrated
 

@@ -116,6 +116,7 @@ const Key kKeys[] = {
     {"ensemble", "instances", integer<&Ensemble::instances>, kNone, from_to(1, 1e9), always, kShared, "gearboxes over all fault sizes"},
     {"ensemble", "threshold_instances", integer<&Ensemble::threshold_instances>, kNone, from_to(1, 1e9), always, kShared, "further healthy gearboxes that set the thresholds"},
     {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, from_to(1, 10000), may, kShared, "records of each of those: the same vibration with sensor and encoder noise drawn anew, for false-alarm rates that are rarer than one in the gearboxes"},
+    {"ensemble", "threshold_tilt", boolean<&Ensemble::threshold_tilt>, kNone, kAny, white_records, kShared, "three in four of those records have a stretch of noise tilted towards an alarm and a weight that undoes it: for false-alarm rates down to 1e-6 from the features of the accelerometer, where noise and not the gearbox makes the alarm"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
     {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, from_to(0, 1e6), may, kShared, "seconds between two checkpoints"},
     {"ensemble", "until.half_width", number<&Until::half_width>, kNone, inside(0, 0.5), may, kShared, "stop once Pd is known within this half width of its interval"},

@@ -98,6 +98,7 @@ analysis::DetectionRequest detection_request(const Study& study) {
         request.uncertain.push_back(find_key(path.substr(0, dot), path.substr(dot + 1))->column());
     }
     request.threshold_records = static_cast<std::size_t>(study.ensemble.threshold_records);
+    request.threshold_tilt = study.ensemble.tilted();
     return request;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/detection/clustered_rate.hpp"
 #include "analysis/detection/clusters.hpp"
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
@@ -127,7 +128,8 @@ TEST_CASE("Rates rarer than one in the gearboxes are covered by many records of 
     CHECK(apart.median_width > 3.0);
 }
 
-TEST_CASE("Rates of 1e-4 from 400 records of each of 2,000 gearboxes", "[.rare-coverage][rare-rates]") {
+TEST_CASE("Rates of 1e-4 from 400 records of each of 2,000 gearboxes",
+          "[.rare-coverage][rare-rates]") {
     for (const auto& [deviation, exponential] :
          {std::pair{0.0, false}, {0.3, false}, {0.6, false}, {1.0, false}, {0.3, true}}) {
         const RareCoverage found = rare_coverage(deviation, exponential, 2000, 400, 1e-4, 500);

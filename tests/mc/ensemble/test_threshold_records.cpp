@@ -12,12 +12,28 @@ namespace {
 
 constexpr int kGearboxes = 18, kRecords = 3, kGraded = 5;
 
-mc::Study study_of(int records, const std::string& lanes = "8") {
-    return shipped_study("planet-crack-ideal.toml",
-                         {"ensemble.threshold_instances=" + std::to_string(kGearboxes),
-                          "ensemble.instances=" + std::to_string(kGraded),
-                          "ensemble.threshold_records=" + std::to_string(records),
-                          "sensor.noise_levels=[0,1]", "numerics.lanes=" + lanes});
+mc::Study study_of(int records, const std::string& lanes = "8",
+                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> keys{"ensemble.threshold_instances=" + std::to_string(kGearboxes),
+                                  "ensemble.instances=" + std::to_string(kGraded),
+                                  "ensemble.threshold_records=" + std::to_string(records),
+                                  "sensor.noise_levels=[0,1]", "numerics.lanes=" + lanes};
+    keys.insert(keys.end(), more.begin(), more.end());
+    return shipped_study("planet-crack-ideal.toml", keys);
+}
+
+const std::vector<std::string> kTilt{"ensemble.threshold_tilt=true"};
+
+// Of a parameter or a feature's level.
+const std::vector<double>& parameter(const mc::Results& results, const std::string& name) {
+    return std::find_if(results.parameters.begin(), results.parameters.end(),
+                        [&](const auto& p) { return p.name == name; })
+        ->values;
+}
+double value_of(const mc::Results& results, const std::string& feature, std::size_t row) {
+    return std::find_if(results.features.begin(), results.features.end(),
+                        [&](const auto& f) { return f.name == feature; })
+        ->values[2 * row + 1];
 }
 
 }  // namespace
@@ -66,4 +82,70 @@ TEST_CASE("Records of a gearbox are the same bits by any lanes, and when simulat
                   results.features[f].values[2 * static_cast<std::size_t>(row) + level]);
         }
     }
+}
+
+TEST_CASE("Tilted records are plain ones but for stretches of their noise, with weights") {
+    constexpr int kTilted = 8;
+    const mc::Results plain = test::run(study_of(kTilted)),
+                      tilted = test::run(study_of(kTilted, "8", kTilt));
+    const std::vector<double>& weight = parameter(tilted, mc::kNoiseWeight);
+    REQUIRE(weight.size() == kGearboxes * kTilted + kGraded);
+    double sum = 0.0;
+    for (std::size_t row = 0; row < weight.size(); ++row) {
+        const bool graded = row >= kGearboxes * kTilted;
+        const bool untilted = graded || row % 4 == 0;
+        INFO(row << " " << weight[row]);
+        CHECK((value_of(tilted, "sensor_rms", row) == value_of(plain, "sensor_rms", row)) ==
+              untilted);
+        // A stretch that is not the loudest leaves the ratio as it is.
+        CHECK((value_of(tilted, "window_ratio", row) == value_of(plain, "window_ratio", row) ||
+               !untilted));
+        CHECK(value_of(tilted, "te_rms", row) == value_of(plain, "te_rms", row));
+        CHECK((graded ? weight[row] == 1.0 : weight[row] > 0.0 && weight[row] <= 4.0));
+        sum += graded ? 0.0 : weight[row] / (kGearboxes * kTilted);
+    }
+    CHECK(sum == Approx(1.0).margin(0.4));
+    CHECK(tilted.request.threshold_tilt);
+}
+
+TEST_CASE("Tilted records are the same bits by any lanes, and when simulated alone") {
+    const mc::Results results = test::run(study_of(4, "8", kTilt));
+    CHECK(bits(test::run(study_of(4, "1", kTilt))) == bits(results));
+    const mc::Study study = study_of(4, "8", kTilt);
+    const mc::Scene scene(study);
+    const mc::Simulation alone = mc::simulate(scene, mc::id_of_row(study, 4 * 5 + 3), 1);
+    for (std::size_t f = 0; f < results.features.size(); ++f) {
+        CHECK(alone.features[2 * f + 1] == results.features[f].values[2 * (4 * 5 + 3) + 1]);
+    }
+}
+
+TEST_CASE("Few gearboxes of tilted records have a threshold for 1e-3 where noise makes alarms") {
+    const mc::Results results =
+        test::run(study_of(16, "8",
+                           {"ensemble.threshold_tilt=true", "ensemble.threshold_instances=200",
+                            "sensor.noise_levels=[0,5]", "detection.false_alarm_rate=1e-3",
+                            "features.use=[\"window_ratio\"]"}));
+    const analysis::FeatureDetection found = mc::detect_all(results).front();
+    const analysis::LevelDetection& level = found.levels[1];
+    REQUIRE(level.tilted);
+    CHECK(level.tilted->gearboxes == 200);
+    CHECK(level.tilted->extrapolation == Approx(1.0 / (200 * 1e-3)));
+    CHECK(level.threshold_rate.lower < 1e-3);
+    CHECK(level.threshold_rate.upper > 1e-3);
+    CHECK(level.threshold_rate.upper / level.threshold_rate.lower < 3.0);
+}
+
+TEST_CASE("Tilt without records, of other numbers or of coloured noise is refused") {
+    const auto problem = [](const std::vector<std::string>& keys) {
+        return mc::format(mc::read_study(test::study("planet-crack-ideal.toml"), keys).problems);
+    };
+    CHECK_THAT(problem({"ensemble.threshold_tilt=true"}),
+               Catch::Contains("only with ensemble.threshold_records"));
+    CHECK_THAT(problem({"ensemble.threshold_tilt=true", "ensemble.threshold_records=6"}),
+               Catch::Contains("6 are no multiple of 4") && Catch::Contains("take 8"));
+    const auto coloured =
+        mc::format(mc::read_study(test::study("noise-density.toml"),
+                                  {"ensemble.threshold_tilt=true", "ensemble.threshold_records=8"})
+                       .problems);
+    CHECK_THAT(coloured, Catch::Contains("colours the noise"));
 }

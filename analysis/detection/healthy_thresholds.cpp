@@ -1,0 +1,85 @@
+#include "analysis/detection/healthy_thresholds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/detection/clustered_rate.hpp"
+
+namespace gearpod::analysis {
+
+bool HealthyValues::clustered() const {
+    return std::adjacent_find(gearbox.begin(), gearbox.end()) != gearbox.end();
+}
+
+HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) : alarm_(alarm) {
+    if (sample.weights.empty()) {
+        plain_.assign(sample.values.begin(), sample.values.end());
+        if (sample.clustered()) {
+            gearbox_.assign(sample.gearbox.begin(), sample.gearbox.end());
+        }
+        return;
+    }
+    tilted_.emplace(sample.values, sample.weights, sample.gearbox, alarm);
+    for (std::size_t i = 0; i < sample.values.size(); ++i) {
+        if (i == 0 || sample.gearbox[i] != sample.gearbox[i - 1]) {
+            plain_.push_back(sample.values[i]);
+        }
+    }
+}
+
+Threshold HealthyThresholds::at(double false_alarm_rate, double confidence) const {
+    if (const auto estimate =
+            tilted_ ? tilted_->threshold(false_alarm_rate, confidence) : std::nullopt) {
+        Threshold threshold;
+        threshold.value = estimate->threshold;
+        threshold.sample = tilted_->records();
+        threshold.alarms = estimate->alarms;
+        threshold.gearboxes = tilted_->gearboxes();
+        threshold.tilted = estimate;
+        return threshold;
+    }
+    Threshold threshold = alarm_threshold(plain_, alarm_, false_alarm_rate);
+    if (!gearbox_.empty() && threshold.tail) {
+        threshold.value = kNan;
+        threshold.tail.reset();
+    }
+    return threshold;
+}
+
+Interval HealthyThresholds::value_bounds(const Threshold& threshold, double false_alarm_rate,
+                                         double confidence) const {
+    if (threshold.tilted) {
+        return tilted_->threshold_interval(false_alarm_rate, *threshold.tilted);
+    }
+    if (gearbox_.empty()) {
+        return threshold_interval(plain_, alarm_, false_alarm_rate, confidence);
+    }
+    // A value's true rate is that of its rank times what the interval leaves open.
+    const Interval rate = rate_bounds(threshold, false_alarm_rate, confidence);
+    const std::vector<double> ascending =
+        largest_values(plain_, alarm_, static_cast<long>(plain_.size()));
+    const auto value = [&](double bound) {
+        const double wanted = false_alarm_rate * false_alarm_rate / bound;
+        const double rank = std::ceil((static_cast<double>(ascending.size()) + 1.0) *
+                                      (1.0 - std::min(1.0, wanted)));
+        const double sign = alarm_ == Alarm::high ? 1.0 : -1.0;
+        return rank > static_cast<double>(ascending.size())
+                   ? sign * std::numeric_limits<double>::infinity()
+                   : sign * ascending[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+    };
+    const Interval values{value(rate.lower), value(rate.upper)};
+    return alarm_ == Alarm::high ? values : Interval{values.upper, values.lower};
+}
+
+Interval HealthyThresholds::rate_bounds(const Threshold& threshold, double false_alarm_rate,
+                                        double confidence) const {
+    const Interval own = rate_of(threshold, alarm_, false_alarm_rate, 0, 0, confidence).bounds;
+    if (threshold.tilted || gearbox_.empty() || std::isnan(threshold.value)) {
+        return own;
+    }
+    const Interval clustered = clustered_rate_interval(plain_, gearbox_, alarm_, threshold.value,
+                                                       false_alarm_rate, confidence);
+    return {std::min(own.lower, clustered.lower), std::max(own.upper, clustered.upper)};
+}
+
+}  // namespace gearpod::analysis

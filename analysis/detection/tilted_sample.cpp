@@ -1,0 +1,200 @@
+#include "analysis/detection/tilted_sample.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/gamma.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "analysis/statistics/bivariate_tail.hpp"
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+namespace {
+
+// Rates of a gearbox beyond which its normal score is not known.
+constexpr double kRarest = 1e-12, kMostFrequent = 0.999;
+
+// Normal scores of the gearboxes' own rates, the most alarming first.
+std::vector<double> scores_of(const std::vector<double>& rates) {
+    std::vector<double> scores;
+    for (const double rate : rates) {
+        scores.push_back(normal_exceeded(std::clamp(rate, kRarest, kMostFrequent)));
+    }
+    std::sort(scores.begin(), scores.end());
+    return scores;
+}
+
+// Their scatter towards alarms, as a share of their variance and that of noise, 1.
+double share_towards_alarms(const std::vector<double>& scores) {
+    const std::size_t half = scores.size() / 2;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < half; ++i) {
+        squares += (scores[half] - scores[i]) * (scores[half] - scores[i]);
+    }
+    const double variance = squares / static_cast<double>(std::max<std::size_t>(1, half));
+    return variance / (1.0 + variance);
+}
+
+// The mean excess of the last tenth of the scores over where it begins.
+double last_excess(const std::vector<double>& scores) {
+    constexpr std::size_t kLeast = 5;
+    const std::size_t last = std::min(scores.size() - 1, std::max(kLeast, scores.size() / 10));
+    double excess = 0.0;
+    for (std::size_t i = 0; i < last; ++i) {
+        excess += (scores[last] - scores[i]) / static_cast<double>(last);
+    }
+    return excess;
+}
+
+// The rate that gearboxes add which are rarer than one in the sample, if their scores go on beyond
+// the most alarming one as those of the last tenth do, exponentially.
+double missing_rate(const std::vector<double>& scores) {
+    constexpr int kSteps = 400;
+    const double excess = last_excess(scores);
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        sum += normal_beyond(scores[0] + excess * std::log((i + 0.5) / kSteps));
+    }
+    return sum / kSteps / static_cast<double>(scores.size());
+}
+
+// How much like an exponential law's the last tenth's excess is beside the scatter, 1, and not like
+// a normal law's, 0, whose scores end sooner.
+double exponential_share(const std::vector<double>& scores, double share) {
+    constexpr double kNormal = 0.4735, kExponential = 0.7071;
+    const double scatter = std::sqrt(share / std::max(1e-12, 1.0 - share));
+    return scatter > 0.0
+               ? std::clamp((last_excess(scores) / scatter - kNormal) / (kExponential - kNormal),
+                            0.0, 1.0)
+               : 0.0;
+}
+
+}  // namespace
+
+TiltedSample::TiltedSample(std::span<const double> values, std::span<const double> weights,
+                           std::span<const std::size_t> gearbox, Alarm alarm)
+    : sign_(alarm == Alarm::high ? 1.0 : -1.0) {
+    for (std::size_t first = 0; first < values.size();) {
+        std::size_t end = first;
+        long finite = 0;
+        for (; end < values.size() && gearbox[end] == gearbox[first]; ++end) {
+            finite += std::isfinite(values[end]) ? 1 : 0;
+        }
+        for (std::size_t i = first; finite > 0 && i < end; ++i) {
+            if (std::isfinite(values[i])) {
+                falling_.push_back({sign_ * values[i],
+                                    weights[i] / static_cast<double>(end - first),
+                                    static_cast<std::size_t>(gearboxes_)});
+            }
+        }
+        records_ += finite;
+        gearboxes_ += finite > 0 ? 1 : 0;
+        first = end;
+    }
+    std::stable_sort(falling_.begin(), falling_.end(),
+                     [](const Record& a, const Record& b) { return a.value > b.value; });
+    double sum = 0.0;
+    cumulative_.push_back(0.0);
+    for (const Record& record : falling_) {
+        sum += record.share / static_cast<double>(gearboxes_);
+        cumulative_.push_back(sum);
+    }
+}
+
+std::size_t TiltedSample::beyond(double rate) const {
+    auto count = static_cast<std::size_t>(
+        std::upper_bound(cumulative_.begin(), cumulative_.end(), rate) - cumulative_.begin() - 1);
+    // Records that equal the threshold do not alarm.
+    while (count > 0 && count < falling_.size() &&
+           falling_[count - 1].value == falling_[count].value) {
+        --count;
+    }
+    return count;
+}
+
+std::vector<double> TiltedSample::own_rates(std::size_t beyond) const {
+    std::vector<double> rates(static_cast<std::size_t>(gearboxes_), 0.0);
+    for (std::size_t i = 0; i < beyond; ++i) {
+        rates[falling_[i].gearbox] += falling_[i].share;
+    }
+    return rates;
+}
+
+std::optional<TiltedSample::Estimate> TiltedSample::threshold(double rate,
+                                                              double confidence) const {
+    const std::size_t count = beyond(rate);
+    if (count == falling_.size()) {
+        return std::nullopt;
+    }
+    auto found = estimate(count, rate, confidence);
+    if (found) {
+        found->threshold = sign_ * falling_[count].value;
+    }
+    return found;
+}
+
+std::optional<TiltedSample::Estimate> TiltedSample::at(double threshold, double confidence) const {
+    const auto end = std::partition_point(
+        falling_.begin(), falling_.end(),
+        [value = sign_ * threshold](const Record& record) { return record.value > value; });
+    const auto count = static_cast<std::size_t>(end - falling_.begin());
+    auto found = estimate(count, cumulative_[count], confidence);
+    if (found) {
+        found->threshold = threshold;
+    }
+    return found;
+}
+
+std::optional<TiltedSample::Estimate> TiltedSample::estimate(std::size_t count, double rate,
+                                                             double confidence) const {
+    if (count == 0 || gearboxes_ < 2) {
+        return std::nullopt;
+    }
+    const auto all = static_cast<double>(gearboxes_);
+    const std::vector<double> rates = own_rates(count);
+    double sum = 0.0, squares = 0.0;
+    for (const double own : rates) {
+        sum += own;
+        squares += own * own;
+    }
+    const std::vector<double> scores = scores_of(rates);
+    const double share = share_towards_alarms(scores);
+    const double model = all * rate * rate / both_beyond(rate, share);
+    const double missing = missing_rate(scores);
+    Estimate found;
+    found.carrying = std::min(sum * sum / squares, model);
+    if (!(found.carrying >= kLeastCarrying) || missing > kMostUnseen * rate) {
+        return std::nullopt;
+    }
+    const double mean = sum / all;
+    const double seen = (squares / all - mean * mean) / (mean * mean * (all - 1.0));
+    const double variance = std::max({seen, 1.0 / model - 1.0 / all, 1e-12});
+    found.variance = variance;
+    const double tail = 0.5 * (1.0 - confidence);
+    const double narrower =
+        boost::math::quantile(boost::math::normal(), 1.0 - tail) /
+        boost::math::quantile(boost::math::students_t(found.carrying - 1.0), 1.0 - tail);
+    const double alarms = narrower * narrower / variance;
+    using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
+    found.rate = {
+        rate / alarms * boost::math::quantile(Gamma(alarms), tail),
+        rate / alarms * boost::math::quantile(boost::math::complement(Gamma(alarms + 1.0), tail)) +
+            exponential_share(scores, share) * missing};
+    found.expected = rate;
+    found.alarms = static_cast<long>(count);
+    return found;
+}
+
+Interval TiltedSample::threshold_interval(double rate, const Estimate& estimate) const {
+    // A value's true rate is the estimated one times what the interval leaves open.
+    const auto value = [&](double bound) {
+        const double wanted = rate * rate / bound;
+        const std::size_t count = std::min(beyond(wanted), falling_.size() - 1);
+        return sign_ * falling_[count].value;
+    };
+    const Interval values{value(estimate.rate.lower), value(estimate.rate.upper)};
+    return sign_ > 0.0 ? values : Interval{values.upper, values.lower};
+}
+
+}  // namespace gearpod::analysis

@@ -1,0 +1,36 @@
+#include "analysis/statistics/bivariate_tail.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/statistics/quiet_policy.hpp"
+
+namespace gearpod::analysis {
+
+double normal_beyond(double z) {
+    return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+double normal_exceeded(double p) {
+    return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * p, QuietPolicy());
+}
+
+double both_beyond(double rate, double share) {
+    if (share <= 0.0) {
+        return rate * rate;
+    }
+    constexpr double kReach = 9.0;
+    constexpr int kSteps = 600;
+    const double z = normal_exceeded(rate), own = std::sqrt(std::max(1e-9, 1.0 - share));
+    double sum = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double m = kReach * (2.0 * i / kSteps - 1.0);
+        const double one = normal_beyond((z - std::sqrt(share) * m) / own);
+        sum += std::exp(-0.5 * m * m) * one * one;
+    }
+    return sum * 2.0 * kReach / kSteps / std::sqrt(2.0 * std::numbers::pi);
+}
+
+}  // namespace gearpod::analysis
