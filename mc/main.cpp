@@ -111,6 +111,9 @@ int run_program(int argc, char** argv) {
     ReportOptions report;
     add_report(app, report, code);
 
+    MissesOptions misses;
+    add_misses(app, misses, code);
+
     CompareOptions compare;
     add_compare(app, compare, code);
 

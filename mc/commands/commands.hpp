@@ -76,6 +76,18 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+struct MissesOptions {
+    std::string results;
+    std::string feature;
+    double size = 0.0;                  // of the fault, in its unit
+    std::optional<double> noise_level;  // empty: the one that reports show first
+    long gearboxes = 200;
+    int records = 64;  // of each, most with tilted noise
+    std::string json;  // "": none; "-": standard output instead of the text
+    bool quiet = false;
+};
+int misses_command(const MissesOptions& options);
+
 struct CompareOptions {
     std::vector<std::string> results;  // the first is what the others are held against
     std::string json, html;            // "": none; JSON "-": standard output

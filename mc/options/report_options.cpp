@@ -27,4 +27,26 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
     command->callback([&report, &code] { code = report_command(report); });
 }
 
+void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
+    auto* command = app.add_subcommand(
+        "misses",
+        "how often a feature misses a fault of one size, where that is rare: computes gearboxes "
+        "with the fault, of each several records whose noise is tilted towards a miss");
+    command
+        ->add_option("results", misses.results,
+                     "results file (HDF5) of run, whose threshold it takes")
+        ->required();
+    command->add_option("--feature", misses.feature, "feature of the accelerometer")->required();
+    command->add_option("--size", misses.size, "fault size, in its unit in the study")->required();
+    command->add_option("--noise-level", misses.noise_level,
+                        "one of sensor.noise_levels; else 1 or the least above 0");
+    command->add_option("--gearboxes", misses.gearboxes, "how many; 200 unless given");
+    command->add_option("--records", misses.records,
+                        "of each, a multiple of four; 64 unless given");
+    needs_name(command->add_option("--json", misses.json,
+                                   "write JSON to a file, or to - for the terminal"));
+    command->add_flag("--quiet", misses.quiet, "show no progress");
+    command->callback([&misses, &code] { code = misses_command(misses); });
+}
+
 }  // namespace gearpod::mc

@@ -1,0 +1,103 @@
+#include "mc/ensemble/missed_faults.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// The records of some gearboxes, as TiltedSample takes them.
+struct Records {
+    std::vector<double> values, weights;
+    std::vector<std::size_t> gearbox;
+    long gearboxes = 0, failed = 0;
+
+    void add(const BatchRows& rows, const RowShape& shape, std::size_t records) {
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            const double* values_of = rows.values.data() + row * shape.values();
+            if (row % records == 0) {
+                ++gearboxes;
+                failed += rows.status[row] == static_cast<int>(Status::ok) ? 0 : 1;
+            }
+            values.push_back(values_of[shape.value_of(0, 0)]);
+            weights.push_back(values_of[shape.parameters - 2]);
+            gearbox.push_back(static_cast<std::size_t>(gearboxes));
+        }
+    }
+};
+
+}  // namespace
+
+Study study_of_misses(const Study& study, const MissQuestion& question) {
+    Study own = study;
+    const std::string size = fault_size_key(study).path();
+    std::erase_if(own.random, [&](const RandomInput& input) { return input.key == size; });
+    std::erase_if(own.correlations, [&](const Correlation& pair) {
+        return pair.first == size || pair.second == size;
+    });
+    set_fault_size(own, question.size);
+    own.detection.size_edges_m.clear();
+    own.detection.size_edges.clear();
+    own.features.use = {question.feature};
+    own.sensor.noise_levels = {question.noise_level};
+    own.ensemble.until = {};
+    own.ensemble.instances = question.gearboxes;
+    own.ensemble.threshold_records = question.records;
+    own.ensemble.threshold_tilt = true;
+    return own;
+}
+
+MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const Ranks& ranks,
+                         Progress& progress, const Interruption* interruption) {
+    const auto records = static_cast<std::size_t>(question.records);
+    const BatchPlan plan(0, question.gearboxes);
+    MemoryRows store(ranks.leads() ? plan.batches() : 0);
+    const EnsembleOutcome outcome = run_batches(
+        scene.study(), plan,
+        {.ranks = ranks, .store = store, .progress = progress, .interruption = interruption},
+        [&]() -> BatchComputers {
+            const auto task = std::make_shared<BatchTask>(scene);
+            task->graded_draws = NoiseDraws::towards_misses;
+            return [task, records]() -> BatchComputer {
+                const auto worker = std::make_shared<BatchWorker>(*task);
+                return [task, worker, records](Batch batch, Seconds& seconds) {
+                    batch.records = records;
+                    return worker->compute(batch, seconds);
+                };
+            };
+        });
+    MissAnswer answer;
+    if (!ranks.leads()) {
+        return answer;
+    }
+    if (!outcome.failure.empty() || !outcome.interruption.empty()) {
+        throw std::runtime_error(outcome.failure.empty() ? "stopped by " + outcome.interruption
+                                                         : outcome.failure);
+    }
+    const RowShape shape = row_shape(Sampler(scene.study()), scene.study());
+    Records all;
+    for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
+        all.add(store.read(batch), shape, records);
+    }
+    const bool high =
+        analysis::alarm_of(*features::find_feature(question.feature)) == analysis::Alarm::high;
+    // A miss lies on the threshold's other side.
+    const analysis::TiltedSample sample(all.values, all.weights, all.gearbox,
+                                        high ? analysis::Alarm::low : analysis::Alarm::high);
+    answer.misses = sample.at(question.threshold, scene.study().detection.confidence);
+    answer.gearboxes = all.gearboxes;
+    answer.failed = all.failed;
+    answer.records = static_cast<long>(all.values.size());
+    answer.counted = answer.misses ? (1.0 - answer.misses->expected) /
+                                         (answer.misses->expected * answer.misses->variance)
+                                   : std::numeric_limits<double>::quiet_NaN();
+    return answer;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,96 @@
+// misses: rates of misses against counted ones, the same bits by any threads and ranks.
+#include <nlohmann/json.hpp>
+
+#include "mc/results/results_file.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::program;
+using test::shell;
+
+namespace {
+
+// Healthy gearboxes set thresholds, 30 with a crack of 2 mm count misses.
+std::string run_small(const test::Folder& folder, const std::string& more = "") {
+    const std::string results = folder.file("ideal.h5");
+    const test::Outcome run =
+        program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + results +
+                " --instances 40 --set ensemble.threshold_instances=100 --set "
+                "'sensor.noise_levels=[0,2]' --set 'features.use=[\"te_rms\",\"window_ratio\"]' " +
+                more);
+    REQUIRE(run.code == 0);
+    return results;
+}
+
+const std::string kAsked = " --feature window_ratio --size 1 --quiet --json -";
+
+}  // namespace
+
+TEST_CASE("Rates of misses are those of counted ones") {
+    const test::Folder folder;
+    const std::string results = run_small(folder);
+    const test::Outcome tilted =
+        program("misses " + results + " --gearboxes 60 --records 32" + kAsked);
+    INFO(tilted.output);
+    REQUIRE(tilted.code == 0);
+    const auto answer = nlohmann::json::parse(tilted.output);
+    CHECK(answer["noise_level"] == 2.0);
+    REQUIRE(answer["miss_rate"].is_number());
+    // Other gearboxes of the same study, a plain record of each, against the same threshold.
+    const double threshold = answer["threshold"];
+    const std::string counted = folder.file("counted.h5");
+    REQUIRE(program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
+                    " --instances 1000 --seed 77 --set ensemble.threshold_instances=8 --set "
+                    "'sensor.noise_levels=[0,2]' --set 'features.use=[\"window_ratio\"]' --set "
+                    "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'")
+                .code == 0);
+    const mc::Results rows = mc::read_results(counted);
+    double misses = 0.0, all = 0.0;
+    for (std::size_t row = 0; row < rows.status.size(); ++row) {
+        if (rows.group[row] == 1) {
+            all += 1.0;
+            misses += rows.features[0].values[2 * row + 1] <= threshold ? 1.0 : 0.0;
+        }
+    }
+    const double rate = misses / all, error = std::sqrt(rate * (1.0 - rate) / all);
+    INFO(rate << " counted");
+    CHECK(answer["lower"].get<double>() < rate + 3.0 * error);
+    CHECK(answer["upper"].get<double>() > rate - 3.0 * error);
+}
+
+TEST_CASE("Rates of misses have the same bits by any threads") {
+    const test::Folder folder;
+    const std::string asked =
+        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
+    const test::Outcome one =
+        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + asked);
+    REQUIRE(one.code == 0);
+    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + asked).output ==
+          one.output);
+}
+
+TEST_CASE("Rates of misses have the same bits by any ranks", "[mpi]") {
+    const test::Folder folder;
+    const std::string asked =
+        "misses " + run_small(folder) + " --gearboxes 40 --records 8" + kAsked;
+    const test::Outcome one = program(asked);
+    REQUIRE(one.code == 0);
+    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
+}
+
+TEST_CASE("What misses cannot be asked of is refused, every problem at once") {
+    const test::Folder folder;
+    const std::string results = run_small(folder);
+    const test::Outcome wrong =
+        program("misses " + results + " --feature te_rms --size 0 --noise-level 3 --records 6");
+    CHECK(wrong.code == 2);
+    CHECK(wrong.mentions("--feature: \"te_rms\" does not look at the accelerometer"));
+    CHECK(wrong.mentions("--size: 0 is no fault"));
+    CHECK(wrong.mentions("--noise-level: 3 is none of the file's levels above 0: 0, 2"));
+    CHECK(wrong.mentions("--records: 6 is no multiple of 4"));
+    const test::Outcome unknown = program("misses " + results + " --feature nothing --size 1");
+    CHECK(unknown.code == 2);
+    CHECK(unknown.mentions("which has te_rms, window_ratio"));
+    CHECK(program("misses " + results + " --feature window_ratio --size 900").code == 2);
+    CHECK(program("misses " + folder.file("none.h5") + " --feature fm4 --size 1").code == 2);
+}
