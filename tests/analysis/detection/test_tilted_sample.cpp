@@ -144,7 +144,7 @@ TEST_CASE("Rates of thresholds from tilted records are covered") {
 }
 
 TEST_CASE("Rates of thresholds from tilted records are covered in 500 studies",
-          "[.tilted-coverage][rare-rates]") {
+          "[.rare-coverage][tilted-rates]") {
     struct Case {
         double deviation;
         Law law;
