@@ -50,13 +50,14 @@ def page_html(data, figures=None):
     import charts
     from blocks import Page
     from lives import lives_page
-    from pages import comparison_page, inspection_page, sweep_page
+    from pages import comparison_page, inspection_page, lives_sweep_page, sweep_page
     from words import escape
 
     page = Page(figures)
     command, make = {"inspection": ("pod", inspection_page.parts),
                      "comparison": ("compare", comparison_page.parts),
                      "sweep": ("sweep", sweep_page.parts),
+                     "lives-sweep": ("sweep", lives_sweep_page.parts),
                      "lives": ("lives", lives_page.parts)}.get(
                          data.get("kind"), ("report", study_parts))
     title, sentence, answer, body = make(data, page)

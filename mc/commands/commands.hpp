@@ -48,6 +48,7 @@ int run_command(const RunOptions& options);
 
 struct SweepOptions {
     StudyOptions study;
+    bool lives = false;             // points are `lives`, else `run`
     std::vector<std::string> vary;  // "section.key=[a, b, c]"
     std::string out;                // folder of the results; "": the study's name with -sweep
     std::string json, html;         // "": none; JSON "-": standard output

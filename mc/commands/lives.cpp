@@ -16,7 +16,6 @@
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
-#include "mc/lives/campaign.hpp"
 #include "mc/lives/life_rows.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
@@ -37,9 +36,9 @@ struct LivesOutputs {
 bool tell(const Study& study, const Results& frame, const RowSource& rows,
           const LivesOutputs& outputs) {
     const Campaign campaign = campaign_of(study, frame, rows);
-    const auto monitored = monitor(study, campaign);
+    const LifeMonitor monitor(study, campaign);
     if (!outputs.json.empty() || !outputs.html.empty() || !outputs.figures.empty()) {
-        const auto json = lives_json(study, campaign, monitored);
+        const auto json = lives_json(monitor);
         if (!outputs.json.empty() && !write_text_to(outputs.json, json_text(json, 2) + "\n")) {
             return false;
         }
@@ -51,7 +50,7 @@ bool tell(const Study& study, const Results& frame, const RowSource& rows,
         }
     }
     if (outputs.json != "-" && outputs.says_text) {
-        fmt::print("{}", lives_text(study, campaign, monitored));
+        fmt::print("{}", lives_text(monitor));
         if (!outputs.html.empty()) {
             fmt::print("\npage: {}\n", outputs.html);
         }
@@ -87,11 +86,13 @@ int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks&
             const StoredRows rows(checkpoint, plan, outcome.batches);
             const std::string path = results_path(run);
             write_results(path, frame, rows);
-            if (!tell(study, frame, rows, {options.json, options.html, "", true})) {
-                return kBadInput;
-            }
-            if (options.json != "-") {
-                fmt::print("\nresults: {}\n", path);
+            if (run.says_results) {
+                if (!tell(study, frame, rows, {options.json, options.html, "", true})) {
+                    return kBadInput;
+                }
+                if (options.json != "-") {
+                    fmt::print("\nresults: {}\n", path);
+                }
             }
             const bool failed = count_rows(rows).failed() > 0;
             checkpoint.remove();
@@ -138,8 +139,12 @@ std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study&
 }  // namespace
 
 int lives_command(const LivesOptions& options) {
-    const RunOptions& run = options.run;
     const Ranks ranks;
+    return lives_study(options, ranks);
+}
+
+int lives_study(const LivesOptions& options, const Ranks& ranks) {
+    const RunOptions& run = options.run;
     std::optional<std::chrono::seconds> limit;
     const bool good_limit = check_time_limit(run, limit);
     const Interruption interruption(limit);

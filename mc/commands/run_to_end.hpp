@@ -14,6 +14,8 @@ namespace gearpod::mc {
 
 // `run` itself, by ranks that are there already. All of them call it.
 int run_study(const RunOptions& options, const Ranks& ranks);
+// The same of `lives`.
+int lives_study(const LivesOptions& options, const Ranks& ranks);
 
 // That a run which ends before its time goes on from its checkpoint, on stderr.
 void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,

@@ -15,8 +15,10 @@
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/lives/life_rows.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
+#include "mc/sweep/lives_summary.hpp"
 #include "mc/sweep/summary.hpp"
 
 namespace gearpod::mc {
@@ -49,7 +51,12 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
     std::set<std::string> said;
     for (const SweepPoint& point : points) {
         const RunOptions run = run_of(options, point);
-        for (Problem& problem : read_study(run.study.path, run.study.overrides).problems) {
+        StudyReading reading = read_study(run.study.path, run.study.overrides);
+        if (options.lives && reading.study && !reading.study->life.interval_h) {
+            reading.problems.push_back({run.study.path, 0, "life.interval_h",
+                                        "missing: how often a gearbox is measured", "add [life]"});
+        }
+        for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {
                 const bool of_key = (key.key + ".").starts_with(problem.key + ".");
                 if (problem.file == "--set" && of_key) {
@@ -64,10 +71,24 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
     return all;
 }
 
+// Keys that a sweep of runs does not look at.
+Problems keys_of_lives(const SweepOptions& options, const std::vector<VariedKey>& keys) {
+    Problems all;
+    for (const VariedKey& key : keys) {
+        const bool of_lives = key.key.starts_with("life.") || key.key.starts_with("monitoring.") ||
+                              key.key.starts_with("random.life.");
+        if (of_lives && !options.lives) {
+            all.push_back({"--vary", 0, key.key, "is looked at by `lives`, not by `run`",
+                           "sweep with --lives"});
+        }
+    }
+    return all;
+}
+
 // What is there of a point: nothing, something to go on from, or all.
 enum class Progressed { nothing, some, all };
 
-Progressed progressed(const RunOptions& run) {
+Progressed progressed(const RunOptions& run, bool lives) {
     const std::string path = results_path(run);
     if (fs::exists(checkpoint_path(path))) {
         return run.force ? Progressed::nothing : Progressed::some;
@@ -79,10 +100,12 @@ Progressed progressed(const RunOptions& run) {
         const Results old = read_frame(path);
         const StudyScene made = make_scene(run.study);
         const Study& study = made.scene->study();
-        if (!why_not_grown(old, path, study, Part{}).empty()) {
+        const bool are_lives = old.provenance_value("kind") == kLivesKind;
+        if (are_lives != lives || !why_not_grown(old, path, study, Part{}).empty()) {
             return Progressed::nothing;  // the run says why it does not overwrite it
         }
-        const bool enough = FileRows(path, old).rows() >= plan_of(run, study).rows() ||
+        const BatchPlan plan = lives ? lives_plan(study) : plan_of(run, study);
+        const bool enough = FileRows(path, old).rows() >= plan.rows() ||
                             old.provenance_value("state") == "ended by ensemble.until";
         return enough ? Progressed::all : Progressed::some;
     } catch (const std::exception&) {
@@ -109,8 +132,8 @@ class Sweep {
   private:
     int run_point(std::size_t p) {
         RunOptions run = run_of(options_, points_[p]);
-        const Progressed there =
-            ranks_.leads() ? progressed(run) : Progressed::nothing;  // the leader's counts
+        const Progressed there = ranks_.leads() ? progressed(run, options_.lives)
+                                                : Progressed::nothing;  // the leader's counts
         const std::string order = ranks_.from_leader(std::to_string(static_cast<int>(there)));
         const auto decided = static_cast<Progressed>(std::stoi(order));
         if (ranks_.leads() && !options_.quiet) {
@@ -123,7 +146,7 @@ class Sweep {
             return kDone;
         }
         run.resume = decided == Progressed::some;
-        return run_study(run, ranks_);
+        return options_.lives ? lives_study({run, "", ""}, ranks_) : run_study(run, ranks_);
     }
 
     int stopped(std::size_t finished, int code) const {
@@ -135,26 +158,54 @@ class Sweep {
         return code;
     }
 
-    // False after a message.
-    bool write_files(const std::vector<PointSummary>& summaries) const {
-        if (options_.json.empty() && options_.html.empty()) {
-            return true;
+    // What the points come to.
+    struct Told {
+        std::string text;
+        nlohmann::ordered_json json;
+        bool failed = false;               // some of the gearboxes
+        std::vector<std::string> results;  // files
+    };
+
+    Told told_of_runs(const std::string& title) const {
+        std::vector<PointSummary> summaries;
+        Told told;
+        for (const SweepPoint& point : points_) {
+            told.results.push_back(results_path(run_of(options_, point)));
+            summaries.push_back(summarise(point, told.results.back(), thread_count()));
+            told.failed = told.failed || summaries.back().failed > 0;
         }
-        const auto study = read_study(options_.study.path, options_.study.overrides).study;
-        const auto json = sweep_json(study ? printable(study->title) : "", keys_, summaries);
+        told.text = sweep_text(keys_, summaries);
+        told.json = sweep_json(title, keys_, summaries);
+        return told;
+    }
+
+    Told told_of_lives(const std::string& title) const {
+        std::vector<LivesPoint> summaries;
+        Told told;
+        for (const SweepPoint& point : points_) {
+            told.results.push_back(results_path(run_of(options_, point)));
+            summaries.push_back(summarise_lives(point, told.results.back()));
+            told.failed = told.failed || summaries.back().failed > 0;
+        }
+        told.text = lives_sweep_text(keys_, summaries);
+        told.json = lives_sweep_json(title, keys_, summaries);
+        return told;
+    }
+
+    // False after a message.
+    bool write_files(const nlohmann::ordered_json& json) const {
         return (options_.json.empty() || write_text_to(options_.json, json_text(json, 2) + "\n")) &&
                (options_.html.empty() ||
                 write_text_to(options_.html, report_page(json_text(json))));
     }
 
     int conclude() const {
-        std::vector<PointSummary> summaries;
+        Told told;
         try {
-            for (const SweepPoint& point : points_) {
-                const std::string path = results_path(run_of(options_, point));
-                summaries.push_back(summarise(point, path, thread_count()));
-            }
-            if (!write_files(summaries)) {
+            const auto study = read_study(options_.study.path, options_.study.overrides).study;
+            const std::string title = study ? printable(study->title) : "";
+            told = options_.lives ? told_of_lives(title) : told_of_runs(title);
+            if (!write_files(told.json)) {
                 return kBadInput;
             }
         } catch (const std::exception& error) {
@@ -162,18 +213,16 @@ class Sweep {
             return kBadInput;
         }
         if (options_.json != "-") {
-            fmt::print("{}results: {}\n", sweep_text(keys_, summaries), folder_of(options_));
+            fmt::print("{}results: {}\n", told.text, folder_of(options_));
             if (!options_.html.empty()) {
                 fmt::print("page: {}\n", options_.html);
             }
-            if (summaries.size() > 1) {
-                fmt::print("differences with intervals: gearpod compare {} {}\n",
-                           summaries[0].results, summaries[1].results);
+            if (told.results.size() > 1 && !options_.lives) {
+                fmt::print("differences with intervals: gearpod compare {} {}\n", told.results[0],
+                           told.results[1]);
             }
         }
-        const bool failed = std::ranges::any_of(
-            summaries, [](const PointSummary& point) { return point.failed > 0; });
-        return failed ? kSomeFailed : kDone;
+        return told.failed ? kSomeFailed : kDone;
     }
 
     const SweepOptions& options_;
@@ -211,6 +260,9 @@ int sweep_command(const SweepOptions& options) {
     const Ranks ranks;
     Problems problems;
     const std::vector<VariedKey> keys = read_varied(options.vary, problems);
+    for (Problem& problem : keys_of_lives(options, keys)) {
+        problems.push_back(std::move(problem));
+    }
     std::vector<SweepPoint> points;
     if (problems.empty()) {
         points = grid_of(keys);

@@ -2,17 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <stdexcept>
-#include <tuple>
 
-#include "analysis/detection/feature_alarm.hpp"
-#include "analysis/monitoring/own_baseline.hpp"
 #include "mc/lives/life_rows.hpp"
-#include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -56,128 +49,6 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
     seconds.gearboxes += costs.gearbox_count;
     seconds.records += costs.record_count;
     return rows;
-}
-
-// A feature of all lives, or several as one.
-class Watched {
-  public:
-    Watched(const Study& study, const Campaign& campaign, std::vector<std::size_t> features)
-        : study_(study), features_(std::move(features)) {
-        for (const features::Feature* feature : used_features(study)) {
-            alarms_.push_back(analysis::alarm_of(*feature));
-        }
-        setting_ = healthy(campaign.setting);
-        healthy_ = healthy(campaign.healthy);
-        cracked_ = cracked(campaign.cracked);
-    }
-
-    analysis::LifeAnswers by(const analysis::Detector& detector, double per_1000_h) const {
-        return analysis::answer(detector, setting_, healthy_, cracked_, per_1000_h,
-                                study_.detection.confidence);
-    }
-
-    FeatureFan fan(const std::string& name) const {
-        constexpr std::size_t kDrawn = 32;
-        FeatureFan fan{name, {}, {}, {}, {}};
-        for (std::size_t r = 0; r < static_cast<std::size_t>(study_.life.records); ++r) {
-            std::vector<double> all;
-            for (const analysis::HealthyLife& life : healthy_) {
-                if (!std::isnan(life.values[r])) {
-                    all.push_back(life.values[r]);
-                }
-            }
-            std::ranges::sort(all);
-            for (const auto& [share, into] :
-                 {std::pair{0.05, &fan.low}, {0.5, &fan.median}, {0.95, &fan.high}}) {
-                into->push_back(all.empty() ? std::nan("")
-                                            : all[static_cast<std::size_t>(
-                                                  share * static_cast<double>(all.size() - 1))]);
-            }
-        }
-        for (std::size_t g = 0; g < std::min(kDrawn, cracked_.size()); ++g) {
-            fan.lives.push_back(cracked_[g].values);
-        }
-        return fan;
-    }
-
-  private:
-    std::vector<double> deviations(const GearboxLife& life) const {
-        std::vector<double> torque;
-        if (study_.monitoring.torque_regression) {
-            for (const LifeRecord& record : life.history.records) {
-                torque.push_back(record.torque);
-            }
-        }
-        const auto baseline = static_cast<std::size_t>(study_.monitoring.baseline_records);
-        if (features_.size() == 1) {
-            return analysis::own_deviations(life.values[features_[0]], torque, baseline,
-                                            alarms_[features_[0]]);
-        }
-        return analysis::fused_deviations(life.values, torque, baseline, alarms_);
-    }
-
-    std::vector<analysis::HealthyLife> healthy(const std::vector<GearboxLife>& lives) const {
-        std::vector<analysis::HealthyLife> all;
-        for (const GearboxLife& life : lives) {
-            if (life.status == Status::ok) {
-                analysis::HealthyLife one{deviations(life), 0.0};
-                one.hours = *study_.life.interval_h *
-                            static_cast<double>(std::ranges::count_if(
-                                one.values, [](double value) { return !std::isnan(value); }));
-                all.push_back(std::move(one));
-            }
-        }
-        return all;
-    }
-
-    std::vector<analysis::CrackedLife> cracked(const std::vector<GearboxLife>& lives) const {
-        std::vector<analysis::CrackedLife> all;
-        for (const GearboxLife& life : lives) {
-            if (life.status != Status::ok) {
-                continue;
-            }
-            analysis::CrackedLife one;
-            one.values = deviations(life);
-            for (const LifeRecord& record : life.history.records) {
-                one.hours.push_back(record.hours);
-                one.sizes.push_back(record.depth_m);
-            }
-            one.first = life.history.first_cracked;
-            one.end_hours = life.history.end_hours;
-            all.push_back(std::move(one));
-        }
-        return all;
-    }
-
-    const Study& study_;
-    const std::vector<std::size_t> features_;
-    std::vector<analysis::Alarm> alarms_;
-    std::vector<analysis::HealthyLife> setting_, healthy_;
-    std::vector<analysis::CrackedLife> cracked_;
-};
-
-// Every feature, and what they say together, where that is more.
-void for_each_watched(const Study& study, const Campaign& campaign,
-                      const std::function<void(const std::string&, const Watched&)>& use) {
-    std::vector<std::size_t> all;
-    for (std::size_t f = 0; f < study.features.use.size(); ++f) {
-        use(study.features.use[f], Watched(study, campaign, {f}));
-        all.push_back(f);
-    }
-    if (all.size() > 1 && study.monitoring.baseline_records > 0) {
-        use("fused", Watched(study, campaign, all));
-    }
-}
-
-// The first is the better one: more found, then shallower.
-bool better(const analysis::LifeAnswers& a, const analysis::LifeAnswers& b) {
-    const auto key = [](const analysis::LifeAnswers& one) {
-        const auto depth = [](double value) {
-            return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
-        };
-        return std::tuple(-one.found, depth(one.size_90.value), depth(one.size_50.value));
-    };
-    return key(a) < key(b);
 }
 
 }  // namespace
@@ -241,50 +112,6 @@ Campaign run_campaign(const Scene& scene) {
     Results frame = lives_frame(study);
     note_run(scene, outcome, frame);
     return campaign_of(study, frame, StoredRows(store, plan, outcome.batches));
-}
-
-std::vector<MonitoredFeature> monitor(const Study& study, const Campaign& campaign) {
-    std::vector<MonitoredFeature> monitored;
-    for_each_watched(study, campaign, [&](const std::string& name, const Watched& watched) {
-        for (const std::string& text : study.monitoring.detectors) {
-            monitored.push_back({name, text,
-                                 watched.by(*analysis::parse_detector(text),
-                                            study.monitoring.false_alarms_per_1000_h)});
-        }
-    });
-    return monitored;
-}
-
-std::vector<TradeOff> trade_offs(const Study& study, const Campaign& campaign,
-                                 const std::vector<MonitoredFeature>& monitored) {
-    std::vector<TradeOff> all;
-    for_each_watched(study, campaign, [&](const std::string& name, const Watched& watched) {
-        const MonitoredFeature* best = nullptr;
-        for (const MonitoredFeature& one : monitored) {
-            if (one.feature == name && (best == nullptr || better(one.answers, best->answers))) {
-                best = &one;
-            }
-        }
-        TradeOff trade{name, best->detector, {}};
-        for (const double factor : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
-            const double rate = factor * study.monitoring.false_alarms_per_1000_h;
-            const auto answers = watched.by(*analysis::parse_detector(best->detector), rate);
-            if (!std::isnan(answers.threshold.value)) {
-                trade.points.push_back({rate, answers.false_alarms.per_1000_h, answers.share,
-                                        answers.size_50.value, answers.size_90.value});
-            }
-        }
-        all.push_back(std::move(trade));
-    });
-    return all;
-}
-
-std::vector<FeatureFan> fans(const Study& study, const Campaign& campaign) {
-    std::vector<FeatureFan> all;
-    for_each_watched(study, campaign, [&](const std::string& name, const Watched& watched) {
-        all.push_back(watched.fan(name));
-    });
-    return all;
 }
 
 }  // namespace gearpod::mc

@@ -1,10 +1,9 @@
-// Lives of many gearboxes, and what the study's monitoring makes of them.
+// Lives of many gearboxes.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "analysis/monitoring/life_answers.hpp"
 #include "mc/ensemble/ensemble.hpp"
 #include "mc/lives/life_tile.hpp"
 
@@ -31,33 +30,5 @@ Campaign campaign_of(const Study& study, const Results& frame, const RowSource& 
 
 // All in memory and in this process.
 Campaign run_campaign(const Scene& scene);
-
-// Of a feature of the study, or "fused", by one detector.
-struct MonitoredFeature {
-    std::string feature, detector;
-    analysis::LifeAnswers answers;
-};
-std::vector<MonitoredFeature> monitor(const Study& study, const Campaign& campaign);
-
-// What more or fewer false alarms would win or lose, by the detector that is best at the study's.
-struct TradeOff {
-    struct Point {
-        double stated_per_1000_h, per_1000_h;  // set, and counted on other lives
-        double share, depth_50_m, depth_90_m;
-    };
-    std::string feature, detector;
-    std::vector<Point> points;
-};
-std::vector<TradeOff> trade_offs(const Study& study, const Campaign& campaign,
-                                 const std::vector<MonitoredFeature>& monitored);
-
-// Deviations from the own baseline, by record: of the healthy lives that count false alarms 5, 50
-// and 95 %, and of the first lives with a crack each; NaN where the monitor sees none.
-struct FeatureFan {
-    std::string feature;
-    std::vector<double> low, median, high;
-    std::vector<std::vector<double>> lives;
-};
-std::vector<FeatureFan> fans(const Study& study, const Campaign& campaign);
 
 }  // namespace gearpod::mc

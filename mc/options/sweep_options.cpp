@@ -16,6 +16,9 @@ void add_sweep(CLI::App& app, SweepOptions& options, int& code) {
         ->type_name("SECTION.KEY=[A,B,...]")
         ->required()
         ->allow_extra_args(false);
+    command->add_flag("--lives", options.lives,
+                      "what `lives` does in place of `run`: cracks found before the tooth goes, "
+                      "warning times and false alarms at every combination");
     add_shorthand(*command, "--instances", "ensemble.instances", "gearboxes over all fault sizes",
                   options.study);
     add_shorthand(*command, "--seed", "ensemble.seed", "seed of all random numbers", options.study);

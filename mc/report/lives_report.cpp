@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -35,10 +36,9 @@ LifeJson numbers_json(const std::vector<double>& values) {
     return all;
 }
 
-LifeJson trade_offs_json(const Study& study, const Campaign& campaign,
-                         const std::vector<MonitoredFeature>& monitored) {
+LifeJson trade_offs_json(const LifeMonitor& monitor) {
     LifeJson all = LifeJson::array();
-    for (const TradeOff& trade : trade_offs(study, campaign, monitored)) {
+    for (const TradeOff& trade : monitor.trade_offs()) {
         LifeJson points = LifeJson::array();
         for (const TradeOff::Point& point : trade.points) {
             points.push_back({{"stated_per_1000_h", point.stated_per_1000_h},
@@ -53,9 +53,9 @@ LifeJson trade_offs_json(const Study& study, const Campaign& campaign,
     return all;
 }
 
-LifeJson fans_json(const Study& study, const Campaign& campaign) {
+LifeJson fans_json(const LifeMonitor& monitor) {
     LifeJson all = LifeJson::array();
-    for (const FeatureFan& fan : fans(study, campaign)) {
+    for (const FeatureFan& fan : monitor.fans()) {
         LifeJson lives = LifeJson::array();
         for (const std::vector<double>& life : fan.lives) {
             lives.push_back(numbers_json(life));
@@ -85,25 +85,55 @@ std::string costs_text(const Campaign& campaign) {
         costs.gearbox_count, costs.record_count);
 }
 
-std::string row_text(const MonitoredFeature& one, const Study& study) {
-    const analysis::LifeAnswers& a = one.answers;
-    const analysis::FalseAlarms& f = a.false_alarms;
-    return fmt::format(
-        "{:<20}{:<12}{:>10}{:>22}{:>20}{:>9}{:>19}{:>9}{:>9}\n", one.feature, one.detector,
-        number_or_dash(a.threshold.value),
-        fmt::format("{} [{}, {}]", number_or_dash(f.per_1000_h), number_or_dash(f.bounds.lower),
-                    number_or_dash(f.bounds.upper)),
-        fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended, a.share_bounds.lower,
-                    a.share_bounds.upper),
-        depth_text(a.size_50.value, study),
-        depth_text(a.size_90.value, study) + " (" + depth_text(a.size_90.bound, study) + ")",
-        number_or_dash(a.warning_50), number_or_dash(a.warning_90));
+// "27/32 [0.68, 0.93]"; "-" where no tooth goes, or there is no threshold.
+std::string share_text(const analysis::LifeAnswers& a) {
+    return std::isnan(a.share) ? "-"
+                               : fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended,
+                                             a.share_bounds.lower, a.share_bounds.upper);
+}
+
+std::string row_text(const std::string& feature, const std::string& detector,
+                     const std::vector<std::string>& cells) {
+    constexpr std::array<int, 7> kWidths{10, 22, 20, 9, 19, 9, 9};
+    std::string row = fmt::format("{:<20}{:<12}", feature, detector);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        row += fmt::format("{:>{}}", cells[c], kWidths[c]);
+    }
+    return row + "\n";
 }
 
 }  // namespace
 
-std::string lives_text(const Study& study, const Campaign& campaign,
-                       const std::vector<MonitoredFeature>& monitored) {
+std::vector<std::string> answer_columns(const Study& study) {
+    return {"threshold",
+            "false alarms/1000 h",
+            "found before end",
+            "mm 50 %",
+            fmt::format("90 % ({:g} % conf.)", 100.0 * study.detection.confidence),
+            "warn h",
+            "9 in 10"};
+}
+
+std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Study& study) {
+    const analysis::FalseAlarms& f = a.false_alarms;
+    return {number_or_dash(a.threshold.value),
+            std::isnan(f.per_1000_h)
+                ? "-"
+                : fmt::format("{} [{}, {}]", number_or_dash(f.per_1000_h),
+                              number_or_dash(f.bounds.lower), number_or_dash(f.bounds.upper)),
+            share_text(a),
+            depth_text(a.size_50.value, study),
+            std::isnan(a.size_90.value) ? "-"
+                                        : depth_text(a.size_90.value, study) + " (" +
+                                              depth_text(a.size_90.bound, study) + ")",
+            number_or_dash(a.warning_50),
+            number_or_dash(a.warning_90)};
+}
+
+std::string lives_text(const LifeMonitor& monitor) {
+    const Study& study = monitor.study();
+    const Campaign& campaign = monitor.campaign();
+    const auto& monitored = monitor.answers();
     const auto ended = std::ranges::count_if(
         campaign.cracked, [](const GearboxLife& one) { return one.history.end_hours.has_value(); });
     std::string out = fmt::format(
@@ -128,11 +158,9 @@ std::string lives_text(const Study& study, const Campaign& campaign,
         off.first, 1e3 * first_interpolated_m(study.life), off.last,
         1e3 * last_interpolated_m(study.life), off.load);
     out += costs_text(campaign) + "\n";
-    out += fmt::format("{:<20}{:<12}{:>10}{:>22}{:>20}{:>9}{:>19}{:>9}{:>9}\n", "feature",
-                       "detector", "threshold", "false alarms/1000 h", "found before end",
-                       "mm 50 %", "90 % (95 % conf.)", "warn h", "9 in 10");
+    out += row_text("feature", "detector", answer_columns(study));
     for (const MonitoredFeature& one : monitored) {
-        out += row_text(one, study);
+        out += row_text(one.feature, one.detector, answer_cells(one.answers, study));
     }
     for (const MonitoredFeature& one : monitored) {
         if (std::isnan(one.answers.threshold.value)) {
@@ -147,34 +175,39 @@ std::string lives_text(const Study& study, const Campaign& campaign,
     return out;
 }
 
-nlohmann::json lives_json(const Study& study, const Campaign& campaign,
-                          const std::vector<MonitoredFeature>& monitored) {
+nlohmann::json answers_json(const MonitoredFeature& one) {
+    const analysis::LifeAnswers& a = one.answers;
+    return {{"feature", one.feature},
+            {"detector", one.detector},
+            {"threshold", analysis::number(a.threshold.value)},
+            {"threshold_hours", a.threshold.hours},
+            {"false_alarms",
+             {{"count", a.false_alarms.alarms},
+              {"hours", a.false_alarms.hours},
+              {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
+              {"bounds", interval_json(a.false_alarms.bounds)},
+              {"dispersion", a.false_alarms.dispersion},
+              {"expected", interval_json(a.expected_per_1000_h)}}},
+            {"ended", a.ended},
+            {"found", a.found},
+            {"share", analysis::number(a.share)},
+            {"share_bounds", interval_json(a.share_bounds)},
+            {"depth_50_m", analysis::number(a.size_50.value)},
+            {"depth_50_bound_m", analysis::number(a.size_50.bound)},
+            {"depth_90_m", analysis::number(a.size_90.value)},
+            {"depth_90_bound_m", analysis::number(a.size_90.bound)},
+            {"warning_50_h", analysis::number(a.warning_50)},
+            {"warning_90_h", analysis::number(a.warning_90)}};
+}
+
+nlohmann::json lives_json(const LifeMonitor& monitor) {
+    const Study& study = monitor.study();
+    const Campaign& campaign = monitor.campaign();
     LifeJson watched = LifeJson::array(), lives = LifeJson::array();
     const InterpolationErrors& off = campaign.interpolation;
-    for (const MonitoredFeature& one : monitored) {
-        const analysis::LifeAnswers& a = one.answers;
-        watched.push_back({{"feature", one.feature},
-                           {"detector", one.detector},
-                           {"threshold", analysis::number(a.threshold.value)},
-                           {"threshold_hours", a.threshold.hours},
-                           {"false_alarms",
-                            {{"count", a.false_alarms.alarms},
-                             {"hours", a.false_alarms.hours},
-                             {"per_1000_h", analysis::number(a.false_alarms.per_1000_h)},
-                             {"bounds", interval_json(a.false_alarms.bounds)},
-                             {"dispersion", a.false_alarms.dispersion},
-                             {"expected", interval_json(a.expected_per_1000_h)}}},
-                           {"ended", a.ended},
-                           {"found", a.found},
-                           {"share", analysis::number(a.share)},
-                           {"share_bounds", interval_json(a.share_bounds)},
-                           {"depth_50_m", analysis::number(a.size_50.value)},
-                           {"depth_50_bound_m", analysis::number(a.size_50.bound)},
-                           {"depth_90_m", analysis::number(a.size_90.value)},
-                           {"depth_90_bound_m", analysis::number(a.size_90.bound)},
-                           {"warning_50_h", analysis::number(a.warning_50)},
-                           {"warning_90_h", analysis::number(a.warning_90)},
-                           {"alarm_h", numbers_json(a.alarm_hours)}});
+    for (const MonitoredFeature& one : monitor.answers()) {
+        watched.push_back(answers_json(one));
+        watched.back()["alarm_h"] = numbers_json(one.answers.alarm_hours);
     }
     for (const GearboxLife& life : campaign.cracked) {
         LifeJson hours = LifeJson::array(), depths = LifeJson::array();
@@ -212,8 +245,8 @@ nlohmann::json lives_json(const Study& study, const Campaign& campaign,
               {"records", campaign.costs.record_count},
               {"record_s", campaign.costs.records}}},
             {"monitored", watched},
-            {"trade_offs", trade_offs_json(study, campaign, monitored)},
-            {"fans", fans_json(study, campaign)},
+            {"trade_offs", trade_offs_json(monitor)},
+            {"fans", fans_json(monitor)},
             {"lives", lives}};
 }
 

@@ -3,29 +3,37 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
-#include "mc/lives/campaign.hpp"
+#include "mc/lives/life_monitor.hpp"
 
 namespace gearpod::mc {
 
+// What a feature and detector come to, a cell a column of answer_columns(): threshold, false alarms
+// with their interval, share found, depths at 50 and at 90 % with its bound, hours before for 50 %
+// and for nine in ten.
+std::vector<std::string> answer_columns(const Study& study);
+std::vector<std::string> answer_cells(const analysis::LifeAnswers& answers, const Study& study);
+
 // Ends with a newline.
-std::string lives_text(const Study& study, const Campaign& campaign,
-                       const std::vector<MonitoredFeature>& monitored);
+std::string lives_text(const LifeMonitor& monitor);
+
+// Of one feature by one detector: {"feature", "detector", "threshold", "threshold_hours",
+// "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion", "expected"}, "ended",
+// "found", "share", "share_bounds", "depth_50_m", "depth_50_bound_m", "depth_90_m",
+// "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as below.
+nlohmann::json answers_json(const MonitoredFeature& monitored);
 
 // {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",
 // "first_depth_m", "last_depth_m", "healthy_lives": {"setting", "counting"},
 // "false_alarms_per_1000_h" (stated), "failed", "interpolation": {"first_depth_m", "first",
 // "last_depth_m", "last", "load"}, "costs":
-// {"gearboxes", "gearbox_s", "records", "record_s"}, "monitored": [{"feature", "detector",
-// "threshold", "threshold_hours", "false_alarms": {"count", "hours", "per_1000_h", "bounds",
-// "dispersion", "expected"}, "ended", "found", "share", "share_bounds", "depth_50_m",
-// "depth_50_bound_m", "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h", "alarm_h"
-// (by life that did not fail)}], "trade_offs": [{"feature", "detector", "points":
+// {"gearboxes", "gearbox_s", "records", "record_s"}, "monitored": [answers_json() with "alarm_h"
+// (by life that did not fail)], "trade_offs": [{"feature", "detector", "points":
 // [{"stated_per_1000_h", "per_1000_h", "share", "depth_50_m", "depth_90_m"}]}], "fans":
 // [{"feature", "healthy_05", "healthy_50", "healthy_95" (by record), "lives": [deviations]}],
 // "lives": [{"status", "end_h", "hours", "depth_m"}]}; null where that many are not found, or there
 // is nothing to say.
-nlohmann::json lives_json(const Study& study, const Campaign& campaign,
-                          const std::vector<MonitoredFeature>& monitored);
+nlohmann::json lives_json(const LifeMonitor& monitor);
 
 }  // namespace gearpod::mc

@@ -12,6 +12,7 @@
 #include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/sweep/columns.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -48,28 +49,6 @@ void add_levels(const Results& frame, const analysis::Reliability& reliability,
                                         size(at.hit_miss.a90.upper), at.pd});
         }
     }
-}
-
-// Columns of text, numbers to the right but for the last column.
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-    std::vector<std::size_t> width;
-    for (const auto& line : lines) {
-        width.resize(std::max(width.size(), line.size()));
-        for (std::size_t c = 0; c < line.size(); ++c) {
-            width[c] = std::max(width[c], line[c].size());
-        }
-    }
-    std::string text;
-    for (const auto& line : lines) {
-        std::string row;
-        for (std::size_t c = 0; c < line.size(); ++c) {
-            row += c + 1 == line.size()
-                       ? "  " + line[c]
-                       : fmt::format("{}{:>{}}", c == 0 ? "" : "  ", line[c], width[c]);
-        }
-        text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
 }
 
 std::string size_cell(const PointSummary& point, double noise_level) {

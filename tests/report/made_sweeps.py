@@ -1,4 +1,4 @@
-"""Sweeps that nobody ran, as gearpod sweep --json would say them."""
+"""Sweeps that nobody ran, as gearpod sweep --json and gearpod sweep --lives --json would say them."""
 
 import itertools
 
@@ -48,6 +48,53 @@ def sweep(varied, nothing=False):
             "points": [point(names, values, k, nothing) for k, values in enumerate(grid)]}
 
 
+LIVES = {
+    "lives_sweep_one": [("life.interval_h", ["1", "5", "20", "100"])],
+    "lives_sweep_two": [("life.torque_scatter", ["0", "0.02", "0.1"]),
+                        ("gearbox.tooth_quality", ["4", "6", "8"])]}
+
+
+def answers(feature, detector, found, threshold=True):
+    """Of 30 lives; without a threshold nothing is known."""
+    if not threshold:
+        return {"feature": feature, "detector": detector, "threshold": None, "threshold_hours": 500,
+                "false_alarms": {"count": 0, "hours": 500, "per_1000_h": None,
+                                 "bounds": [None, None], "dispersion": 1, "expected": [None, None]},
+                "ended": 0, "found": 0, "share": None, "share_bounds": [None, None],
+                **{key: None for key in ("depth_50_m", "depth_50_bound_m", "depth_90_m",
+                                         "depth_90_bound_m", "warning_50_h", "warning_90_h")}}
+    share, deep = found / 30, 4e-3 - 1e-4 * found
+    return {"feature": feature, "detector": detector, "threshold": 3.2, "threshold_hours": 5000,
+            "false_alarms": {"count": 6, "hours": 6000, "per_1000_h": 1,
+                             "bounds": [0.4 + 0.01 * found, 2.1], "dispersion": 1.2,
+                             "expected": [0.5, 1.8]},
+            "ended": 30, "found": found, "share": share,
+            "share_bounds": [max(0, share - 0.1), min(1, share + 0.1)],
+            "depth_50_m": deep / 2 if found > 15 else None, "depth_50_bound_m": deep / 1.8,
+            "depth_90_m": deep if found > 27 else None,
+            "depth_90_bound_m": 1.1 * deep if found > 28 else None,
+            "warning_50_h": 20.0 * found if found else None,
+            "warning_90_h": 4.0 * found if found else None}
+
+
+def lives_sweep(varied, threshold=True):
+    names = [name for name, _ in varied]
+    points = []
+    for k, values in enumerate(itertools.product(*(values for _, values in varied))):
+        points.append({
+            "results": f"sweep/{k}.h5", "values": dict(zip(names, values)), "lives": 32,
+            "failed": k % 2, "confidence": 0.95, "false_alarms_per_1000_h": 1,
+            "last_depth_m": 4e-3, "record": "81 turns of 31 mesh periods",
+            "interpolation": {"first": 0.2, "last": 0.05, "load": None if k else 0.01},
+            "monitored": [answers(feature, detector, max(0, 30 - (d + 2 * k + 9 * f)), threshold)
+                          for f, feature in enumerate(("change_window_ratio", "window_z", "fused"))
+                          for d, detector in enumerate(("single", "cusum 0.5"))]})
+    return {"kind": "lives-sweep", "title": "Lives <b> & \"sons\"",
+            "varied": [{"key": name, "values": values} for name, values in varied],
+            "best": {"feature": "change_window_ratio", "detector": "single"} if threshold else None,
+            "points": points}
+
+
 def all_of():
     made = {name: sweep(varied) for name, varied in VARIED.items()}
     made["sweep_nothing"] = sweep(VARIED["sweep_one"], nothing=True)
@@ -55,4 +102,7 @@ def all_of():
     for at in silent["points"]:
         at.update(features=[], smallest_fault=[], shown_level=None)
     made["sweep_silent"] = silent
+    for name, varied in LIVES.items():
+        made[name] = lives_sweep(varied)
+    made["lives_sweep_blind"] = lives_sweep(LIVES["lives_sweep_one"], threshold=False)
     return made

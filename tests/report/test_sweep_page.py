@@ -42,7 +42,8 @@ class MadeUp(unittest.TestCase):
 
     def test_a_chart_a_value_of_the_second_key(self):
         charts = {"sweep_one": 3, "sweep_two": 9, "sweep_words": 3, "sweep_three": 12,
-                  "sweep_single": 3, "sweep_nothing": 1, "sweep_silent": 0}
+                  "sweep_single": 3, "sweep_nothing": 1, "sweep_silent": 0,
+                  "lives_sweep_one": 4, "lives_sweep_two": 12, "lives_sweep_blind": 0}
         for name, wanted in charts.items():
             self.assertEqual(parsed(name).count("svg"), wanted, name)
         self.assertIn("integrator = newmark", parsed("sweep_two").text())
@@ -71,8 +72,23 @@ class MadeUp(unittest.TestCase):
         self.assertIn("none in any of 5 studies", parsed("sweep_nothing").text())
         self.assertIn("computes no feature", parsed("sweep_silent").text())
 
+    def test_lives_are_named_with_what_finds_them(self):
+        said = parsed("lives_sweep_one").text().replace("\u00a0", " ")
+        self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth goes "
+                      "at interval_h = 1, 80 % at interval_h = 100", said)
+        self.assertIn("480 h before or earlier at interval_h = 100, 600 h at interval_h = 1", said)
+        html = build_page.page_html(MADE["lives_sweep_two"])
+        table = html[html.index("<tbody>"):html.index("</tbody>")]
+        rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]
+        self.assertEqual(len(rows), 9)
+        for row, point in zip(rows, MADE["lives_sweep_two"]["points"]):
+            self.assertEqual(row[:2], list(point["values"].values()))
+            self.assertTrue(row[3].startswith(f"{point['monitored'][0]['found']}/30"), row[3])
+        self.assertIn("too few for a threshold", parsed("lives_sweep_blind").text())
+
     def test_text_is_never_markup(self):
         self.assertNotIn("<b>", build_page.page_html(MADE["sweep_one"]))
+        self.assertNotIn("<b>", build_page.page_html(MADE["lives_sweep_one"]))
         self.assertIn("uniform, 300, 500", parsed("sweep_words").text())
 
 

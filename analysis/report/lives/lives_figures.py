@@ -83,7 +83,7 @@ def _deviations(campaign, best, page):
             axes.plot([alarm], [values[round(alarm / step)]], marker="o", color=colour(1),
                       markersize=4.5, markeredgewidth=0, zorder=4)
     if largest > 50.0:
-        axes.set_yscale("symlog", linthresh=5.0)
+        _set_decades(axes)
     axes.axvline(campaign.crack_h, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.set_xlabel("Machine hours (dashed: the crack is there)")
     axes.set_ylabel("Deviation, own standard deviations")
@@ -91,6 +91,16 @@ def _deviations(campaign, best, page):
     return to_svg(figure, f"{name}: deviation from the own baseline over machine hours",
                   f"{len(one['lives'])} lives that crack, and where nine in ten healthy ones lie",
                   page.names)
+
+
+def _set_decades(axes):
+    """Linear to 5, then by decades, with marks from 10 on: those below would touch 0."""
+    axes.set_yscale("symlog", linthresh=5.0)
+    low, high = axes.get_ylim()
+    decades = [10.0 ** k for k in range(1, 12)]
+    marks = [-d for d in reversed(decades) if -d >= low] + [0.0] + [d for d in decades if d <= high]
+    axes.set_yticks(marks, [number(mark) for mark in marks])
+    axes.minorticks_off()
 
 
 def warning_times(campaign, page):

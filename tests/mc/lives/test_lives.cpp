@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "mc/gearbox/instance_features.hpp"
-#include "mc/lives/campaign.hpp"
+#include "mc/lives/life_monitor.hpp"
 #include "mc/results/results_file.hpp"
 #include "mc/results/row_source.hpp"
 #include "stiffness/growth/root_crack.hpp"
@@ -103,7 +103,8 @@ TEST_CASE("A life of one record with a population threshold is the snapshot stud
     }
     const mc::Scene scene(shipped_study("planet-crack-ideal.toml", one));
     const auto campaign = mc::run_campaign(scene);
-    const auto monitored = mc::monitor(scene.study(), campaign);
+    const mc::LifeMonitor monitor(scene.study(), campaign);
+    const auto& monitored = monitor.answers();
     for (std::size_t f = 0; f < 2; ++f) {
         INFO(monitored[f].feature);
         REQUIRE(monitored[f].feature == snapshot.features[f].name);
@@ -219,8 +220,9 @@ TEST_CASE("Lives that were stopped go on to the same bits") {
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
                                 " --set ensemble.threshold_instances=40 --out ";
     const auto whole = told(program(command + folder.file("w.h5")));
-    const Outcome stopped = shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +
-                                  command + folder.file("s.h5"));
+    const Outcome stopped =
+        shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +
+              command + folder.file("s.h5"));
     CHECK((stopped.code == 4 || stopped.code == 0));  // of a fast machine: all were done
     CHECK(std::filesystem::exists(folder.file("s.h5.part")) == (stopped.code == 4));
     CHECK(told(program(command + folder.file("s.h5") + " --resume")) == whole);

@@ -1,6 +1,7 @@
 // gearpod sweep: a study at every combination of some values.
 #include <nlohmann/json.hpp>
 
+#include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -123,4 +124,63 @@ TEST_CASE("A sweep does not write over another study's results") {
     CHECK(bytes_of(folder.file("s/gain=1.h5")) == before);
     CHECK(program(sweep(folder, vary + "--set operation.torque_N_m=300 --force")).code == 0);
     CHECK(bytes_of(folder.file("s/gain=1.h5")) != before);
+}
+
+TEST_CASE("A sweep of lives has the lives of the command, and goes on") {
+    const Folder folder;
+    std::string study = test::study("planet-crack-ideal.toml");
+    for (const std::string& one : test::kLife) {
+        study += " --set '" + one + "'";
+    }
+    study +=
+        " --set 'features.use=[\"sensor_rms\",\"window_ratio\"]'"
+        " --set monitoring.false_alarms_per_1000_h=10 ";
+    const auto swept = [&](const std::string& values) {
+        return program("sweep --lives " + study + "--out " + folder.file("s") +
+                       " --vary life.interval_h=" + values + " --json -");
+    };
+    const Outcome first = swept("[5,10]");
+    INFO(first.output);
+    REQUIRE(first.code == 0);
+    const auto json = nlohmann::json::parse(first.output.substr(first.output.find('{')));
+    CHECK(json["kind"] == "lives-sweep");
+    REQUIRE(json["points"].size() == 2);
+    for (const auto& point : json["points"]) {
+        const std::string hours = point["values"]["life.interval_h"];
+        const Outcome alone =
+            program("lives " + study + "--quiet --force --set life.interval_h=" + hours +
+                    " --out " + folder.file("l.h5") + " --json -");
+        REQUIRE(alone.code == 0);
+        CHECK(bits(point["results"]) == bits(folder.file("l.h5")));
+        auto monitored = nlohmann::json::parse(alone.output)["monitored"];
+        for (auto& one : monitored) {
+            one.erase("alarm_h");
+        }
+        CHECK(point["monitored"] == monitored);
+        CHECK(point["lives"] == 3);
+    }
+    // The same gearboxes and records: those before the crack hear the same at any interval.
+    const auto five = mc::read_results(folder.file("s/interval_h=5.h5")),
+               ten = mc::read_results(folder.file("s/interval_h=10.h5"));
+    CHECK(five.features[0].values[0] == ten.features[0].values[0]);
+    const Outcome more = swept("[5,10,20]");
+    CHECK(more.mentions("1 of 3, interval_h=5: is finished"));
+    CHECK(more.mentions("3 of 3, interval_h=20: begins"));
+
+    const Outcome text = program("sweep --lives " + study + "--quiet --out " + folder.file("s") +
+                                 " --vary life.interval_h=[5,10]");
+    CHECK(text.code == 0);
+    CHECK(text.mentions("which find most over all points"));
+    CHECK(text.mentions("found before end"));
+}
+
+TEST_CASE("What a sweep of runs, or of lives, does not look at is refused") {
+    const Folder folder;
+    const Outcome runs = program(sweep(folder, "--vary life.interval_h=[1,2]"));
+    CHECK(runs.code == 2);
+    CHECK(runs.mentions("--vary: life.interval_h: is looked at by `lives`, not by `run`"));
+    const Outcome lives = program(sweep(folder, "--lives --vary sensor.gain=[1,2]"));
+    CHECK(lives.code == 2);
+    CHECK(lives.mentions("life.interval_h: missing"));
+    CHECK(folder.empty());
 }

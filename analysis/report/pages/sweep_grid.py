@@ -1,0 +1,189 @@
+"""The points of a sweep in charts and tables: along one key, a chart a combination of the others."""
+
+import itertools
+import math
+import re
+
+from matplotlib.ticker import MaxNLocator
+
+import blocks
+from charts import INK, colour, dash, legend_above, marker, panel, to_svg
+from words import count, number
+
+MOST_LINES = 5     # in a chart
+MOST_CHARTS = 24   # in a figure
+MOST_ROWS = 2000   # in a table
+LONGEST = 18       # letters of a value below an axis
+
+
+def short(key):
+    return key.rpartition(".")[2]
+
+
+def clipped(text):
+    """A TOML value in few letters: uniform, 1, 2 of { distribution = "uniform", low = 1, high = 2 }."""
+    text = re.sub(r"[{}\"]|\w+ *= *", "", text).strip()
+    return text if len(text) <= LONGEST else text[:LONGEST - 1] + "…"
+
+
+def as_number(text):
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+class Key:
+    """A key with its values, on a scale if all are numbers, else one beside the other."""
+
+    def __init__(self, entry):
+        self.key, self.values = entry["key"], entry["values"]
+        self.name = short(self.key)
+        numbers = [as_number(text) for text in self.values]
+        self.scaled = all(v is not None for v in numbers) and len(set(numbers)) == len(numbers)
+        self.places = numbers if self.scaled else list(range(len(self.values)))
+        self.log = (self.scaled and min(numbers) > 0 and max(numbers) >= 6 * min(numbers))
+
+    def place(self, text):
+        return self.places[self.values.index(text)]
+
+    def set_axis(self, axes):
+        axes.set_xlabel(self.name)
+        if self.log:
+            axes.set_xscale("log")
+        transform = math.log if self.log else float
+        at = sorted(transform(place) for place in self.places)
+        reach = (at[-1] - at[0]) or 1.0
+        if self.scaled and len(at) > 1:  # the same where a panel lacks points
+            back = math.exp if self.log else float
+            axes.set_xlim(back(at[0] - 0.07 * reach), back(at[-1] + 0.07 * reach))
+        if not self.scaled:
+            room = 26 // max(2, len(self.places))
+            labels = [clipped(text) for text in self.values]
+            if any(len(text) > room for text in labels):
+                axes.set_xticks(self.places, labels, rotation=30, ha="right", fontsize=9)
+            else:
+                axes.set_xticks(self.places, labels)
+            axes.set_xlim(-0.4, len(self.places) - 0.6)
+            return
+        if all(b - a > 0.16 * reach for a, b in zip(at, at[1:])):
+            axes.set_xticks(sorted(self.places), [number(v, 4) for v in sorted(self.places)])
+            axes.minorticks_off()
+        elif self.log:
+            axes.minorticks_off()
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(5))
+
+
+class Grid:
+    """The points of a sweep along the values of their keys."""
+
+    def __init__(self, data):
+        self.data = data
+        self.points = data["points"]
+        self.keys = [Key(entry) for entry in data["varied"]]
+        # Along the axis: of the keys that are numbers the one with most values.
+        self.along = max(self.keys, key=lambda k: (k.scaled, len(k.values)))
+        self.others = [key for key in self.keys if key is not self.along]
+
+    def name(self, point):
+        return ", ".join(f"{short(k)} = {clipped(v)}" for k, v in point["values"].items())
+
+    def panels(self):
+        """Title and points of every combination of the other keys' values."""
+        for values in itertools.product(*(key.values for key in self.others)):
+            chosen = [p for p in self.points if all(
+                p["values"][key.key] == value for key, value in zip(self.others, values))]
+            yield ", ".join(f"{key.name} = {clipped(value)}"
+                            for key, value in zip(self.others, values)), sorted(
+                                chosen, key=lambda p: self.along.place(p["values"][self.along.key]))
+
+
+def _series(swept, points, value):
+    """Place, value, lower and upper end of every point; NaN where it has none."""
+    out = []
+    for point in points:
+        at, lower, upper = value(point) or (None, None, None)
+        at = math.nan if at is None else at
+        out.append((swept.along.place(point["values"][swept.along.key]), at,
+                    at if lower is None else lower, at if upper is None else upper))
+    return out
+
+
+def _shifted(swept, x, line, lines):
+    """Intervals of several lines stand beside each other, not on each other."""
+    places = swept.along.places
+    if len(places) < 2 or lines < 2:
+        return x
+    share = 0.014 * (line - 0.5 * (lines - 1))
+    if swept.along.log:
+        return x * (max(places) / min(places)) ** share
+    return x + share * (max(places) - min(places))
+
+
+def charts_of(swept, page, title, axis, lines, limits=None):
+    """A chart a combination of the other keys; `lines`: name and value(point), drawn where there is
+    one. All with the same axes."""
+    panels = list(swept.panels())
+    drawn = [(text, points, [_series(swept, points, value) for _, value in lines])
+             for text, points in panels[:MOST_CHARTS]]
+    ends = [end for *_, series in drawn for line in series for point in line for end in point[1:]
+            if math.isfinite(end)]
+    if not ends:
+        return [], ""
+    pad = 0.06 * ((max(ends) - min(ends)) or abs(max(ends)) or 1.0)
+    low, high = limits or (min(ends) - pad, max(ends) + pad)
+    low = max(low, 0.0) if min(ends) >= 0 else low
+    charts = []
+    for text, chosen, series in drawn:
+        figure, axes = panel(3.0 + 0.22 * ((len(lines) + 1) // 2))
+        for i, ((name, _), line) in enumerate(zip(lines, series)):
+            bounded = any(point[2] < point[3] for point in line)
+            x = [_shifted(swept, point[0], i, len(lines) if bounded else 1) for point in line]
+            axes.plot(x, [point[1] for point in line], color=colour(i),
+                      linestyle=dash(i) if swept.along.scaled else "none",
+                      marker=marker(i), markersize=5, markeredgewidth=0, label=name)
+            if bounded:
+                axes.vlines(x, [point[2] for point in line], [point[3] for point in line],
+                            color=colour(i), linewidth=1.1)
+        swept.along.set_axis(axes)
+        axes.set_ylim(low, high)
+        axes.set_ylabel(axis)
+        legend_above(axes)
+        if text:
+            axes.set_title(text, fontsize=10, color=INK, loc="left",
+                           pad=6 + 14 * ((len(lines) + 1) // 2))
+        about = "; ".join(f"{name}: " + ", ".join(
+            f"{number(at)} at {clipped(value['values'][swept.along.key])}"
+            for value, (_, at, _, _) in zip(chosen, line))
+            for (name, _), line in zip(lines, series))
+        charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))
+    left = len(panels) - len(drawn)
+    return charts, (f" Drawn are the first {MOST_CHARTS} of {len(panels)} combinations." if left
+                    else "")
+
+
+def table(swept, caption, head, rows):
+    cut = rows[:MOST_ROWS]
+    html = blocks.table(caption, head, cut)
+    if len(cut) < len(rows):
+        html += blocks.paragraph(f"The first {count(len(cut))} of {count(len(rows))} lines; all are "
+                                 "in the JSON.")
+    return html
+
+
+def values(swept, point):
+    return [clipped(point["values"][key.key]) for key in swept.keys]
+
+
+def files(grid, page, how_to_compare):
+    """The section that names the results files, and what the points share."""
+    listed = blocks.table("Results files", [key.name for key in grid.keys] + ["file"],
+                          [values(grid, p) + [p["results"]] for p in grid.points[:MOST_ROWS]])
+    return page.section("files", "The studies", blocks.bullets([
+        "Every study draws the same gearboxes (common random numbers): points differ by the varied "
+        "keys, not by chance. Intervals are each point's own, so they may overlap where a pair "
+        f"differs surely{how_to_compare}.",
+        "Varied: " + "; ".join(f"{k.key} = {', '.join(map(clipped, k.values[:50]))}"
+                               for k in grid.keys) + "."]) + listed)

@@ -1,0 +1,158 @@
+#include "mc/sweep/lives_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "analysis/report/json_values.hpp"
+#include "mc/input/printable.hpp"
+#include "mc/lives/life_rows.hpp"
+#include "mc/report/lives_report.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/sweep/columns.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+const MonitoredFeature* find_answers(const LivesPoint& point, const MonitoredFeature& like) {
+    const auto at = std::ranges::find_if(point.monitored, [&](const MonitoredFeature& one) {
+        return one.feature == like.feature && one.detector == like.detector;
+    });
+    return at == point.monitored.end() ? nullptr : &*at;
+}
+
+std::string name_of(const MonitoredFeature* one) {
+    return one == nullptr ? "-" : one->feature + ", " + one->detector;
+}
+
+const MonitoredFeature* best_at(const LivesPoint& point) {
+    const MonitoredFeature* best = nullptr;
+    for (const MonitoredFeature& one : point.monitored) {
+        if (!std::isnan(one.answers.threshold.value) &&
+            (best == nullptr || better(one.answers, best->answers))) {
+            best = &one;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+LivesPoint summarise_lives(const SweepPoint& point, const std::string& results) {
+    const Results frame = read_frame(results);
+    const FileRows rows(results, frame);
+    check_lives(results, frame, rows);
+    LivesPoint summary;
+    summary.point = point;
+    summary.results = results;
+    summary.study = read_study_text(frame.provenance_value("study"), results).study.value();
+    const Campaign campaign = campaign_of(summary.study, frame, rows);
+    summary.cracked = campaign.cracked.size();
+    summary.failed = campaign.failed;
+    summary.record = campaign.record;
+    summary.interpolation = campaign.interpolation;
+    summary.monitored = LifeMonitor(summary.study, campaign).answers();
+    return summary;
+}
+
+const MonitoredFeature* best_over(const std::vector<LivesPoint>& points) {
+    const MonitoredFeature* best = nullptr;
+    std::tuple<long, double, double> least;
+    for (const LivesPoint& first : points) {
+        for (const MonitoredFeature& one : first.monitored) {
+            long found = 0;
+            double deep_90 = 0.0, deep_50 = 0.0;
+            bool known = false;
+            for (const LivesPoint& point : points) {
+                const double last = *point.study.life.last_depth_m;
+                const MonitoredFeature* here = find_answers(point, one);
+                known = known || (here != nullptr && !std::isnan(here->answers.threshold.value));
+                found += here == nullptr ? 0 : here->answers.found;
+                // fmin: of a number and NaN the number.
+                deep_90 += here == nullptr ? last : std::fmin(here->answers.size_90.value, last);
+                deep_50 += here == nullptr ? last : std::fmin(here->answers.size_50.value, last);
+            }
+            const std::tuple key(-found, deep_90, deep_50);
+            if (known && (best == nullptr || key < least)) {
+                best = &one;
+                least = key;
+            }
+        }
+    }
+    return best;
+}
+
+std::string lives_sweep_text(const std::vector<VariedKey>& keys,
+                             const std::vector<LivesPoint>& points) {
+    const MonitoredFeature* best = best_over(points);
+    if (best == nullptr) {
+        return "the healthy lives are too few for a threshold at any point\n";
+    }
+    std::vector<std::vector<std::string>> lines(1);
+    for (const VariedKey& key : keys) {
+        lines[0].push_back(short_key(key.key));
+    }
+    lines[0].insert(lines[0].end(), {"lives", "failed"});
+    for (const std::string& column : answer_columns(points[0].study)) {
+        lines[0].push_back(column);
+    }
+    lines[0].emplace_back("best here");
+    for (const LivesPoint& point : points) {
+        std::vector<std::string> line = point.point.values;
+        line.push_back(std::to_string(point.cracked));
+        line.push_back(std::to_string(point.failed));
+        const MonitoredFeature* here = find_answers(point, *best);
+        const auto cells =
+            answer_cells(here == nullptr ? analysis::LifeAnswers{} : here->answers, point.study);
+        line.insert(line.end(), cells.begin(), cells.end());
+        line.push_back(name_of(best_at(point)));
+        lines.push_back(std::move(line));
+    }
+    return fmt::format("by {}, which find most over all points\n", name_of(best)) + aligned(lines);
+}
+
+nlohmann::json lives_sweep_json(const std::string& title, const std::vector<VariedKey>& keys,
+                                const std::vector<LivesPoint>& points) {
+    using Json = nlohmann::json;
+    const MonitoredFeature* best = best_over(points);
+    Json json{{"kind", "lives-sweep"},
+              {"title", title},
+              {"varied", Json::array()},
+              {"best", nullptr},
+              {"points", Json::array()}};
+    if (best != nullptr) {
+        json["best"] = {{"feature", best->feature}, {"detector", best->detector}};
+    }
+    for (const VariedKey& key : keys) {
+        json["varied"].push_back({{"key", key.key}, {"values", key.values}});
+    }
+    for (const LivesPoint& point : points) {
+        const InterpolationErrors& off = point.interpolation;
+        Json one{{"results", point.results},
+                 {"values", Json::object()},
+                 {"lives", point.cracked},
+                 {"failed", point.failed},
+                 {"confidence", point.study.detection.confidence},
+                 {"false_alarms_per_1000_h", point.study.monitoring.false_alarms_per_1000_h},
+                 {"last_depth_m", *point.study.life.last_depth_m},
+                 {"record", printable(point.record)},
+                 {"interpolation",
+                  {{"first", analysis::number(off.first)},
+                   {"last", analysis::number(off.last)},
+                   {"load", analysis::number(off.load)}}},
+                 {"monitored", Json::array()}};
+        for (std::size_t k = 0; k < keys.size(); ++k) {
+            one["values"][keys[k].key] = point.point.values[k];
+        }
+        for (const MonitoredFeature& monitored : point.monitored) {
+            one["monitored"].push_back(answers_json(monitored));
+        }
+        json["points"].push_back(std::move(one));
+    }
+    return json;
+}
+
+}  // namespace gearpod::mc
