@@ -1,10 +1,12 @@
 #include "operations.hpp"
 
+#include <memory>
 #include <variant>
 
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
 #include "lockstep/integrators/central_difference.hpp"
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/generalized_alpha.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"
 
