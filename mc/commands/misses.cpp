@@ -163,7 +163,7 @@ std::string answer_text(const MissesOptions& options, const Prepared& prepared,
     if (!answer.misses) {
         return text +
                fmt::format(
-                   "not known from {}: too few of them have the misses. It takes more "
+                   "not known from {}: too few of them have the misses. It takes more records or "
                    "gearboxes; where noise is not what makes the misses, records do not help\n",
                    records);
     }

@@ -19,9 +19,9 @@ namespace {
 // 420,000 values.
 constexpr double kBytesOfValue = 60.0;
 
-// Of the values of several records of a gearbox: in columns, and once more at a noise level's
-// thresholds; and while a feature's rates are counted, whose values are there at once.
-constexpr double kBytesOfRecord = 24.0, kBytesOfCounting = 100.0;
+// Of every record while a feature's rates are counted at one noise level, beside its values
+// (row_source.hpp), whose columns grow by doubling.
+constexpr double kBytesOfRecord = 60.0, kBytesOfColumns = 16.0;
 
 double sum_of_products(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -235,17 +235,22 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
 }
 
 double assessment_bytes(const Study& study, const BatchPlan& plan) {
-    const double gearboxes =
-        kBytesOfValue * static_cast<double>(std::min(values_of(study, plan), kMostAssessedValues));
+    const auto assessed = [](std::size_t values) {
+        return kBytesOfValue * static_cast<double>(values);
+    };
+    const double gearboxes = assessed(std::min(values_of(study, plan), kMostAssessedValues));
     if (plan.threshold_records() == 1) {
         return gearboxes;
     }
-    const std::size_t levels = study.sensor.noise_levels.size();
-    const std::size_t all = plan.rows() * study.features.use.size() * levels;
-    const double records =
-        all <= kMostAssessedValues ? kBytesOfRecord * static_cast<double>(all) : 0.0;
-    return std::max(gearboxes + records,
-                    kBytesOfCounting * static_cast<double>(plan.threshold_rows() * levels));
+    // Of several records all, so long as there is room for these.
+    const std::size_t of_feature = plan.rows() * study.sensor.noise_levels.size();
+    const std::size_t all = of_feature * study.features.use.size();
+    if (all <= kMostAssessedValues) {
+        return assessed(all);
+    }
+    const double at_once = std::max(64e6 / 8.0, static_cast<double>(of_feature));
+    return std::max(gearboxes,
+                    kBytesOfColumns * at_once + kBytesOfRecord * static_cast<double>(plan.rows()));
 }
 
 AnalysisTrial try_analysis(const Study& study, const RunCalibration& calibration,

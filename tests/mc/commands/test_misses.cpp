@@ -10,7 +10,7 @@ using test::shell;
 
 namespace {
 
-// Healthy gearboxes set thresholds, 30 with a crack of 2 mm count misses.
+// 100 healthy gearboxes set thresholds.
 std::string run_small(const test::Folder& folder, const std::string& more = "") {
     const std::string results = folder.file("ideal.h5");
     const test::Outcome run =
