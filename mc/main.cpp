@@ -125,6 +125,11 @@ int run_program(int argc, char** argv) {
     add_study(*describe_app, describe.study)->required(false);
     describe_app->add_flag("--keys", describe.keys,
                            "all keys of study files, or those with a word: describe --keys sensor");
+    describe_app
+        ->add_option("--ranks", describe.ranks,
+                     "also what a run of so many ranks takes: time, memory of each, disk, and from "
+                     "how many on the first one holds the others up")
+        ->check(CLI::Range(1, 1000000));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
             throw CLI::RequiredError("study");

@@ -98,6 +98,7 @@ int compare_command(const CompareOptions& options);
 struct DescribeOptions {
     StudyOptions study;
     bool keys = false;  // print all keys of study files instead
+    int ranks = 0;      // also forecast a run of so many; 0: not
 };
 int describe_command(const DescribeOptions& options);
 

@@ -219,7 +219,7 @@ int describe_command(const DescribeOptions& options) {
         print_cost(scene, made.choice);
         std::fflush(stdout);
         missing = "the forecast, for which gearboxes and their analysis are computed";
-        print_forecast(scene, begun_s + setup_s);
+        print_forecast(scene, begun_s + setup_s, options.ranks);
     } catch (const machine::Stopped&) {
         print_left_out(missing);
     }

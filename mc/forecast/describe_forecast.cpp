@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "machine/dispatch.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/forecast.hpp"
+#include "mc/forecast/rank_forecast.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -50,9 +52,45 @@ std::string shares_text(const Seconds& work, double thread_s) {
         share(work.noise), share(work.features));
 }
 
+// A whole number of two figures.
+std::string about(double count) {
+    const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
+    return fmt::format("{:.0f}", unit * std::round(count / unit));
+}
+
+// What rank 0 does beside its own gearboxes.
+std::string leader_text(const RankForecast& forecast) {
+    const std::string most = about(std::max(1.0, forecast.bounding_ranks));
+    return fmt::format("receives and writes {:.3g} batches a second: {:.2g} % of its time{}",
+                       forecast.batches_per_s, 100.0 * forecast.leader_share,
+                       forecast.leader_share < 1.0
+                           ? fmt::format("; it would hold the others up from {} ranks on", most)
+                           : fmt::format(", so that it holds the others up, from {} ranks on; "
+                                         "--part computes parts with a rank 0 each",
+                                         most));
+}
+
+void print_ranks(const Study& study, const RankForecast& forecast, int threads, int ranks) {
+    print_heading(fmt::format("forecast of {} ranks", ranks).c_str());
+    print_entry("threads", fmt::format("{} a rank, as here; {:.0f} have a batch of {} gearboxes "
+                                       "to compute",
+                                       threads, forecast.busy_threads, kBatchRows));
+    print_entry("gearboxes", seconds_text(forecast.gearboxes_s));
+    print_entry("estimated time",
+                seconds_text(forecast.total_s) +
+                    (study.ensemble.until.half_width ? ", less if ensemble.until ends it" : ""));
+    print_entry("estimated memory",
+                fmt::format("{:.0f} MB a rank, {:.0f} MB of rank 0", forecast.rank_bytes / 1e6,
+                            forecast.leader_bytes / 1e6));
+    print_entry("estimated disk",
+                fmt::format("checkpoint {:.3g} MB, results {:.3g} MB, twice while they are renewed",
+                            forecast.checkpoint_bytes / 1e6, forecast.results_bytes / 1e6));
+    print_entry("rank 0", leader_text(forecast));
+}
+
 }  // namespace
 
-void print_forecast(const Scene& scene, double setup_s) {
+void print_forecast(const Scene& scene, double setup_s, int ranks) {
     const Study& study = scene.study();
     const BatchPlan plan(study.ensemble);
     const int threads = thread_count(study);
@@ -72,6 +110,10 @@ void print_forecast(const Scene& scene, double setup_s) {
                 seconds_text(forecast.total_s()) +
                     (study.ensemble.until.half_width ? ", less if ensemble.until ends it" : ""));
     print_entry("estimated memory", fmt::format("{:.0f} MB", forecast.memory_bytes / 1e6));
+    if (ranks > 0) {
+        print_ranks(study, forecast_ranks(scene, plan, calibration, trial, forecast, ranks),
+                    calibration.threads, ranks);
+    }
 }
 
 }  // namespace gearpod::mc

@@ -6,8 +6,8 @@
 namespace gearpod::mc {
 
 // Computes some gearboxes and tries the analysis, for a few seconds at most, and prints what a run
-// of this study is going to take in this process. `setup_s`: what starting the program and making
-// the scene took.
-void print_forecast(const Scene& scene, double setup_s);
+// of this study is going to take in this process, and in `ranks` such processes unless that is 0.
+// `setup_s`: what starting the program and making the scene took.
+void print_forecast(const Scene& scene, double setup_s, int ranks);
 
 }  // namespace gearpod::mc

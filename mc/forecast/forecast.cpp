@@ -1,6 +1,8 @@
 #include "mc/forecast/forecast.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <queue>
 #include <vector>
 
 #include "machine/wall_clock.hpp"
@@ -66,16 +68,22 @@ Seconds all_work(const RunCalibration& calibration, const BatchPlan& plan, std::
 double gearboxes_s(const RunCalibration& calibration, const BatchPlan& plan, std::size_t lanes,
                    const MarchCounts& marches) {
     auto tiles = tiles_of(calibration, marches);
-    // When each thread is free again.
-    std::vector<double> free(static_cast<std::size_t>(calibration.threads), calibration.start_s);
+    // When each thread is free again, the first to be on top.
+    std::priority_queue<double, std::vector<double>, std::greater<>> free(
+        {},
+        std::vector<double>(static_cast<std::size_t>(calibration.threads), calibration.start_s));
+    double last = calibration.start_s;
     for (std::size_t b = 0; b < plan.batches(); ++b) {
         const Batch batch = plan.batch(b);
         double seconds = 0.0;
         each_tile(batch, lanes, tiles[static_cast<std::size_t>(batch.group)],
                   [&](const TileCost& cost, std::size_t rows) { seconds += cost.seconds(rows); });
-        *std::min_element(free.begin(), free.end()) += seconds;
+        const double done = free.top() + seconds;
+        free.pop();
+        free.push(done);
+        last = std::max(last, done);
     }
-    return *std::max_element(free.begin(), free.end());
+    return last;
 }
 
 double verification_s(const Scene& scene, const RunCalibration& calibration) {
