@@ -62,6 +62,16 @@ class Philox {
         }
     }
 
+    // Block `number` of the stream, wherever it stands.
+    Block block(std::uint64_t number) const {
+        Engine::ctr_type counter = counter_;
+        counter[0] = number;
+        const Engine::ctr_type words = Engine{}(counter, key_);
+        Block block{};
+        std::copy(words.begin(), words.end(), block.begin());
+        return block;
+    }
+
   private:
     using Engine = r123::Philox4x64;
 

@@ -1,8 +1,10 @@
 #include "mc/scene/sampling.hpp"
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mc/study/gears.hpp"
 #include "mc/study/noise.hpp"
@@ -113,9 +115,25 @@ double speed(const Operation& o) {
     return 0.0;
 }
 
+std::uint64_t product_or_most(std::uint64_t a, std::uint64_t b) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    return a > kMost / b ? kMost : a * b;
+}
+
+// How many combinations of values in turn there are, and of how many fault sizes.
+std::uint64_t turns(const std::vector<RandomInput>& inputs, bool sizes_only) {
+    std::uint64_t all = 1;
+    for (const RandomInput& input : inputs) {
+        const std::uint64_t count = input.distribution.levels().size();
+        if (count > 0 && (is_fault_size(input) || !sizes_only)) {
+            all = product_or_most(all, count);
+        }
+    }
+    return all;
+}
+
 // The value of each random input's digit: the product of the numbers of values before it.
 std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) {
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
     std::vector<std::uint64_t> lengths(inputs.size(), 1);
     std::uint64_t length = 1;
     for (const bool size : {true, false}) {
@@ -123,11 +141,16 @@ std::vector<std::uint64_t> turn_lengths(const std::vector<RandomInput>& inputs) 
             const std::uint64_t count = inputs[i].distribution.levels().size();
             if (is_fault_size(inputs[i]) == size && count > 0) {
                 lengths[i] = length;
-                length = length > kMost / count ? kMost : length * count;
+                length = product_or_most(length, count);
             }
         }
     }
     return lengths;
+}
+
+// That a share of them is not above.
+double standard_normal(double share) {
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share);
 }
 
 }  // namespace
@@ -198,18 +221,31 @@ NoiseDraws threshold_draws(const Study& study) {
 }
 
 Sampler::Sampler(const Study& study)
-    : study_(study), copula_(study), turn_lengths_(turn_lengths(study.random)) {}
+    : study_(study),
+      copula_(study),
+      turn_lengths_(turn_lengths(study.random)),
+      plan_(study, turns(study.random, true), turns(study.random, false)) {}
 
 Study Sampler::draw(Group group, std::uint64_t index) const {
     Study drawn = study_;
-    const std::vector<double> shares = copula_.shares([&](const std::string& key) {
-        return gearbox_stream(study_, {group, index}, key);
+    const std::vector<double> shares = copula_.shares([&](std::size_t input) {
+        if (plan_.has(input)) {
+            return standard_normal(plan_.share(input, group, index));
+        }
+        Philox engine = gearbox_stream(study_, {group, index}, study_.random[input].key);
+        return boost::random::normal_distribution<double>()(engine);
     });
     for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
         const RandomInput& input = study_.random[i];
         if (copula_.has(i)) {
             std::get<NumberAccess>(key_of(input).access)
                 .set(drawn, input.distribution.quantile(shares[correlated++]) * input.to_si);
+            continue;
+        }
+        if (plan_.has(i)) {
+            std::get<NumberAccess>(key_of(input).access)
+                .set(drawn,
+                     input.distribution.quantile(plan_.share(i, group, index)) * input.to_si);
             continue;
         }
         const int rows = input.distribution.rows().group;

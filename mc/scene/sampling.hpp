@@ -9,6 +9,7 @@
 
 #include "mc/random/philox.hpp"
 #include "mc/scene/planets.hpp"
+#include "mc/scene/sampling_plan.hpp"
 #include "mc/study/copula.hpp"
 #include "mc/study/study.hpp"
 
@@ -101,7 +102,8 @@ struct ParameterColumn {
     std::string unit;  // SI, e.g. "N/m"; "1" for a pure number
 };
 
-// Instances of both groups of one study. Immutable; safe to share between threads.
+// Instances of both groups of one study. Immutable; safe to share between threads. How continuous
+// inputs are drawn, sampling_plan.hpp says.
 //
 // `levels` and `grid` inputs take their values in turn, all combinations of them: instance i has
 // the digits of i in a mixed radix whose bases are the numbers of values. The lowest digit is
@@ -137,6 +139,7 @@ class Sampler {
     Copula copula_;
     // By random input: how many instances have the same turn in succession.
     std::vector<std::uint64_t> turn_lengths_;
+    SamplingPlan plan_;
 };
 
 // J / r^2 and the rest of one gearbox, from the nominal values of a study. Planets differ as they

@@ -60,6 +60,11 @@ std::string assumptions(const Study& study) {
     if (alike) {
         text += " Only the fault and the noise vary.";
     }
+    if (study.ensemble.sampling == SamplingKind::sobol) {
+        text +=
+            " Gearboxes fill the ranges of their inputs evenly (ensemble.sampling): intervals take "
+            "them for independent, and are wider than they need be.";
+    }
     if (!has_tooth_errors(study)) {
         text +=
             " Errors of real teeth hide faults that identical teeth show: gearbox.tooth_quality "

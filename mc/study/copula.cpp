@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -12,18 +11,21 @@ Copula::Copula(const Study& study) {
     if (study.correlations.empty()) {
         return;
     }
-    for (const RandomInput& input : study.random) {
+    for (std::size_t i = 0; i < study.random.size(); ++i) {
+        const std::string& key = study.random[i].key;
         const bool has = std::ranges::any_of(study.correlations, [&](const Correlation& one) {
-            return one.first == input.key || one.second == input.key;
+            return one.first == key || one.second == key;
         });
         has_.push_back(has ? 1 : 0);
         if (has) {
-            keys_.push_back(input.key);
+            inputs_.push_back(i);
         }
     }
-    const auto count = static_cast<Eigen::Index>(keys_.size());
+    const auto count = static_cast<Eigen::Index>(inputs_.size());
     const auto place = [&](const std::string& key) {
-        return std::ranges::find(keys_, key) - keys_.begin();
+        const auto found = std::ranges::find_if(
+            inputs_, [&](std::size_t input) { return study.random[input].key == key; });
+        return found - inputs_.begin();
     };
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(count, count);
     for (const Correlation& one : study.correlations) {
@@ -35,12 +37,10 @@ Copula::Copula(const Study& study) {
     factor_ = cholesky.matrixL();
 }
 
-std::vector<double> Copula::shares(
-    const std::function<Philox(const std::string& key)>& stream) const {
+std::vector<double> Copula::shares(const std::function<double(std::size_t input)>& normal) const {
     std::vector<double> normals, shares;
-    for (const std::string& key : keys_) {
-        Philox engine = stream(key);
-        normals.push_back(boost::random::normal_distribution<double>()(engine));
+    for (const std::size_t input : inputs_) {
+        normals.push_back(normal(input));
     }
     // In order, not by Eigen: the same bits on every machine.
     for (std::size_t i = 0; i < normals.size(); ++i) {

@@ -6,10 +6,8 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -24,11 +22,11 @@ class Copula {
     // Of the study's random input at a place.
     bool has(std::size_t input) const { return input < has_.size() && has_[input] != 0; }
     // Where each correlated input lies in its distribution, 0 < share < 1, in the inputs' order;
-    // from a stream of random numbers a key.
-    std::vector<double> shares(const std::function<Philox(const std::string& key)>& stream) const;
+    // from a normal number for each, by its place in the study.
+    std::vector<double> shares(const std::function<double(std::size_t input)>& normal) const;
 
   private:
-    std::vector<std::string> keys_;
+    std::vector<std::size_t> inputs_;
     std::vector<char> has_;
     Eigen::MatrixXd factor_;  // lower triangle
     bool exists_ = true;

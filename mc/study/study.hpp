@@ -290,13 +290,18 @@ struct Until {
     bool operator==(const Until&) const = default;
 };
 
+// How gearboxes' random inputs are drawn: each by itself, or as points of a scrambled Sobol
+// sequence (mc/scene/sampling_plan).
+enum class SamplingKind { plain, sobol };
+
 struct Ensemble {
     std::int64_t instances = 0;            // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
     int threshold_records = 1;             // of each of those, with noise of their own
     std::optional<bool> threshold_tilt;    // most of them with noise tilted towards an alarm
     std::int64_t seed = 0;                 // 0..2^63-1
-    double checkpoint_s = 30.0;            // how often finished gearboxes are made safe
+    SamplingKind sampling = SamplingKind::plain;
+    double checkpoint_s = 30.0;  // how often finished gearboxes are made safe
     Until until;
 
     bool tilted() const { return threshold_tilt.value_or(false); }

@@ -14,6 +14,8 @@ constexpr ChoiceName kStepGrids[] = {name("uniform", StepGrid::uniform),
                                      name("graded", StepGrid::graded)};
 constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision),
                                       name("single", Precision::single_precision)};
+constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
+                                     name("sobol", SamplingKind::sobol)};
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
 // "auto", and all of them by their own names.
 template <class Enum>
@@ -118,6 +120,7 @@ const Key kKeys[] = {
     {"ensemble", "threshold_records", integer<&Ensemble::threshold_records>, kNone, from_to(1, 10000), may, kShared, "records of each of those: the same vibration with sensor and encoder noise drawn anew, for false-alarm rates that are rarer than one in the gearboxes"},
     {"ensemble", "threshold_tilt", boolean<&Ensemble::threshold_tilt>, kNone, kAny, white_records, kShared, "three in four of those records have a stretch of noise tilted towards an alarm and a weight that undoes it: for false-alarm rates down to 1e-6 from the features of the accelerometer, where noise and not the gearbox makes the alarm"},
     {"ensemble", "seed", integer<&Ensemble::seed>, kNone, kNotNegative, always, kShared, "seed of all random numbers"},
+    {"ensemble", "sampling", choice<&Ensemble::sampling>(kSamplings), kNone, kAny, may, kShared, "how random inputs are drawn: plain: every gearbox by itself; sobol: so that gearboxes fill the inputs' ranges evenly, which takes scatter from thresholds and rates where inputs rather than noise decide; a number of gearboxes a fault size that is a power of 2 fills them best"},
     {"ensemble", "checkpoint_s", number<&Ensemble::checkpoint_s>, kS, from_to(0, 1e6), may, kShared, "seconds between two checkpoints"},
     {"ensemble", "until.half_width", number<&Until::half_width>, kNone, inside(0, 0.5), may, kShared, "stop once Pd is known within this half width of its interval"},
     {"ensemble", "until.feature", choice<&Until::feature>(feature_names()), kNone, kAny, until_part, kShared, "feature whose Pd that is"},
