@@ -154,8 +154,9 @@ std::string comparison_text(const ComparisonReport& report) {
     for (std::size_t f = 0; f < report.files.size(); ++f) {
         const ComparedFile& file = report.files[f];
         add_wrapped(out,
-                    fmt::format("{}  {}{}: {} gearboxes", letter(f), file.path,
-                                file.title.empty() ? "" : " (" + file.title + ")", file.gearboxes),
+                    fmt::format("{}  {}{}: {} gearboxes{}", letter(f), file.path,
+                                file.title.empty() ? "" : " (" + file.title + ")", file.gearboxes,
+                                file.shortage.empty() ? "" : ". " + file.shortage),
                     3);
         for (std::size_t n = 0; n < file.noise_levels.size(); ++n) {
             if (file.noise_levels[n] == report.noise_level && n < file.smallest.size()) {
@@ -214,6 +215,7 @@ nlohmann::json comparison_json(const ComparisonReport& report) {
                          {"title", file.title},
                          {"gearboxes", file.gearboxes},
                          {"smallest_faults", smallest},
+                         {"shortage", text_or_null(file.shortage)},
                          {"pairs", file.pairs},
                          {"unpaired", text_or_null(file.unpaired)},
                          {"differing_inputs", file.differing},

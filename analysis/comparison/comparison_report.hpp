@@ -24,6 +24,7 @@ struct ComparedFile {
     std::vector<double> noise_levels;
     std::vector<std::optional<SmallestFault>> smallest;  // by noise level
     std::vector<bool> without_threshold;                 // the same: then none says nothing
+    std::string shortage;                                // as sample_shortage() has it
     // Against A; for A itself empty.
     long pairs = 0;                      // graded gearboxes that are the same ones
     std::string unpaired;                // why none are, else empty
@@ -44,8 +45,8 @@ std::string comparison_text(const ComparisonReport& report);
 // {"kind": "comparison", "size", "confidence", "noise_level",
 //  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
 //    "without_threshold"}],
-//    "pairs", "unpaired", "differing_inputs", "left_out",
-//    "features": [{"name", "noise_level", "same",
+//    "shortage": what sample_shortage() says or null, "pairs", "unpaired", "differing_inputs",
+//    "left_out", "features": [{"name", "noise_level", "same",
 //      "sizes": [{"size_low", "size_high", "tested": [A, B], "pd": [A, B], "difference", "lower",
 //        "upper", "p_value", "only": [A, B] of pairs}],
 //      "a90", "auc": {"values": [A, B], "difference", "lower", "upper", "p_value", "refusal"}}]}]}

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/report/false_alarm_text.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -279,6 +280,8 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
         file.noise_levels = side.frame.noise_levels;
         file.smallest = side.smallest;
         file.without_threshold = side.without_threshold;
+        file.shortage = analysis::sample_shortage(side.frame.detection, side.frame.request,
+                                                  subject_of(side.frame));
         if (&side != &first) {
             const Rows rows = rows_of(first, side);
             file.unpaired = rows.unpaired;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/report/false_alarm_text.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/run_report.hpp"
@@ -77,6 +79,19 @@ std::string best_cell(const PointSummary& point) {
     return "";
 }
 
+// Each once, however many points say it.
+std::string shortages(const std::vector<PointSummary>& points) {
+    std::vector<std::string> said;
+    std::string text;
+    for (const PointSummary& point : points) {
+        if (!point.shortage.empty() && std::ranges::count(said, point.shortage) == 0) {
+            said.push_back(point.shortage);
+            analysis::add_wrapped(text, point.shortage, 2);
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 PointSummary summarise(const SweepPoint& point, const std::string& results, int threads) {
@@ -94,6 +109,7 @@ PointSummary summarise(const SweepPoint& point, const std::string& results, int 
     summary.unit = frame.request.size.shown_unit();
     summary.false_alarm_rate = frame.request.false_alarm_rate;
     summary.confidence = frame.request.confidence;
+    summary.shortage = analysis::sample_shortage(frame.detection, frame.request, subject_of(frame));
     summary.reference = reference_level(frame.noise_levels);
     for (const analysis::SizeGroup& group : frame.request.groups) {
         if (group.high > 0.0) {
@@ -136,7 +152,8 @@ std::string sweep_text(const std::vector<VariedKey>& keys,
         line.push_back(best_cell(point));
         lines.push_back(std::move(line));
     }
-    return fmt::format(
+    return shortages(points) +
+           fmt::format(
                "smallest fault found with 90 % probability at {:g} % confidence, by noise level\n",
                points.empty() ? 0.0 : 100.0 * points[0].confidence) +
            aligned(lines) +
@@ -159,6 +176,7 @@ nlohmann::ordered_json sweep_json(const std::string& title, const std::vector<Va
         one["failed"] = point.failed;
         one["false_alarm_rate"] = point.false_alarm_rate;
         one["confidence"] = point.confidence;
+        one["shortage"] = point.shortage.empty() ? Json(nullptr) : Json(point.shortage);
         one["size_name"] = point.size_name;
         one["size_unit"] = point.unit.empty() ? "1" : point.unit;
         one["sizes"] = point.sizes;

@@ -35,6 +35,7 @@ struct PointSummary {
     std::string size_name;  // of the input that is the fault's size
     std::string unit;       // of sizes, "" of a pure number
     double false_alarm_rate = 0.0, confidence = 0.0;
+    std::string shortage;       // what its healthy gearboxes do not carry, "" if they suffice
     std::size_t reference = 0;  // place of the level that is shown first
     std::vector<double> sizes;  // tested, above 0
     std::vector<LevelSummary> levels;

@@ -20,7 +20,7 @@ def point(names, values, number, nothing):
     """Every seventh feature is without a curve, every fourth fault is a tested size."""
     of = {"results": f"sweep/{number}.h5", "values": dict(zip(names, values)), "gearboxes": 9000,
           "failed": number % 2, "false_alarm_rate": 0.05, "confidence": 0.95,
-          "size_name": "fault_depth_m", "size_unit": "mm", "sizes": [1, 2, 3, 4.28],
+          "shortage": None, "size_name": "fault_depth_m", "size_unit": "mm", "sizes": [1, 2, 3, 4.28],
           "shown_level": 1, "smallest_fault": [], "features": []}
     for n, level in enumerate((0, 1, 3)):
         size = 1.2 + 0.11 * (number % 5) + 0.4 * n
@@ -98,6 +98,12 @@ def lives_sweep(varied, threshold=True):
 def all_of():
     made = {name: sweep(varied) for name, varied in VARIED.items()}
     made["sweep_nothing"] = sweep(VARIED["sweep_one"], nothing=True)
+    unknown = sweep(VARIED["sweep_one"], nothing=True)
+    for at in unknown["points"]:
+        at["shortage"] = "Too few healthy gearboxes for a false-alarm rate of 0.001."
+        for level in at["smallest_fault"]:
+            level["has_threshold"] = False
+    made["sweep_unknown"] = unknown
     silent = sweep(VARIED["sweep_one"])
     for at in silent["points"]:
         at.update(features=[], smallest_fault=[], shown_level=None)

@@ -42,11 +42,18 @@ class MadeUp(unittest.TestCase):
 
     def test_a_chart_a_value_of_the_second_key(self):
         charts = {"sweep_one": 3, "sweep_two": 9, "sweep_words": 3, "sweep_three": 12,
-                  "sweep_single": 3, "sweep_nothing": 1, "sweep_silent": 0,
+                  "sweep_single": 3, "sweep_nothing": 1, "sweep_unknown": 1, "sweep_silent": 0,
                   "lives_sweep_one": 4, "lives_sweep_two": 12, "lives_sweep_blind": 0}
         for name, wanted in charts.items():
             self.assertEqual(parsed(name).count("svg"), wanted, name)
         self.assertIn("integrator = newmark", parsed("sweep_two").text())
+
+    def test_healthy_samples_that_are_too_few_stand_first_and_hide_no_fault(self):
+        text = parsed("sweep_unknown").text()
+        self.assertEqual(text.count("Too few healthy gearboxes"), 1)
+        self.assertIn("no threshold in 5 of 5 studies", text)
+        self.assertNotIn("none in", text)
+        self.assertLess(text.index("Too few healthy"), text.index("no threshold in"))
 
     def test_every_answer_stands_in_the_table(self):
         html = build_page.page_html(MADE["sweep_two"])

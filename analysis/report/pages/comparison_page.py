@@ -36,6 +36,11 @@ class Compared:
                       for at in self.files[file]["smallest_faults"])
         return "no threshold" if unknown else "no tested size"
 
+    def shortages(self):
+        """What files' healthy samples do not carry, each with its letter."""
+        return [f"{letter(k)}: {f['shortage']}" for k, f in enumerate(self.files)
+                if f["shortage"]]
+
     def sentence(self):
         parts = []
         for k in range(len(self.files)):
@@ -160,7 +165,8 @@ def _other_levels(compared, k):
 def parts(data, page):
     """Title, one sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
-    answer = f'<p class="answer">{escape(compared.sentence())}</p>'
+    answer = "".join(f'<p class="answer">{escape(text)}</p>'
+                     for text in [*compared.shortages(), compared.sentence()])
     answer += blocks.table("Files", ["", "file", "study", "gearboxes"],
                            [[letter(k), f["path"], f["title"], count(f["gearboxes"])]
                             for k, f in enumerate(compared.files)])

@@ -49,13 +49,27 @@ class Swept(Grid):
                     score[entry["feature"]] = (leads + here, area + (entry["auc"] or 0.0))
         return sorted(score, key=lambda name: score[name], reverse=True)
 
+    def shortages(self):
+        """What the studies' healthy samples do not carry, each once."""
+        return list(dict.fromkeys(p["shortage"] for p in self.points if p["shortage"]))
+
+    def without_threshold(self):
+        """How many studies can say nothing of faults at the level that is shown."""
+        return sum(at["noise_level"] == self.level and not at["has_threshold"]
+                   for p in self.points for at in p["smallest_fault"])
+
     def sentence(self):
         if self.level is None:
             return "The study computes no feature, so there is nothing to detect a fault with."
         found = [(at["size"], at["feature"], p) for p in self.points if (at := self.smallest(p))]
         begin = (f"Smallest fault found with 90\u00a0% probability at {percent(self.confidence)} "
                  f"confidence, {noise(self.level)}: ")
-        missing = len(self.points) - len(found)
+        unknown = self.without_threshold()
+        missing = len(self.points) - len(found) - unknown
+        if not found and unknown:
+            return begin + (f"no threshold in {unknown} of "
+                            f"{plural(len(self.points), 'study', 'studies')}"
+                            + (f", none in {missing}." if missing else "."))
         if not found:
             return begin + f"none in any of {plural(len(self.points), 'study', 'studies')}."
         best, worst = min(found, key=lambda f: f[0]), max(found, key=lambda f: f[0])
@@ -64,6 +78,8 @@ class Swept(Grid):
             text += f"; largest {self.sizes.text(worst[0])} by {worst[1]} at {self.name(worst[2])}"
         if missing:
             text += f"; none in {missing} of {count(len(self.points))}"
+        if unknown:
+            text += f"; no threshold in {unknown} of {count(len(self.points))}"
         return begin + text + "."
 
 
@@ -144,7 +160,9 @@ def _by_feature(swept, page, key, title, axis, how, shown):
 def parts(data, page):
     """Title, one sentence, HTML of the answer, HTML of the sections."""
     swept = Swept(data)
-    answer = f'<p class="answer">{escape(swept.sentence())}</p>' + _answer(swept) + _footnote(swept)
+    answer = "".join(f'<p class="answer">{escape(text)}</p>'
+                     for text in [*swept.shortages(), swept.sentence()])
+    answer += _answer(swept) + _footnote(swept)
     body = ""
     if swept.level is not None:
         at = noise(swept.level)

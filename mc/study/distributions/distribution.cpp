@@ -332,6 +332,9 @@ std::vector<DistributionHelp> distribution_help() {
                                       range, field.optional ? ", optional" : "");
         };
         std::apply([&](const auto&... field) { (add(field), ...); }, law.fields());
+        if constexpr (requires { law.kOtherwise; }) {
+            parameters += fmt::format("; {}", law.kOtherwise);
+        }
         all.push_back({std::string(law.kName), parameters});
     });
     return all;

@@ -19,6 +19,9 @@ namespace gearpod::mc {
 
 struct Empirical {
     static constexpr std::string_view kName = "empirical";
+    static constexpr std::string_view kOtherwise =
+        "in place of values and rows: file (path of a CSV file), column (its name), of which "
+        "columns of the same file draw the same row";
     std::vector<double> values;
     int rows = 0;
 

@@ -38,6 +38,27 @@ TEST_CASE("A sample without a threshold is told before the run, and no fault cou
     CHECK(page.find("No tested crack") == std::string::npos);
     const Outcome compared = program("compare " + results + " " + results);
     CHECK(compared.mentions("no threshold: nothing is known of the faults found"));
+    const auto json =
+        nlohmann::json::parse(program("compare " + results + " " + results + " --json -").output);
+    CHECK(json["files"][1]["shortage"].get<std::string>().starts_with("Too few healthy"));
+}
+
+TEST_CASE("A sweep begins with what its healthy samples do not carry, on its page too") {
+    const Folder folder;
+    const std::string sweep = "sweep " + kSmall +
+                              " --set detection.false_alarm_rate=0.001 --quiet --out " +
+                              folder.file("s") + " --vary sensor.noise_m_s2=[1,2]";
+    REQUIRE(program(sweep).code == 0);
+    // Finished ones are not computed again, and say it all the same; once, not twice.
+    const Outcome again = program(sweep + " --html " + folder.file("s.html"));
+    REQUIRE(again.code == 0);
+    const std::size_t said = again.output.find("Too few healthy gearboxes");
+    CHECK(said < again.output.find("smallest fault found"));
+    CHECK(again.output.find("Too few healthy gearboxes", said + 1) == std::string::npos);
+    const std::string page = test::bytes_of(folder.file("s.html"));
+    CHECK(page.find("Too few healthy gearboxes") != std::string::npos);
+    CHECK(page.find("no threshold in 2 of 2 studies") != std::string::npos);
+    CHECK(page.find("none in any") == std::string::npos);
 }
 
 TEST_CASE("A sample that does not fix its rate is told, one that does is not") {

@@ -98,6 +98,7 @@ TEST_CASE("The keys of study files are described without a study") {
     const Outcome weibull = program("describe --keys weibull");
     CHECK(weibull.mentions("distribution = \"weibull\""));
     CHECK(weibull.mentions("with scale (number > 0), shape (number"));
+    CHECK(mentions(program("describe --keys empirical"), "column"));
     const Outcome none = program("describe --keys nonsense");
     CHECK(none.code == 2);
     CHECK(mentions(none, "--keys nonsense: in no section, name or explanation"));
