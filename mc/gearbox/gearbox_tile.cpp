@@ -206,18 +206,26 @@ GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signal
     return tile;
 }
 
+std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
+    std::vector<GearboxId> earlier(ids.begin(), ids.end());
+    for (GearboxId& id : earlier) {
+        id.record = Record::baseline;
+    }
+    return earlier;
+}
+
+// Of the samples that features look at.
+int baseline_meshes(const Scene& scene) {
+    return needs_samples(needs_of(used_features(scene.study()))) ? scene.signal_meshes() : 0;
+}
+
 // The baseline records' signals, status and times; their motion is freed before the judged ones are
 // marched.
 GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::vector<GearboxId> ids, int fewest, const MarchCache* marches) {
-    for (GearboxId& id : ids) {
-        id.record = Record::baseline;
-    }
-    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, false, marches);
+                          std::span<const GearboxId> ids, int fewest, const MarchCache* marches) {
+    GearboxTile tile = run_records(scene, sampler, path, baselines_of(ids), fewest, false, marches);
     auto start = WallClock::now();
-    const unsigned needs = needs_of(used_features(scene.study()));
-    const int meshes = needs_samples(needs) ? scene.signal_meshes() : 0;
-    tile.baseline = all_lane_signals(scene, path, tile, meshes);
+    tile.baseline = all_lane_signals(scene, path, tile, baseline_meshes(scene));
     tile.signals_s += lap(start);
     tile.march = {};
     tile.views = {};
@@ -226,19 +234,47 @@ GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const sign
     return tile;
 }
 
-void add_baselines(GearboxTile earlier, GearboxTile& tile) {
-    tile.baseline = std::move(earlier.baseline);
+// Of the judged gearboxes, what their baselines' status leaves.
+void judge_with_baselines(std::span<const Status> earlier, GearboxTile& tile) {
     for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
         if (tile.status[lane] == Status::ok) {
-            tile.status[lane] = earlier.status[lane];
+            tile.status[lane] = earlier[lane];
         }
     }
+}
+
+void add_baselines(GearboxTile earlier, GearboxTile& tile) {
+    tile.baseline = std::move(earlier.baseline);
+    judge_with_baselines(earlier.status, tile);
     tile.sampling_s += earlier.sampling_s;
     tile.stiffness_s += earlier.stiffness_s;
     tile.march_s += earlier.march_s;
     tile.signals_s += earlier.signals_s;
     tile.march_cpu_s += earlier.march_cpu_s;
     tile.meshes += earlier.meshes;
+}
+
+// Of gearboxes that fill at most half of the lanes: their baseline records in other lanes of the
+// same tile, behind the judged ones.
+GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
+                             const signals::PathGrid& path, std::span<const GearboxId> ids,
+                             int lanes, bool with_motion, const MarchCache* marches) {
+    std::vector<GearboxId> both(ids.begin(), ids.end());
+    const std::vector<GearboxId> earlier = baselines_of(ids);
+    both.insert(both.end(), earlier.begin(), earlier.end());
+    GearboxTile tile = run_records(scene, sampler, path, both, lanes, with_motion, marches);
+    auto start = WallClock::now();
+    std::vector<LaneSignals> baseline;
+    for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
+        baseline.push_back(
+            lane_signals(scene, path, tile, static_cast<int>(lane), baseline_meshes(scene)));
+    }
+    tile.baseline = std::move(baseline);
+    tile.signals_s += lap(start);
+    const std::vector<Status> all = std::move(tile.status);
+    tile.status.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(ids.size()));
+    judge_with_baselines(std::span(all).subspan(ids.size()), tile);
+    return tile;
 }
 
 }  // namespace
@@ -249,8 +285,11 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     if (!compares_records(scene.study())) {
         return run_records(scene, sampler, path, ids, fewest, with_motion, marches);
     }
-    GearboxTile earlier =
-        run_baselines(scene, sampler, path, {ids.begin(), ids.end()}, fewest, marches);
+    const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
+    if (2 * ids.size() <= static_cast<std::size_t>(lanes)) {
+        return run_side_by_side(scene, sampler, path, ids, lanes, with_motion, marches);
+    }
+    GearboxTile earlier = run_baselines(scene, sampler, path, ids, fewest, marches);
     GearboxTile tile = run_records(scene, sampler, path, ids, fewest, with_motion, marches);
     add_baselines(std::move(earlier), tile);
     return tile;
@@ -297,9 +336,9 @@ GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const sign
     tile.march = std::move(march);
     add_signals(scene, path, ids, tile);
     if (compares_records(scene.study())) {
-        add_baselines(run_baselines(scene, sampler, path, {ids.begin(), ids.end()},
-                                    static_cast<int>(tile.inputs.size()), nullptr),
-                      tile);
+        add_baselines(
+            run_baselines(scene, sampler, path, ids, static_cast<int>(tile.inputs.size()), nullptr),
+            tile);
     }
     return tile;
 }

@@ -45,10 +45,11 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
-// Runs the gearboxes in `ids` (and before them their baseline records, where features compare with
-// them: a gearbox whose baseline fails has failed), at most as many as there are lanes: `fewest`
-// (16, 8, 4 or 1) or the next number that the program has kernels for. Missing lanes repeat the
-// last one. With `marches`, what was marched before is not marched again.
+// Runs the gearboxes in `ids` (and before them, or beside them where half of the lanes are free,
+// their baseline records, where features compare with them: a gearbox whose baseline fails has
+// failed), at most as many as there are lanes: `fewest` (16, 8, 4 or 1) or the next number that the
+// program has kernels for. Missing lanes repeat the last one. With `marches`, what was marched
+// before is not marched again.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, bool with_motion = false,
                           const MarchCache* marches = nullptr);

@@ -46,6 +46,7 @@ class Computed {
         return lane_signals(scene_, path_, tile_, lane, features_.meshes());
     }
     double noise_m_s2() const { return tile_.inputs[0].noise_m_s2; }
+    int marched_meshes() const { return tile_.meshes; }
 
   private:
     Scene scene_;
@@ -116,6 +117,21 @@ TEST_CASE("A baseline's values do not depend on the gearboxes beside it") {
     for (std::size_t i = 0; i < ids.size(); ++i) {
         CHECK(Computed(study, {ids[i]}).values()[0] == together.values()[i]);
     }
+}
+
+TEST_CASE("A baseline is the same beside its record as before it") {
+    const Study study = study_with({kCompared, "features.baseline_torque_scatter=0.03"});
+    const std::vector<GearboxId> ids{
+        kHealthy, kFaulty, {Group::graded, 5}, {Group::graded, 6}, {Group::threshold, 7}};
+    // Of eight lanes, five gearboxes leave no room for their baselines, four do.
+    const Computed before(study, ids), beside(study, {ids.begin(), ids.end() - 1});
+    REQUIRE(beside.values().size() == 4);
+    for (std::size_t i = 0; i < beside.values().size(); ++i) {
+        CHECK(beside.values()[i] == before.values()[i]);
+        CHECK(beside.signals(static_cast<int>(i)).baseline->sensor ==
+              before.signals(static_cast<int>(i)).baseline->sensor);
+    }
+    CHECK(beside.marched_meshes() < before.marched_meshes());
 }
 
 TEST_CASE("The torque of baseline records is scattered as asked for, on both shafts") {
