@@ -11,6 +11,7 @@
 #include "analysis/detection/tail.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
+#include "features/feature.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -71,20 +72,20 @@ std::string beyond_text(double extrapolation, bool tilted) {
 // Which thresholds are from tilted records, and what the others rest on.
 std::string tilted_text(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
-    long from_tilted = 0, all = 0, gearboxes = 0, fewest = 0;
+    long from_tilted = 0, all = 0, gearboxes = 0;
     for (const FeatureDetection& feature : features) {
+        // Of others than the accelerometer's features all records are plain, and count.
+        const features::Feature* known = features::find_feature(feature.feature);
+        const long records = known != nullptr && !known->from_sensor
+                                 ? static_cast<long>(request.threshold_records)
+                                 : 1;
         for (const LevelDetection& level : feature.levels) {
             ++all;
-            const auto records = static_cast<long>(request.threshold_records);
-            if (level.tilted) {
-                ++from_tilted;
-                gearboxes = std::max(gearboxes, level.tilted->gearboxes);
-            } else if (level.threshold_sample % records == 0) {
-                fewest = std::max(fewest, level.threshold_sample / records);
-            }
+            from_tilted += level.tilted ? 1 : 0;
+            gearboxes = std::max(gearboxes, level.tilted ? level.tilted->gearboxes
+                                                         : level.threshold_sample / records);
         }
     }
-    gearboxes = std::max(gearboxes, fewest);
     std::string text;
     if (const double rarer = 1.0 / (request.false_alarm_rate * static_cast<double>(gearboxes));
         from_tilted > 0) {
@@ -101,9 +102,12 @@ std::string tilted_text(std::span<const FeatureDetection> features,
     const std::string others = sample_shortage(gearboxes, request.false_alarm_rate,
                                                request.confidence, Subject::gearboxes);
     return others.empty() ? text
-                          : text + (text.empty() ? "" : " ") +
-                                fmt::format("Of the {}others too few gearboxes have the alarms. {}",
-                                            from_tilted > 0 ? "" : "features all or ", others);
+                          : (text.empty() ? "Too few gearboxes have the alarms for "
+                                            "thresholds from tilted records. "
+                                          : text +
+                                                " Of the others too few gearboxes have "
+                                                "the alarms. ") +
+                                others;
 }
 
 // Of gearboxes with several records each: nothing is known beyond these, whose tails go together.

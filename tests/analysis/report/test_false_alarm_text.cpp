@@ -75,6 +75,27 @@ TEST_CASE("A report counts the thresholds whose rate records of each gearbox lea
                    Catch::Contains("1 of the 2 thresholds") && Catch::Contains("0.0018"));
 }
 
+TEST_CASE("A report counts the thresholds from tilted records and the gearboxes of the others") {
+    DetectionRequest request;
+    request.false_alarm_rate = 1e-4;
+    request.noise_levels = {0.0, 1.0};
+    request.threshold_records = 32;
+    request.threshold_tilt = true;
+    std::vector<FeatureDetection> features{with_samples(request, {640, 640})};
+    features[0].feature = "window_ratio";
+    CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
+               Catch::StartsWith("Too few gearboxes have the alarms") &&
+                   Catch::Contains("640 give no threshold"));
+    features[0].levels[1].threshold_sample = 640 * 32;
+    features[0].levels[1].tilted = {640, 100.0, 15.6};
+    CHECK_THAT(
+        sample_shortage(features, request, Subject::gearboxes),
+        Catch::StartsWith("1 of the 2 thresholds are from 32 tilted records of each of 640") &&
+            Catch::Contains("16-fold rarer") && Catch::Contains("Of the others"));
+    CHECK_THAT(sample_shortage(640, 1e-4, 0.95, Subject::gearboxes, 32, true),
+               Catch::StartsWith("Tilted records carry") && Catch::Contains("640 give no"));
+}
+
 TEST_CASE("A report names the noise levels without a threshold") {
     DetectionRequest request;
     request.false_alarm_rate = 0.01;
