@@ -10,24 +10,19 @@
 namespace gearpod::mc {
 namespace {
 
-std::string scatter_text(double scatter) {
-    return scatter > 0.0
-               ? fmt::format("scatters by {:g} % (rms) about the gearbox's", 100.0 * scatter)
-               : "the gearbox's";
-}
-
 // How records of other torques or speeds come about.
-std::string load_text(double scatter) {
-    const std::vector<double> marched = factors_about(scatter);
-    return scatter_text(scatter) +
-           (marched.size() > 1 ? fmt::format("; interpolated between marches at {:.3g} of it",
-                                             fmt::join(marched, " and "))
-                               : "");
+std::string load_text(const RecordLaw& law) {
+    const std::vector<double> factors = law.marched();
+    return law.text() +
+           (factors.size() > 1
+                ? fmt::format("; interpolated between marches at {:.3g} of {}",
+                              fmt::join(factors, " and "), law.given() ? "the study's value" : "it")
+                : "");
 }
 
 std::string of_gearbox(const Study& study) {
     std::string text = has_tooth_errors(study) ? "tooth errors" : "";
-    for (const RandomInput& input : study.random) {
+    for (const RandomInput& input : study_of_gearboxes(study).random) {
         text += (text.empty() ? "" : ", ") + input.key;
     }
     return text.empty() ? "nothing: gearboxes are alike" : text;
@@ -51,10 +46,11 @@ void print_life(const Scene& scene) {
         return;
     }
     print_entry("drawn for a gearbox", of_gearbox(study));
-    print_entry("torque of a record", load_text(life.torque_scatter));
-    print_entry("speed of a record", load_text(life.speed_scatter));
-    print_entry("gain of a record", scatter_text(life.gain_scatter));
-    print_entry("noise of a record", scatter_text(life.noise_scatter));
+    const RecordLaws laws(study);
+    print_entry("torque of a record", load_text(laws.torque));
+    print_entry("speed of a record", load_text(laws.speed));
+    print_entry("gain of a record", laws.gain.text());
+    print_entry("noise of a record", laws.noise.text());
     print_entry("growth", life.curve_h.empty() ? "Paris' law under the records' torque and speed"
                                                : "along the given curve");
     print_entry("depths marched", fmt::format("none and {} to {:g} mm; between, interpolated",

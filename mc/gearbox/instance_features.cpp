@@ -7,6 +7,17 @@
 #include "mc/scene/feature_needs.hpp"
 
 namespace gearpod::mc {
+namespace {
+
+// Of the sensor in an earlier record of the gearbox.
+double earlier_noise(const Study& study, const InstanceInputs& inputs, const GearboxId& earlier) {
+    const RandomInput* drawn = study.find_random("sensor.noise_m_s2");
+    return drawn != nullptr && drawn->distribution.per_record()
+               ? Sampler(study).sample(earlier).noise_m_s2
+               : inputs.noise_m_s2;
+}
+
+}  // namespace
 
 InstanceFeatures::InstanceFeatures(const Scene& scene, const HealthyReference* healthy)
     : InstanceSignals(scene, compared_needs(used_features(scene.study())).record),
@@ -26,13 +37,17 @@ InstanceFeatures::InstanceFeatures(const Scene& scene, const HealthyReference* h
 void InstanceFeatures::load(const LaneSignals& gearbox, const InstanceInputs& inputs,
                             const GearboxId& id) {
     InstanceSignals::load(gearbox, inputs, id);
+    InstanceInputs before = inputs;
     if (baseline_) {
-        baseline_->load(*gearbox.baseline, inputs, {id.group, id.index, Record::baseline});
+        const GearboxId earlier{id.group, id.index, Record::baseline};
+        before.noise_m_s2 = earlier_noise(scene_.study(), inputs, earlier);
+        baseline_->load(*gearbox.baseline, before, earlier);
     }
     if (change_) {
+        const double rms = inputs.noise_m_s2 > 0.0 ? before.noise_m_s2 / inputs.noise_m_s2 : 1.0;
         changed_ = change_since_baseline(scene_, gearbox);
         change_->load(changed_, inputs,
-                      noise_of_change(scene_, changed_, noise(), baseline_->noise()));
+                      noise_of_change(scene_, changed_, noise(), baseline_->noise(), rms));
     }
 }
 

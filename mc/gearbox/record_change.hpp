@@ -8,8 +8,10 @@ namespace gearpod::mc {
 // Without noise. `record` has a baseline; both have the sensor's samples.
 LaneSignals change_since_baseline(const Scene& scene, const LaneSignals& record);
 
-// Of the same: the noises of both, in the form in which a drawn one is given.
+// Of the same: the noises of both, in the form in which a drawn one is given. `baseline_rms`: of
+// the sensor's noise in the baseline record, over that in the other.
 NoiseOfInstance noise_of_change(const Scene& scene, const LaneSignals& change,
-                                const NoiseOfInstance& record, const NoiseOfInstance& baseline);
+                                const NoiseOfInstance& record, const NoiseOfInstance& baseline,
+                                double baseline_rms);
 
 }  // namespace gearpod::mc

@@ -33,12 +33,10 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
     for (std::size_t first = 0; first < ids.size(); first += tiles.lanes()) {
         const auto part =
             std::span(ids).subspan(first, std::min(tiles.lanes(), ids.size() - first));
-        const auto lives = tiles.run(part, batch.group == Group::graded, costs);
-        const auto looked = static_cast<std::size_t>(std::ranges::count_if(part, looked_at));
         std::vector<InterpolationErrors> errors(part.size());
-        if (looked > 0) {
-            std::ranges::copy(tiles.interpolation_errors(part.first(looked)), errors.begin());
-        }
+        const auto looked = static_cast<std::size_t>(std::ranges::count_if(part, looked_at));
+        const auto lives =
+            tiles.run(part, batch.group == Group::graded, costs, std::span(errors).first(looked));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
             add_life(tiles.scene().study(), sampler.row(part[lane].group, part[lane].index),
                      lives[lane], errors[lane], rows);
@@ -55,7 +53,7 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
 
 EnsembleOutcome run_lives(const LifeTiles& tiles, const BatchPlan& plan, const EnsembleRun& run) {
     const Study& study = tiles.scene().study();
-    const auto sampler = std::make_shared<const Sampler>(study);
+    const auto sampler = std::make_shared<const Sampler>(study_of_gearboxes(study));
     const BatchComputer compute = [&tiles, sampler](const Batch& batch, Seconds& seconds) {
         return life_rows(tiles, *sampler, batch, seconds);
     };

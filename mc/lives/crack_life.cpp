@@ -30,7 +30,8 @@ double interpolated(const std::vector<double>& at, const std::vector<double>& va
 
 }  // namespace
 
-CrackLife::CrackLife(const Scene& scene) : scene_(scene), crack_(root_crack(scene)) {}
+CrackLife::CrackLife(const Scene& scene)
+    : scene_(scene), laws_(scene.study()), crack_(root_crack(scene)) {}
 
 double CrackLife::cycles_per_hour(const InstanceInputs& inputs) const {
     const Study& study = scene_.study();
@@ -57,16 +58,16 @@ LifeHistory CrackLife::history(const GearboxId& id, const InstanceInputs& inputs
     for (int i = 0; i < life.records; ++i) {
         LifeRecord record;
         record.hours = i * *life.interval_h;
-        record.torque = std::exp(life.torque_scatter * unit(engine));
-        record.gain = std::exp(life.gain_scatter * unit(engine));
-        record.noise = std::exp(life.noise_scatter * unit(engine));
+        record.torque = laws_.torque.factor(unit(engine));
+        record.gain = laws_.gain.factor(unit(engine));
+        record.noise = laws_.noise.factor(unit(engine));
         history.records.push_back(record);
     }
-    if (life.speed_scatter > 0.0) {
+    if (laws_.speed.varies()) {
         Philox speeds = gearbox_stream(study, id, "life.speeds");
         boost::random::normal_distribution<double> of_speed;
         for (LifeRecord& record : history.records) {
-            record.speed = std::exp(life.speed_scatter * of_speed(speeds));
+            record.speed = laws_.speed.factor(of_speed(speeds));
         }
     }
     history.first_cracked = history.records.size();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "mc/lives/record_laws.hpp"
 #include "mc/scene/scene.hpp"
 #include "stiffness/growth/root_crack.hpp"
 
@@ -47,6 +48,7 @@ class CrackLife {
     double force_N(const InstanceInputs& inputs, const LifeRecord& record) const;
 
     const Scene& scene_;
+    const RecordLaws laws_;
     stiffness::RootCrack crack_;
 };
 

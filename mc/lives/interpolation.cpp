@@ -1,8 +1,7 @@
-// LifeTiles::interpolation_errors().
+#include "mc/lives/interpolation.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "mc/lives/life_tile.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -34,55 +33,62 @@ double last_interpolated_m(const Life& life) {
     return *life.last_depth_m - first_interpolated_m(life);
 }
 
-std::vector<InterpolationErrors> LifeTiles::interpolation_errors(
-    std::span<const GearboxId> ids) const {
-    const Life& life = scene_.study().life;
-    const std::vector<Load> marched = loads();
-    std::vector<HealthyMarch::Signals> at_depth, at_load;
-    const HealthyMarch low = march(ids, marched[0]);
-    for (const double depth_m : {depth(1), depth(life.depth_steps - 1), depth(life.depth_steps),
-                                 first_interpolated_m(life), last_interpolated_m(life)}) {
-        at_depth.push_back(low.with_fault(depth_m));
+void LifeTiles::Look::between_depths(int step, const Marched& healthy, const Marched& low,
+                                     const Marched& high) {
+    const Life& life = tiles_.scene_.study().life;
+    const bool first = step == 0, last = step + 1 == life.depth_steps;
+    if (errors_.empty() || !(first || last)) {
+        return;
     }
-    if (marched.size() > 1) {
-        at_load.push_back(march(ids, {}).healthy());
-        for (const Load& load : marched) {
-            at_load.push_back(march(ids, load).healthy());
-        }
-    }
-    const auto &first = at_depth[0], &before = at_depth[1], &behind = at_depth[2],
-               &in_first = at_depth[3], &in_last = at_depth[4];
-    const std::vector<double> share = shares({});
-    std::vector<InterpolationErrors> all(ids.size());
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        const auto failed = [&](const HealthyMarch::Signals& one) {
-            return one.status[lane] != Status::ok;
-        };
-        if (std::ranges::any_of(at_depth, failed) || std::ranges::any_of(at_load, failed)) {
+    const HealthyMarch::Signals middle =
+        march_.with_fault(last ? last_interpolated_m(life) : first_interpolated_m(life));
+    for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
+        const auto& none = healthy[lane][0].sensor;
+        const auto& at = middle.lane[lane].sensor;
+        const auto &below = low[lane][0].sensor, &above = high[lane][0].sensor;
+        if (at.empty() || none.empty() || below.empty() || above.empty()) {
+            errors_[lane] = {};
             continue;
         }
-        const auto& none = low.healthy().lane[lane].sensor;
-        const auto of = [&](const HealthyMarch::Signals& one) -> const std::vector<double>& {
-            return one.lane[lane].sensor;
-        };
-        InterpolationErrors& errors = all[lane];
-        errors.first = rms_apart(of(in_first), none, 0.5, of(first), 0.5) /
-                       rms_apart(of(in_first), none, 1.0, none, 0.0);
-        errors.last = rms_apart(of(in_last), of(before), 0.5, of(behind), 0.5) /
-                      rms_apart(of(in_last), none, 1.0, none, 0.0);
-        errors.load = 0.0;
-        if (!at_load.empty()) {
-            std::vector<double> composed(none.size(), 0.0);
-            for (std::size_t l = 0; l < share.size(); ++l) {
-                for (std::size_t i = 0; i < composed.size(); ++i) {
-                    composed[i] += share[l] * of(at_load[l + 1])[i];
-                }
-            }
-            errors.load = rms_apart(of(at_load[0]), composed, 1.0, none, 0.0) /
-                          rms_apart(of(at_load[0]), none, 0.0, none, 0.0);
+        const double error =
+            rms_apart(at, below, 0.5, above, 0.5) / rms_apart(at, none, 1.0, none, 0.0);
+        if (first) {
+            errors_[lane].first = error;
+        }
+        if (last) {
+            errors_[lane].last = error;
         }
     }
-    return all;
+}
+
+void LifeTiles::Look::between_loads(const Marched& healthy) {
+    if (errors_.empty() || tiles_.load_count() == 1) {
+        for (InterpolationErrors& one : errors_) {
+            one.load = 0.0;
+        }
+        return;
+    }
+    const Load halfway{tiles_.laws_.torque.halfway(), tiles_.laws_.speed.halfway()};
+    const HealthyMarch there = tiles_.march(ids_, halfway);
+    const std::vector<double> shares = tiles_.shares(halfway);
+    for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
+        const auto& at = there.healthy().lane[lane].sensor;
+        const bool failed =
+            at.empty() || std::ranges::any_of(healthy[lane], [](const LaneSignals& one) {
+                return one.sensor.empty();
+            });
+        if (failed) {
+            continue;
+        }
+        std::vector<double> composed(at.size(), 0.0);
+        for (std::size_t l = 0; l < shares.size(); ++l) {
+            for (std::size_t i = 0; i < composed.size(); ++i) {
+                composed[i] += shares[l] * healthy[lane][l].sensor[i];
+            }
+        }
+        errors_[lane].load =
+            rms_apart(at, composed, 1.0, at, 0.0) / rms_apart(at, at, 0.0, at, 0.0);
+    }
 }
 
 }  // namespace gearpod::mc

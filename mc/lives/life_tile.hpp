@@ -9,6 +9,7 @@
 
 #include "mc/gearbox/healthy_march.hpp"
 #include "mc/lives/crack_life.hpp"
+#include "mc/lives/record_laws.hpp"
 #include "mc/lives/record_span.hpp"
 #include "mc/results/results_file.hpp"
 
@@ -21,8 +22,8 @@ struct GearboxLife {
 };
 
 // What interpolation takes, rms over the span: in the middle of the first and the last step of
-// depth, over what the crack changes there, and without a crack at the gearbox's own torque and
-// speed, between those that are marched, over the signal. NaN where it was not looked at.
+// depth, over what the crack changes there, and without a crack halfway between the torques and
+// speeds that are marched, over the signal there. NaN where it was not looked at.
 struct InterpolationErrors {
     double first = std::numeric_limits<double>::quiet_NaN();
     double last = std::numeric_limits<double>::quiet_NaN();
@@ -31,9 +32,6 @@ struct InterpolationErrors {
     // Of both the larger one.
     void take(const InterpolationErrors& other);
 };
-// Factors on a gearbox's torque, or speed, at which it is marched for records that scatter so.
-std::vector<double> factors_about(double scatter);
-
 // The depths of the first two, m.
 double first_interpolated_m(const Life& life);
 double last_interpolated_m(const Life& life);
@@ -49,11 +47,12 @@ class LifeTiles {
     // Throws SceneError for what records cannot be composed of.
     explicit LifeTiles(const Scene& scene);
 
-    std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked,
-                                 LifeCosts& costs) const;
+    // `errors`: of the first gearboxes, as many as are looked at; of those that failed NaN.
+    std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked, LifeCosts& costs,
+                                 std::span<InterpolationErrors> errors = {}) const;
 
-    // By gearbox; of those that failed NaN.
-    std::vector<InterpolationErrors> interpolation_errors(std::span<const GearboxId> ids) const;
+    // At how many loads it is marched.
+    std::size_t load_count() const { return torques_.size() * speeds_.size(); }
 
     const Scene& scene() const { return scene_; }
     // Gearboxes in lockstep.
@@ -61,6 +60,8 @@ class LifeTiles {
 
   private:
     class Lane;
+    class Look;
+    using Marched = std::vector<std::vector<LaneSignals>>;  // [lane][load]
     // Factors on a gearbox's torque and speed.
     struct Load {
         double torque = 1.0, speed = 1.0;
@@ -74,6 +75,8 @@ class LifeTiles {
     std::vector<double> shares(const Load& load) const;
 
     const Scene& scene_;
+    const RecordLaws laws_;
+    const std::vector<double> torques_, speeds_;  // factors that are marched
     const Sampler sampler_;
     const signals::PathGrid path_;
     const CrackLife crack_;

@@ -226,7 +226,7 @@ Sampler::Sampler(const Study& study)
       turn_lengths_(turn_lengths(study.random)),
       plan_(study, turns(study.random, true), turns(study.random, false)) {}
 
-Study Sampler::draw(Group group, std::uint64_t index) const {
+Study Sampler::draw(Group group, std::uint64_t index, Record record) const {
     Study drawn = study_;
     const std::vector<double> shares = copula_.shares([&](std::size_t input) {
         if (plan_.has(input)) {
@@ -249,8 +249,9 @@ Study Sampler::draw(Group group, std::uint64_t index) const {
             continue;
         }
         const int rows = input.distribution.rows().group;
-        Philox engine = gearbox_stream(
-            study_, {group, index}, rows > 0 ? "random.rows." + std::to_string(rows) : input.key);
+        const GearboxId id{group, index, input.distribution.per_record() ? record : Record::judged};
+        Philox engine =
+            record_stream(study_, id, rows > 0 ? "random.rows." + std::to_string(rows) : input.key);
         const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
@@ -282,7 +283,7 @@ InstanceInputs Sampler::resolve(const Study& drawn, Group group, std::uint64_t i
 }
 
 InstanceInputs Sampler::sample(const GearboxId& id) const {
-    InstanceInputs inputs = sample(id.group, id.index);
+    InstanceInputs inputs = resolve(draw(id.group, id.index, id.record), id.group, id.index);
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
         Philox engine = record_stream(study_, id, "operation.torque");

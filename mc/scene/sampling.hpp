@@ -115,8 +115,8 @@ class Sampler {
 
     // Instance `index` (0, 1, ...) of a group; the same whatever was sampled before.
     InstanceInputs sample(Group group, std::uint64_t index) const;
-    // Of a record: the baseline has no fault yet, and another torque by
-    // features.baseline_torque_scatter.
+    // Of a record: the baseline has no fault yet, draws of its own of what belongs to records, and
+    // another torque by features.baseline_torque_scatter.
     InstanceInputs sample(const GearboxId& id) const;
     // Of the judged record, with what is given; all other draws are as they were.
     InstanceInputs sample(const GearboxId& id, std::span<const GivenInput> given) const;
@@ -133,7 +133,7 @@ class Sampler {
     std::vector<double> row(Group group, std::uint64_t index) const;
 
   private:
-    Study draw(Group group, std::uint64_t index) const;
+    Study draw(Group group, std::uint64_t index, Record record = Record::judged) const;
     InstanceInputs resolve(const Study& drawn, Group group, std::uint64_t index) const;
     Study study_;
     Copula copula_;

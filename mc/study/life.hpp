@@ -21,7 +21,8 @@ struct Life {
     std::optional<double> paris_factor, paris_exponent;
     std::optional<double> fracture_toughness_Pa_m05;  // at which the ligament breaks
     int depth_steps = 8;  // depths from none to the last that are marched; between, interpolated
-    // Of a record about its gearbox's value: rms of its logarithm.
+    // Of a record about its gearbox's value: rms of its logarithm. In short what [random] may say
+    // of a record's torque, speed, gain and noise.
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
     // How long a recording is, in seconds or in turns of the carrier; without either every tooth of
     // a planet meets every tooth of the ring once. A record averages so many.

@@ -1,7 +1,9 @@
 // What [random] says: which inputs are drawn from what, and which go together.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "mc/study/distributions/distribution.hpp"
 
@@ -15,6 +17,11 @@ struct RandomInput {
 
     bool operator==(const RandomInput&) const = default;
 };
+
+// What a record may have of its own.
+enum class RecordQuantity { torque, speed, gain, noise };
+// That of a key; nothing of what belongs to a gearbox.
+std::optional<RecordQuantity> record_quantity(std::string_view key);
 
 // Two random inputs that go together: their rank correlation (Spearman's).
 struct Correlation {

@@ -34,9 +34,12 @@ using AnyLaw = std::variant<Constant, Uniform, Normal, Lognormal, TruncatedNorma
 
 struct DistributionKind {
     AnyLaw law;
+    bool per_record = false;
 };
 
 namespace {
+
+constexpr std::string_view kPer = "per";
 
 // One call for each registered law, with a default-constructed object.
 template <class Visit, std::size_t... I>
@@ -77,7 +80,7 @@ class FieldReader {
                    Law::fields());
         bool good = true;
         for (const Entry& entry : table_.entries) {
-            if (entry.name != "distribution" &&
+            if (entry.name != "distribution" && entry.name != kPer &&
                 std::find(known.begin(), known.end(), entry.name) == known.end()) {
                 good = add(entry.position, entry.name,
                            fmt::format("unknown parameter of {}", Law::kName),
@@ -181,6 +184,22 @@ class FieldReader {
     Problems& problems_;
 };
 
+// Whether it is drawn per record; nothing after a problem.
+std::optional<bool> read_per(const Value& table, const std::string& key, Problems& problems) {
+    const Entry* per = table.find(kPer);
+    const bool text = per != nullptr && per->value.kind == Value::Kind::text;
+    if (per == nullptr || (text && per->value.text == "gearbox")) {
+        return false;
+    }
+    if (text && per->value.text == "record") {
+        return true;
+    }
+    problems.push_back({per->position.file, per->position.line, fmt::format("{}.{}", key, kPer),
+                        "is no level of randomness",
+                        "write per = \"record\", or per = \"gearbox\" as without it"});
+    return std::nullopt;
+}
+
 const char* kind_text(double) {
     return "number";
 }
@@ -259,9 +278,14 @@ Distribution::Rows Distribution::rows() const {
         kind_->law);
 }
 
+bool Distribution::per_record() const {
+    return kind_->per_record;
+}
+
 std::string Distribution::toml() const {
+    const std::string per = per_record() ? fmt::format(", {} = \"record\"", kPer) : "";
     return std::visit(
-        [](const auto& law) {
+        [&](const auto& law) {
             std::string text = fmt::format("{{ distribution = \"{}\"", law.kName);
             std::apply(
                 [&](const auto&... field) {
@@ -269,13 +293,13 @@ std::string Distribution::toml() const {
                      ...);
                 },
                 law.fields());
-            return text + " }";
+            return text + per + " }";
         },
         kind_->law);
 }
 
 bool Distribution::operator==(const Distribution& other) const {
-    return kind_->law == other.kind_->law;
+    return kind_->law == other.kind_->law && kind_->per_record == other.kind_->per_record;
 }
 
 std::optional<Distribution> Distribution::read(const Value& table, const std::string& key,
@@ -301,9 +325,10 @@ std::optional<Distribution> Distribution::read(const Value& table, const std::st
     for_each_law([&](auto law) {
         if (law.kName == kind->value.text) {
             known = true;
-            if (FieldReader(table, key, problems).read(law)) {
-                distribution = Distribution(
-                    std::make_shared<const DistributionKind>(DistributionKind{std::move(law)}));
+            const std::optional<bool> per_record = read_per(table, key, problems);
+            if (FieldReader(table, key, problems).read(law) && per_record) {
+                distribution = Distribution(std::make_shared<const DistributionKind>(
+                    DistributionKind{std::move(law), *per_record}));
             }
         }
     });

@@ -40,6 +40,8 @@ class Distribution {
         std::size_t count = 0;
     };
     Rows rows() const;
+    // Whether every record of a gearbox draws it (per = "record"), else the gearbox.
+    bool per_record() const;
     // As an inline TOML table, e.g. { distribution = "uniform", low = 0, high = 3 }.
     std::string toml() const;
     bool operator==(const Distribution& other) const;

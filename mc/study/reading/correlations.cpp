@@ -75,6 +75,9 @@ class CorrelationReader {
         } else if (key.starts_with("fault.")) {
             reject(key + " is what detection is graded by, and goes with nothing",
                    "correlate other inputs");
+        } else if (input->distribution.per_record()) {
+            reject(key + " belongs to the record (per), and its other inputs to the gearbox",
+                   "correlate inputs of the gearbox");
         } else if (!input->distribution.has_quantile()) {
             reject(input->distribution.rows().group > 0
                        ? key + " is drawn in rows, with what belongs to them"

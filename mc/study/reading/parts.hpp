@@ -33,6 +33,9 @@ void check_fault(StudyDraft& draft);
 // life_checks.cpp: what grows, between which depths, over how many records.
 void check_life(StudyDraft& draft);
 
+// record_checks.cpp: what is drawn for every record.
+void check_records(StudyDraft& draft);
+
 // until_checks.cpp: whether the study has the rate that ensemble.until speaks of.
 void check_until(StudyDraft& draft);
 

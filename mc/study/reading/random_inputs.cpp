@@ -68,6 +68,29 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     return table;
 }
 
+// What is drawn for every record is a quantile of a number that the record has.
+void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
+                      const Distribution& distribution) {
+    const std::string per = key.path() + ".per";
+    if (!distribution.per_record()) {
+        return;
+    }
+    if (!record_quantity(key.path())) {
+        reject(draft, entry, per,
+               fmt::format("{} belongs to the gearbox, the same in all its records", key.name),
+               "leave per out; records have operation.torque_N_m, a speed, sensor.gain and "
+               "sensor.noise_m_s2 of their own");
+    } else if (distribution.rows().group > 0) {
+        reject(draft, entry, per, "values of a record are drawn each by itself, not in rows",
+               "leave rows out, and give values");
+    } else if (!distribution.has_quantile()) {
+        reject(draft, entry, per,
+               fmt::format("{} takes its values in turn, from gearbox to gearbox",
+                           distribution.name()),
+               "use discrete or another distribution");
+    }
+}
+
 // Inputs that draw the same rows have as many.
 void check_rows(StudyDraft& draft) {
     for (const RandomInput& input : draft.study.random) {
@@ -108,6 +131,7 @@ void add_random(StudyDraft& draft, const Key& key, const Entry& entry) {
         return;
     }
     check_support(draft, key, entry, *distribution);
+    check_record_law(draft, key, entry, *distribution);
     draft.study.random.push_back({path, std::string(key.unit.name), *distribution, key.unit.to_si});
     if (!draft.given.contains(path)) {
         std::get<NumberAccess>(key.access)

@@ -175,6 +175,7 @@ StudyReading read_document(const Value& document, Problems problems) {
     check_fluctuations(draft);
     check_fault(draft);
     check_until(draft);
+    check_records(draft);
     check_life(draft);
     sort_problems(draft.problems);
     StudyReading reading;

@@ -127,6 +127,15 @@ std::string schema_help(std::string_view word) {
             fmt::format("  SECTION.KEY = {{ distribution = \"{}\", ... }}\n", distribution.name) +
             wrapped("with " + distribution.parameters, 6);
     }
+    if (contains("random", word) || contains("per", word)) {
+        text += std::string(random ? "" : "[random]\n") +
+                "  SECTION.KEY = { ..., per = \"record\" }\n" +
+                wrapped(
+                    "drawn anew for every record of a gearbox: operation.torque_N_m, a speed, "
+                    "sensor.gain or sensor.noise_m_s2; by default for the gearbox",
+                    6);
+        random = true;
+    }
     if (contains("random", word) || contains("correlations", word)) {
         text +=
             std::string(random ? "" : "[random]\n") +

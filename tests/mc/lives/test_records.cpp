@@ -93,8 +93,8 @@ TEST_CASE("A record at another speed is near what is marched at that speed") {
     const mc::LifeTiles tiles(scene);
     const mc::GearboxId id{mc::Group::graded, 1};
     mc::LifeCosts costs;
-    const auto life = tiles.run(std::span(&id, 1), false, costs).front();
-    const auto errors = tiles.interpolation_errors(std::span(&id, 1)).front();
+    mc::InterpolationErrors errors;
+    const auto life = tiles.run(std::span(&id, 1), false, costs, std::span(&errors, 1)).front();
     CHECK(errors.load > 0.0);
     CHECK(errors.load < 0.05);
     const mc::HealthyReference none;

@@ -1,0 +1,218 @@
+// One gearbox on its way through the steps of depth: what its records hear.
+#pragma once
+
+#include <algorithm>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <cmath>
+
+#include "machine/stop.hpp"
+#include "mc/gearbox/instance_signals.hpp"
+#include "mc/lives/composed_signals.hpp"
+#include "mc/lives/life_tile.hpp"
+#include "mc/scene/feature_needs.hpp"
+#include "signals/noise/normals.hpp"
+
+namespace gearpod::mc {
+
+class LifeTiles::Lane {
+  public:
+    using LaneFeatures = std::vector<const features::Feature*>;
+
+    Lane(const LifeTiles& tiles, const GearboxId& id, bool cracked)
+        : tiles_(tiles),
+          id_(id),
+          inputs_(tiles.inputs(id)),
+          features_(used_features(tiles.scene_.study())),
+          compares_(std::ranges::any_of(features_,
+                                        [](const features::Feature* one) {
+                                            return one->compared == features::Compared::change;
+                                        })),
+          span_(record_span(tiles.scene_, inputs_.speed_rad_s)),
+          record_(tiles.scene_, 0, span_.turns * span_.recordings),
+          change_(tiles.scene_, 0, span_.turns * span_.recordings) {
+        life_.history = tiles.crack_.history(id, inputs_, cracked);
+        life_.values.assign(features_.size(),
+                            std::vector<double>(life_.history.records.size(), 0.0));
+    }
+
+    const InstanceInputs& inputs() const { return inputs_; }
+    GearboxLife take() && { return std::move(life_); }
+    void fail(Status status) {
+        life_.status = status;
+        life_.values.clear();
+    }
+    bool failed() const { return life_.status != Status::ok; }
+
+    // The pattern that changes are counted from: as many records as the baseline has, before the
+    // first one, each at its torque and speed, averaged. Recordings that are short count as many
+    // as make up the span, which is heard once at least.
+    void learn(const std::vector<LaneSignals>& healthy) {
+        if (!compares_) {
+            return;
+        }
+        const Study& study = tiles_.scene_.study();
+        const auto records = static_cast<double>(std::max(1, study.monitoring.baseline_records));
+        const double spans = static_cast<double>(span_.turns) * span_.recordings / span_.all_turns;
+        noise_.sensor.resize(healthy.front().sensor.size());
+        noise_.te_turn.assign(healthy.front().te_turn.size(), 0.0);
+        Philox engine = gearbox_stream(study, id_, "life.pattern.noise");
+        signals::draw_normals(engine, std::span(noise_.sensor));
+        const double sigma = inputs_.noise_m_s2 * study.sensor.noise_levels.front() /
+                             std::sqrt(std::max(1.0, records * spans)) * tiles_.laws_.noise.rms();
+        for (double& value : noise_.sensor) {
+            value *= sigma;
+        }
+        const auto draws = [&](const char* purpose) {
+            Philox own = gearbox_stream(study, id_, purpose);
+            std::vector<double> unit(static_cast<std::size_t>(records));
+            signals::draw_normals(own, std::span(unit));
+            return unit;
+        };
+        const auto torques = draws("life.pattern.torque"), speeds = draws("life.pattern.speed");
+        pattern_.assign(healthy.size(), 0.0);
+        for (std::size_t i = 0; i < torques.size(); ++i) {
+            const auto shares = tiles_.shares(
+                {tiles_.laws_.torque.factor(torques[i]), tiles_.laws_.speed.factor(speeds[i])});
+            for (std::size_t t = 0; t < shares.size(); ++t) {
+                pattern_[t] += inputs_.gain * shares[t] / records;
+            }
+        }
+    }
+
+    // Records whose depth lies in (low, high], with `low` 0 those without a crack too. Signals by
+    // load at no depth, at low and at high; those at high may be empty if none lies above low.
+    void listen(double low, double high, const std::vector<LaneSignals>& healthy,
+                const std::vector<LaneSignals>& at_low, const std::vector<LaneSignals>& at_high) {
+        std::vector<std::size_t> here;
+        for (std::size_t r = 0; r < life_.history.records.size(); ++r) {
+            const double depth = life_.history.records[r].depth_m;
+            if ((depth > low && depth <= high) || (low == 0.0 && depth == 0.0)) {
+                here.push_back(r);
+            }
+        }
+        if (here.empty()) {
+            return;
+        }
+        const std::vector<LaneSignals> none;
+        const auto basis = basis_of(healthy, low > 0.0 ? at_low : none, at_high);
+        const ComposedSignals composed = compose(basis);
+        for (const std::size_t r : here) {
+            machine::leave_if_stopped();
+            add_record(r, low, high, composed, basis.size());
+        }
+    }
+
+    // What records are sums of.
+    std::vector<const LaneSignals*> basis_of(const std::vector<LaneSignals>& healthy,
+                                             const std::vector<LaneSignals>& at_low,
+                                             const std::vector<LaneSignals>& at_high) const {
+        std::vector<const LaneSignals*> basis;
+        for (const auto* all : {&healthy, &at_low, &at_high}) {
+            for (const LaneSignals& one : *all) {
+                basis.push_back(&one);
+            }
+        }
+        if (compares_) {
+            basis.push_back(&noise_);
+        }
+        return basis;
+    }
+
+    ComposedSignals compose(const std::vector<const LaneSignals*>& basis) const {
+        const std::size_t bins = static_cast<std::size_t>(tiles_.scene_.span().planet_teeth) *
+                                 static_cast<std::size_t>(tiles_.scene_.samples_per_mesh());
+        return {basis, bins, span_.turns >= span_.all_turns};
+    }
+
+  private:
+    // Streams of a record's own, far behind those of all gearboxes. The first record's are the
+    // gearbox's: a life of one record is the record of a run.
+    static GearboxId record_id(const GearboxId& id, std::size_t record, bool change) {
+        constexpr int kRecordShift = 40;
+        return {id.group, id.index + ((2 * record + (change ? 1 : 0)) << kRecordShift)};
+    }
+
+    void add_record(std::size_t r, double low, double high, const ComposedSignals& composed,
+                    std::size_t parts) {
+        const LifeRecord& record = life_.history.records[r];
+        const std::vector<double> shares = tiles_.shares({record.torque, record.speed});
+        const double deep = record.depth_m > 0.0 ? (record.depth_m - low) / (high - low) : 0.0;
+        std::vector<double> coefficients(parts, 0.0);
+        const std::size_t n = shares.size();
+        for (std::size_t t = 0; t < n; ++t) {
+            const double one = inputs_.gain * record.gain * shares[t];
+            coefficients[(low > 0.0 ? n : 0) + t] += (1.0 - deep) * one;
+            if (deep > 0.0) {
+                coefficients[(low > 0.0 ? 2 * n : n) + t] += deep * one;
+            }
+        }
+        InstanceInputs inputs = inputs_;
+        inputs.noise_m_s2 *= record.noise;
+        inputs.encoder_noise_rad *= tiles_.laws_.noise_of_sensor_alone ? 1.0 : record.noise;
+        const std::vector<std::size_t> starts = starts_of(r);
+        LaneSignals own = heard(composed, coefficients, starts);
+        for (double& value : own.te_turn) {
+            value /= inputs_.gain * record.gain;  // of the sensor alone
+        }
+        record_.load(own, inputs, record_id(id_, r, false));
+        features::FeatureInput input = record_.at(0), change;
+        LaneSignals changed;
+        if (compares_) {
+            for (std::size_t t = 0; t < n; ++t) {
+                coefficients[t] -= pattern_[t];
+            }
+            coefficients.back() = -1.0;
+            changed = heard(composed, coefficients, starts);
+            change_.load(changed, inputs, record_id(id_, r, true));
+            change = change_.at(0);
+            input.change = &change;
+        }
+        for (std::size_t f = 0; f < features_.size(); ++f) {
+            const double value = features_[f]->value(input);
+            life_.values[f][r] = std::isfinite(value) ? value : std::nan("");
+        }
+    }
+
+    // The turns with which a record's recordings begin; none where they hold all turns.
+    std::vector<std::size_t> starts_of(std::size_t r) const {
+        std::vector<std::size_t> starts;
+        if (!span_.whole()) {
+            Philox engine =
+                gearbox_stream(tiles_.scene_.study(), record_id(id_, r, false), "life.starts");
+            boost::random::uniform_int_distribution<std::size_t> turn(
+                0, static_cast<std::size_t>(span_.all_turns) - 1);
+            for (int i = 0; i < span_.recordings; ++i) {
+                starts.push_back(turn(engine));
+            }
+        }
+        return starts;
+    }
+
+    // Folded over all that a record's recordings take in.
+    LaneSignals heard(const ComposedSignals& composed, std::span<const double> coefficients,
+                      const std::vector<std::size_t>& starts) const {
+        const int spans = span_.turns / span_.all_turns * span_.recordings;
+        LaneSignals sum = composed.at(coefficients);
+        for (double& value : sum.folded) {
+            value *= spans;
+        }
+        for (const std::size_t start : starts) {
+            composed.add_turns(coefficients, start,
+                               static_cast<std::size_t>(span_.turns % span_.all_turns), sum.folded);
+        }
+        return sum;
+    }
+
+    const LifeTiles& tiles_;
+    const GearboxId id_;
+    const InstanceInputs inputs_;
+    const LaneFeatures features_;
+    const bool compares_;
+    const RecordSpan span_;
+    InstanceSignals record_, change_;
+    GearboxLife life_;
+    LaneSignals noise_;            // of the pattern
+    std::vector<double> pattern_;  // coefficients of the healthy signals
+};
+
+}  // namespace gearpod::mc

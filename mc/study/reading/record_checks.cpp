@@ -1,0 +1,71 @@
+// Checks of what [random] draws for every record.
+#include <fmt/format.h>
+
+#include "mc/study/reading/parts.hpp"
+#include "mc/study/schema/schema.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// The key that says the same in short, and what it is set to.
+struct ShortForm {
+    std::string key;
+    double scatter;
+};
+
+ShortForm short_form(const Study& study, RecordQuantity quantity) {
+    const Life& life = study.life;
+    switch (quantity) {
+        case RecordQuantity::torque:
+            return life.interval_h ? ShortForm{"life.torque_scatter", life.torque_scatter}
+                                   : ShortForm{"features.baseline_torque_scatter",
+                                               study.features.baseline_torque_scatter};
+        case RecordQuantity::speed:
+            return {"life.speed_scatter", life.speed_scatter};
+        case RecordQuantity::gain:
+            return {"life.gain_scatter", life.gain_scatter};
+        case RecordQuantity::noise:
+            return {"life.noise_scatter", life.noise_scatter};
+    }
+    return {};
+}
+
+void check_input(StudyDraft& draft, const RandomInput& input) {
+    const Study& study = draft.study;
+    const Position at = draft.given_random[input.key];
+    const std::size_t dot = input.key.find('.');
+    const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
+    if (std::get<NumberAccess>(key.access).get(study).value_or(0.0) <= 0.0) {
+        draft.reject(at, "random." + input.key + ".per",
+                     "records scatter about a value above 0, and the study's is 0",
+                     fmt::format("give {} in [{}]", key.name, key.section));
+    }
+    const ShortForm same = short_form(study, *record_quantity(input.key));
+    if (same.scatter > 0.0) {
+        draft.reject(at, "random." + input.key + ".per", "given beside " + same.key,
+                     "say in one place how records scatter");
+    }
+    if (study.ensemble.threshold_records > 1) {
+        draft.reject("ensemble.threshold_records",
+                     fmt::format("{} records of a gearbox differ in noise alone, and {} differs "
+                                 "from record to record",
+                                 study.ensemble.threshold_records, input.key),
+                     "leave threshold_records out, or per in [random]");
+    }
+}
+
+}  // namespace
+
+// Only on a study that is sound otherwise.
+void check_records(StudyDraft& draft) {
+    if (!draft.problems.empty()) {
+        return;
+    }
+    for (const RandomInput& input : draft.study.random) {
+        if (input.distribution.per_record()) {
+            check_input(draft, input);
+        }
+    }
+}
+
+}  // namespace gearpod::mc

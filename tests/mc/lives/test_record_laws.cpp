@@ -1,0 +1,153 @@
+// What a record has of its own: drawn by [random] or in short by [life], and what one asks of both.
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "mc/lives/life_tile.hpp"
+#include "mc/lives/record_laws.hpp"
+#include "tests/mc/lives/life_example.hpp"
+#include "tests/mc/program.hpp"
+
+namespace gearpod::test {
+namespace {
+
+const std::string kTorque =
+    "random.operation.torque_N_m={distribution=\"uniform\",low=300,high=500,per=\"record\"}";
+
+TEST_CASE("A lognormal law of the record is the scatter key in long") {
+    const mc::GearboxId id{mc::Group::graded, 2};
+    const auto history = [&](const std::string& more) {
+        const mc::Scene scene(life_study({more}));
+        const mc::CrackLife crack(scene);
+        const auto inputs =
+            mc::Sampler(mc::study_of_gearboxes(scene.study())).sample(id.group, id.index);
+        return crack.history(id, inputs, true);
+    };
+    // sd of the logarithm 0.1: cv^2 = exp(0.01) - 1
+    const std::string cv = std::to_string(std::sqrt(std::expm1(0.01)));
+    const auto in_short = history("life.gain_scatter=0.1");
+    const auto in_long = history(
+        "random.sensor.gain={distribution=\"lognormal\",median=1,cv=" + cv + ",per=\"record\"}");
+    REQUIRE(in_short.records.size() == in_long.records.size());
+    for (std::size_t r = 0; r < in_short.records.size(); ++r) {
+        CHECK(in_long.records[r].gain == Approx(in_short.records[r].gain).epsilon(1e-6));
+        CHECK(in_long.records[r].torque == 1.0);
+    }
+}
+
+TEST_CASE("Records draw from the law that [random] gives them, about no gearbox's own value") {
+    const mc::Study study = life_study({kTorque, "life.records=4000"});
+    const mc::Scene scene(study);
+    const mc::CrackLife crack(scene);
+    const mc::Sampler sampler(mc::study_of_gearboxes(study));
+    for (const std::uint64_t index : {0, 1}) {
+        const mc::GearboxId id{mc::Group::threshold, index};
+        const auto inputs = sampler.sample(id.group, id.index);
+        CHECK(inputs.torque_N_m == study.operation.torque_N_m);
+        auto torques = std::vector<double>();
+        for (const auto& record : crack.history(id, inputs, false).records) {
+            torques.push_back(record.torque * inputs.torque_N_m);
+        }
+        // Kolmogorov's distance of 4,000 from the uniform law: above 1.63 / sqrt(n) once in 100.
+        std::ranges::sort(torques);
+        double apart = 0.0;
+        for (std::size_t i = 0; i < torques.size(); ++i) {
+            const double share = (torques[i] - 300.0) / 200.0;
+            apart = std::max(apart, std::abs(share - (static_cast<double>(i) + 0.5) / 4000.0));
+        }
+        CHECK(apart < 1.63 / std::sqrt(4000.0));
+    }
+    // No column of a gearbox's own.
+    for (const auto& column : sampler.columns()) {
+        CHECK(column.name != "torque_N_m");
+    }
+}
+
+TEST_CASE("A law of few values marches where its records are") {
+    // Nine in ten at one torque: its quantiles at -1.5 and 1.5 may be the same.
+    const mc::Study study =
+        life_study({"random.operation.torque_N_m={distribution=\"discrete\",values=[300,429],"
+                    "weights=[0.02,0.98],per=\"record\"}"});
+    const mc::RecordLaw law(study, mc::RecordQuantity::torque, 0.0);
+    const auto marched = law.marched();
+    REQUIRE(marched.size() == 2);
+    CHECK(marched[0] * study.operation.torque_N_m == Approx(300.0));
+    CHECK(marched[1] * study.operation.torque_N_m == Approx(429.0));
+    CHECK(mc::shares_of(marched, marched[0])[0] == Approx(1.0));
+    const mc::RecordLaw none(life_study(), mc::RecordQuantity::torque, 0.0);
+    CHECK(none.marched() == std::vector<double>{1.0});
+}
+
+TEST_CASE("A snapshot's baseline record draws what belongs to records anew, and only that") {
+    const std::vector<std::string> both{
+        "features.use=[\"change_window_ratio\"]", "sensor.noise_levels=[1]", kTorque,
+        "random.sensor.gain={distribution=\"uniform\",low=1,high=2}"};
+    const mc::Sampler sampler(shipped_study("planet-crack-ideal.toml", both));
+    const auto judged = sampler.sample(mc::GearboxId{mc::Group::graded, 3});
+    const auto before = sampler.sample(mc::GearboxId{mc::Group::graded, 3, mc::Record::baseline});
+    CHECK(judged.torque_N_m != before.torque_N_m);
+    CHECK(before.torque_N_m > 300.0);
+    CHECK(before.torque_N_m < 500.0);
+    CHECK(judged.gain == before.gain);
+    // Of one record a gearbox, the record's law is the gearbox's.
+    auto plain = both;
+    plain[2].replace(plain[2].find(",per"), 13, "");
+    const mc::Sampler gearbox(shipped_study("planet-crack-ideal.toml", plain));
+    CHECK(gearbox.sample(mc::Group::graded, 3).torque_N_m == judged.torque_N_m);
+}
+
+TEST_CASE("What belongs to records is read, written and refused with its key") {
+    const mc::Study study = life_study({kTorque});
+    CHECK(mc::resolved_text(study).find("per = \"record\"") != std::string::npos);
+    CHECK(*mc::read_study_text(mc::resolved_text(study), "again").study == study);
+
+    const auto refused = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = kLife;
+        all.insert(all.end(), more.begin(), more.end());
+        std::string text;
+        for (const auto& problem :
+             mc::read_study(test::study("planet-crack-ideal.toml"), all).problems) {
+            text += mc::format(problem) + "\n";
+        }
+        return text;
+    };
+    const auto law = [](const std::string& key, const std::string& rest) {
+        return "random." + key + "={" + rest + ",per=\"record\"}";
+    };
+    const auto says = [&](const std::vector<std::string>& more, const std::string& words) {
+        const std::string text = refused(more);
+        INFO(text);
+        CHECK(text.find(words) != std::string::npos);
+        CHECK(std::ranges::count(text, '\n') == 1);
+    };
+    says({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
+         "mesh_damping_ratio belongs to the gearbox");
+    says({"random.sensor.gain={distribution=\"uniform\",low=1,high=2,per=\"day\"}"},
+         "is no level of randomness");
+    says({law("sensor.gain", "distribution=\"levels\",values=[1,2]")}, "takes its values in turn");
+    says({kTorque, "life.torque_scatter=0.1"}, "given beside life.torque_scatter");
+    auto snapshot = std::vector<std::string>{kTorque, "ensemble.threshold_records=3"};
+    std::string text;
+    for (const auto& problem :
+         mc::read_study(test::study("planet-crack-ideal.toml"), snapshot).problems) {
+        text += mc::format(problem) + "\n";
+    }
+    INFO(text);
+    CHECK(text.find("3 records of a gearbox differ in noise alone") != std::string::npos);
+}
+
+TEST_CASE("describe shows the law that records draw from") {
+    std::string options;
+    for (const std::string& one : kLife) {
+        options += " --set '" + one + "'";
+    }
+    const Outcome said = program("describe " + test::study("planet-crack-ideal.toml") + options +
+                                 " --set '" + kTorque + "'");
+    INFO(said.output);
+    CHECK(said.code == 0);
+    CHECK(said.mentions("operation.torque_N_m = { distribution = \"uniform\""));
+    CHECK(said.mentions("of the study's value"));
+}
+
+}  // namespace
+}  // namespace gearpod::test
