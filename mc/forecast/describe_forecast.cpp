@@ -9,7 +9,9 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/forecast.hpp"
+#include "mc/forecast/lives_forecast.hpp"
 #include "mc/forecast/rank_forecast.hpp"
+#include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -88,9 +90,25 @@ void print_ranks(const Study& study, const RankForecast& forecast, int threads, 
     print_entry("rank 0", leader_text(forecast));
 }
 
+// Nothing, and false, of a study without lives, or whose records cannot be composed.
+bool print_lives(const Scene& scene, double setup_s) {
+    if (!scene.study().life.interval_h) {
+        return false;
+    }
+    try {
+        print_lives_forecast(LifeTiles(scene), setup_s);
+    } catch (const SceneError&) {
+        return false;  // print_life() says why
+    }
+    return true;
+}
+
 }  // namespace
 
 void print_forecast(const Scene& scene, double setup_s, int ranks) {
+    if (ranks == 0 && print_lives(scene, setup_s)) {
+        return;
+    }
     const Study& study = scene.study();
     const BatchPlan plan(study.ensemble);
     const int threads = thread_count(study);

@@ -75,13 +75,7 @@ double recorded_beside_orbit(const Scene& scene) {
     if (scene.study().numerics.horizon == Horizon::march) {
         return scene.recorded_meshes();
     }
-    if (scene.faulty_pair() < 0) {
-        return 0.0;
-    }
-    const double passage = std::ceil(scene.pairs().curve(scene.faulty_pair()).contact_ratio()) +
-                           approach_meshes(scene);
-    return std::min(passage * static_cast<double>(scene.pattern().passages.size()),
-                    static_cast<double>(scene.pattern().length));
+    return passage_meshes(scene);
 }
 
 }  // namespace
@@ -98,6 +92,16 @@ double marched_meshes(const Scene& scene) {
     const bool marches_all = scene.study().numerics.horizon == Horizon::march;
     return approach_meshes(scene) + (marches_all ? run_in_meshes(scene) : 0) +
            recorded_beside_orbit(scene);
+}
+
+double passage_meshes(const Scene& scene) {
+    if (scene.faulty_pair() < 0) {
+        return 0.0;
+    }
+    const double passage = std::ceil(scene.pairs().curve(scene.faulty_pair()).contact_ratio()) +
+                           approach_meshes(scene);
+    return std::min(passage * static_cast<double>(scene.pattern().passages.size()),
+                    static_cast<double>(scene.pattern().length));
 }
 
 double motion_bytes(const Scene& scene) {

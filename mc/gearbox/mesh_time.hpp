@@ -12,6 +12,9 @@ double approach_meshes(const Scene& scene);
 // gearboxes march about as many.
 double marched_meshes(const Scene& scene);
 
+// Mesh periods that a fault of theirs changes: its passages, until the motion is back.
+double passage_meshes(const Scene& scene);
+
 // Bytes of what a tile records of its motion.
 double motion_bytes(const Scene& scene);
 

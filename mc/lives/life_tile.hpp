@@ -42,6 +42,12 @@ struct LifeCosts {
     long gearbox_count = 0, record_count = 0;
 };
 
+// What hearing a gearbox takes, seconds of processor time.
+struct RecordTrial {
+    double step_s = 0.0;    // each step of depth: what its records are composed of
+    double record_s = 0.0;  // each record
+};
+
 class LifeTiles {
   public:
     // Throws SceneError for what records cannot be composed of.
@@ -51,6 +57,10 @@ class LifeTiles {
     std::vector<GearboxLife> run(std::span<const GearboxId> ids, bool cracked, LifeCosts& costs,
                                  std::span<InterpolationErrors> errors = {}) const;
 
+    // All records of a gearbox, of signals that are made up in place of marches.
+    RecordTrial try_records() const;
+
+    LifeHistory history(const GearboxId& id) const;  // of one that cracks
     // At how many loads it is marched.
     std::size_t load_count() const { return torques_.size() * speeds_.size(); }
 
@@ -62,6 +72,7 @@ class LifeTiles {
     class Lane;
     class Look;
     using Marched = std::vector<std::vector<LaneSignals>>;  // [lane][load]
+    LaneSignals made_up(std::uint64_t number) const;
     // Factors on a gearbox's torque and speed.
     struct Load {
         double torque = 1.0, speed = 1.0;

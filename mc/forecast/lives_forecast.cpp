@@ -1,0 +1,146 @@
+#include "mc/forecast/lives_forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "machine/dispatch.hpp"
+#include "mc/ensemble/thread_count.hpp"
+#include "mc/forecast/describe_effects.hpp"
+#include "mc/forecast/memory.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/lives/life_rows.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+// Mesh periods of a tile without a fault, and those that a depth marches beside them.
+struct MarchedMeshes {
+    double healthy, depth;
+};
+
+MarchedMeshes meshes_of(const Scene& scene) {
+    const double all = marched_meshes(scene);
+    const bool each_alone = scene.study().numerics.horizon == Horizon::march &&
+                            scene.recorded_meshes() == scene.span_meshes();
+    return {all, each_alone ? std::min(passage_meshes(scene), all) : all};
+}
+
+// Seconds of a tile of a batch.
+double tile_s(const LifeTiles& tiles, const MarchedMeshes& meshes, double mesh_s, bool cracked,
+              bool looked) {
+    const Life& life = tiles.scene().study().life;
+    const auto loads = static_cast<double>(tiles.load_count());
+    double marched = loads * meshes.healthy;
+    if (cracked) {
+        marched += loads * life.depth_steps * meshes.depth;
+    }
+    if (looked) {
+        marched += 2.0 * meshes.depth + (loads > 1.0 ? meshes.healthy : 0.0);
+    }
+    return marched * mesh_s;
+}
+
+// Of the first gearboxes with a crack: records until the end.
+double mean_records(const LifeTiles& tiles) {
+    constexpr std::uint64_t kMost = 64;
+    const auto count = std::clamp<std::uint64_t>(
+        static_cast<std::uint64_t>(tiles.scene().study().ensemble.instances), 1, kMost);
+    double sum = 0.0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        sum += static_cast<double>(tiles.history({Group::graded, i}).records.size());
+    }
+    return sum / static_cast<double>(count);
+}
+
+// A tile's signals: of each load those that the march keeps, and those without a crack, at the
+// depths below and above; and, of one of its gearboxes, its records' folded products.
+double tile_bytes(const LifeTiles& tiles) {
+    const Scene& scene = tiles.scene();
+    const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
+    const auto lanes = static_cast<double>(tiles.lanes()),
+               loads = static_cast<double>(tiles.load_count());
+    const double basis = 3.0 * loads + 1.0;
+    const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
+    return 8.0 * (4.0 * loads * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
+           motion_bytes(scene);
+}
+
+double file_bytes(const Study& study) {
+    const RowShape shape = row_shape(lives_frame(study));
+    return 8.0 * static_cast<double>(lives_plan(study).rows()) *
+           static_cast<double>(shape.values() + 1);
+}
+
+std::string time_text(double seconds) {
+    return seconds < 9.95 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.0f} s", seconds);
+}
+
+std::string bytes_text(double bytes) {
+    return bytes < 1e8 ? fmt::format("{:.2g} MB", bytes / 1e6)
+                       : fmt::format("{:.0f} MB", bytes / 1e6);
+}
+
+}  // namespace
+
+LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s) {
+    const Scene& scene = tiles.scene();
+    const Study& study = scene.study();
+    const BatchPlan plan = lives_plan(study);
+    LivesForecast all;
+    all.threads = std::max(1, std::min(threads, static_cast<int>(plan.batches())));
+    all.setup_s = setup_s;
+    const MarchedMeshes meshes = meshes_of(scene);
+    const double mesh_s = study.effects.quasi_static() ? 0.0 : mesh_period_s(scene);
+    const RecordTrial trial = tiles.try_records();
+    const double cracked_records = mean_records(tiles);
+    std::vector<double> busy_s(static_cast<std::size_t>(all.threads), 0.0);
+    double marched_s = 0.0, heard_s = 0.0, heard = 0.0;
+    for (std::size_t b = 0; b < plan.batches(); ++b) {
+        const Batch batch = plan.batch(b);
+        const bool cracked = batch.group == Group::graded;
+        const double records = cracked ? cracked_records : study.life.records;
+        double batch_s = 0.0;
+        for (std::size_t first = 0; first < batch.gearboxes; first += tiles.lanes()) {
+            const bool looked = looked_at({batch.group, batch.first_index + first});
+            batch_s += tile_s(tiles, meshes, mesh_s, cracked, looked);
+        }
+        marched_s += batch_s;
+        const double own_s =
+            static_cast<double>(batch.gearboxes) *
+            (records * trial.record_s + (cracked ? study.life.depth_steps : 1) * trial.step_s);
+        heard += static_cast<double>(batch.gearboxes) * records;
+        heard_s += own_s;
+        *std::ranges::min_element(busy_s) += batch_s + own_s;
+    }
+    all.gearboxes = static_cast<long>(plan.rows());
+    all.records = std::lround(heard);
+    all.gearbox_s = marched_s / static_cast<double>(std::max<std::size_t>(1, plan.rows()));
+    all.record_s = heard_s / std::max(1.0, heard);
+    all.marches_s = std::ranges::max(busy_s);
+    all.file_bytes = file_bytes(study);
+    all.memory_bytes = peak_memory_bytes() + all.threads * tile_bytes(tiles) + all.file_bytes;
+    return all;
+}
+
+void print_lives_forecast(const LifeTiles& tiles, double setup_s) {
+    const LivesForecast all = forecast_lives(tiles, thread_count(tiles.scene().study()), setup_s);
+    print_heading("forecast of lives");
+    print_entry("measured on",
+                "a mesh period, and how many the damping asks for; records of made-up signals");
+    print_entry("threads", fmt::format("{}, {}", all.threads,
+                                       machine::name(machine::active_instruction_set())));
+    print_entry("set-up", time_text(all.setup_s));
+    print_entry("gearboxes", fmt::format("{} of {:.2g} s of a processor each, marched",
+                                         all.gearboxes, all.gearbox_s));
+    print_entry("records",
+                fmt::format("{} of {:.2g} ms each, composed", all.records, 1e3 * all.record_s));
+    print_entry("estimated time", time_text(all.total_s()));
+    print_entry("estimated memory", bytes_text(all.memory_bytes));
+    print_entry("results file",
+                bytes_text(all.file_bytes) + "; a checkpoint as large until the end");
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,42 @@
+// What a forecast asks of LifeTiles.
+#include <algorithm>
+
+#include "machine/thread_clock.hpp"
+#include "mc/lives/life_lane.hpp"
+
+namespace gearpod::mc {
+
+LaneSignals LifeTiles::made_up(std::uint64_t number) const {
+    const auto samples = [&](int of_mesh, int meshes) {
+        return static_cast<std::size_t>(of_mesh) * static_cast<std::size_t>(meshes);
+    };
+    LaneSignals all;
+    Philox engine = gearbox_stream(scene_.study(), {Group::graded, number}, "life.made_up.signals");
+    all.sensor.resize(samples(scene_.samples_per_mesh(), scene_.span_meshes()));
+    signals::draw_normals(engine, std::span(all.sensor));
+    all.te_turn.resize(samples(scene_.te_samples_per_mesh(), scene_.span().planet_teeth));
+    signals::draw_normals(engine, std::span(all.te_turn));
+    return all;
+}
+
+RecordTrial LifeTiles::try_records() const {
+    const std::vector<LaneSignals> none, healthy(load_count(), made_up(0)),
+        low(load_count(), made_up(1)), high(load_count(), made_up(2));
+    Lane lane(*this, {Group::graded, 0}, false);
+    lane.learn(healthy);
+    const auto seconds = [](const auto& work) {
+        const double start = thread_processor_s();
+        work();
+        return thread_processor_s() - start;
+    };
+    const double first_s = seconds([&] { lane.compose(lane.basis_of(healthy, none, high)); });
+    const double step_s = seconds([&] { lane.compose(lane.basis_of(healthy, low, high)); });
+    const double all_s = seconds([&] { lane.listen(0.0, depth(1), healthy, none, high); });
+    return {step_s, std::max(0.0, all_s - first_s) / scene_.study().life.records};
+}
+
+LifeHistory LifeTiles::history(const GearboxId& id) const {
+    return crack_.history(id, inputs(id), true);
+}
+
+}  // namespace gearpod::mc
