@@ -218,7 +218,7 @@ void check_precision(StudyDraft& draft) {
 }
 
 // As many of each kind of tilted record.
-void check_records(StudyDraft& draft) {
+void check_tilted_records(StudyDraft& draft) {
     const Ensemble& e = draft.study.ensemble;
     constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
     if (e.tilted() && draft.all_usable({"ensemble.threshold_records"}) &&
@@ -233,7 +233,7 @@ void check_records(StudyDraft& draft) {
 }  // namespace
 
 void check_consistency(StudyDraft& draft) {
-    check_records(draft);
+    check_tilted_records(draft);
     check_operation(draft);
     check_path(draft);
     check_fixed_shaft_motion(draft);
