@@ -49,7 +49,7 @@ Results example() {
         detection.alarm = feature.alarm;
         detection.warnings = {"first", "second"};
         for (const double noise : r.noise_levels) {
-            analysis::LevelDetection level{noise, noise + 0.5, 10, 1, {}, {}};
+            analysis::LevelDetection level{noise, noise + 0.5, 10, 1, {}, {}, {}};
             for (const analysis::SizeGroup& size : r.request.groups) {
                 level.cells.push_back({size, 10, 5, 1, 0.5 + noise / 4, 0.25, 0.75});
             }
