@@ -9,37 +9,111 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "mc/files/file_descriptor.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-std::string temporary_name(const std::string& path) {
-    return path + ".new-" + std::to_string(::getpid());
-}
-
 std::string folder_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// A new file. What has the temporary's name was left by a process that had this one's number, or
-// is a trap: it is not opened.
-Descriptor open_temporary(const std::string& name) {
-    ::unlink(name.c_str());
-    return Descriptor(::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-}
-
-// errno of the first failure, 0 if the bytes are safely on the disk under the temporary's name.
-int write_temporary(const std::string& name, std::span<const std::byte> bytes) {
-    Descriptor file = open_temporary(name);
-    if (file.get() < 0) {
+// Gives a file another name unless that is taken, and takes the first one away; errno or 0.
+int rename_to_free(const std::string& from, const std::string& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+        return 0;
+    }
+    if (errno != EINVAL && errno != ENOSYS) {
         return errno;
     }
-    const bool good = write_at(file.get(), bytes, 0) && ::fsync(file.get()) == 0 && file.close();
-    return good ? 0 : errno;
+    // A file system, or a kernel, that cannot; most of them know hard links.
+    const int error = ::link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+    if (error == 0) {
+        ::unlink(from.c_str());
+    }
+    return error;
 }
+
+// A new file in the folder of `path`. It has no name while it is written, so that nothing is left
+// of it wherever its writer is killed; where the file system gives none without (NFS), its name is
+// a temporary's from the start.
+class Temporary {
+  public:
+    explicit Temporary(const std::string& path)
+        : name_(name_for(path)),
+          file_(::open(folder_of(path).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666)) {
+        // Linking it takes /proc.
+        if (file_.get() < 0 || ::access(source().c_str(), F_OK) != 0) {
+            // What has the temporary's name was left by a process that had this one's number, or
+            // is a trap: it is not opened.
+            ::unlink(name_.c_str());
+            file_ = Descriptor(::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+            error_ = file_.get() < 0 ? errno : 0;
+            named_ = error_ == 0;
+        }
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary() {
+        if (named_) {
+            ::unlink(name_.c_str());
+        }
+    }
+
+    static std::string name_for(const std::string& path) {
+        return path + ".new-" + std::to_string(::getpid());
+    }
+
+    // Why it could not be created (errno), or 0.
+    int error() const { return error_; }
+    int fd() const { return file_.get(); }
+    Descriptor release() { return std::move(file_); }
+
+    // errno of the first failure, 0 if the bytes are safely on the disk.
+    int write(std::span<const std::byte> bytes) {
+        return write_at(fd(), bytes, 0) && ::fsync(fd()) == 0 ? 0 : errno;
+    }
+
+    // Takes the name `path` unless that is taken; errno or 0.
+    int take_free(const std::string& path) {
+        const int error = named_ ? rename_to_free(name_, path) : link_as(path);
+        named_ = named_ && error != 0;
+        return error;
+    }
+
+    // Takes the name `path`, whatever had it; errno or 0.
+    int take(const std::string& path) {
+        if (!named_) {
+            ::unlink(name_.c_str());
+            const int error = link_as(name_);
+            named_ = error == 0;
+            if (error != 0) {
+                return error;
+            }
+        }
+        if (std::rename(name_.c_str(), path.c_str()) != 0) {
+            return errno;
+        }
+        named_ = false;
+        return 0;
+    }
+
+  private:
+    std::string source() const { return "/proc/self/fd/" + std::to_string(fd()); }
+    int link_as(const std::string& path) const {
+        return ::linkat(AT_FDCWD, source().c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0
+                   ? 0
+                   : errno;
+    }
+
+    std::string name_;
+    Descriptor file_;
+    int error_ = 0;
+    bool named_ = false;
+};
 
 // A rename is on the disk once its folder is; some file systems cannot sync folders, and need not.
 void sync_folder(const std::string& path) {
@@ -89,13 +163,15 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
         throw std::runtime_error(path + ": cannot be written (" + kind + ")");
     }
     const std::string target = behind_links(path);
-    const std::string temporary = temporary_name(target);
-    int error = write_temporary(temporary, bytes);
-    if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
-        error = errno;
+    Temporary file(target);
+    int error = file.error();
+    if (error == 0) {
+        error = file.write(bytes);
+    }
+    if (error == 0) {
+        error = file.take(target);
     }
     if (error != 0) {
-        ::unlink(temporary.c_str());
         throw std::runtime_error(path + ": cannot be written (" + std::strerror(error) + ")");
     }
     sync_folder(target);
@@ -158,45 +234,23 @@ bool same_file(const std::string& one, const std::string& other) {
     return has_a == has_b && !one.empty() && !other.empty() && place(one) == place(other);
 }
 
-namespace {
-
-// Gives a file another name unless that is taken, and takes the first one away; errno or 0.
-int rename_to_free(const std::string& from, const std::string& to) {
-    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
-        return 0;
-    }
-    if (errno != EINVAL && errno != ENOSYS) {
-        return errno;
-    }
-    // A file system, or a kernel, that cannot; most of them know hard links.
-    const int error = ::link(from.c_str(), to.c_str()) == 0 ? 0 : errno;
-    if (error == 0) {
-        ::unlink(from.c_str());
-    }
-    return error;
-}
-
-}  // namespace
-
 int create_exclusively(const std::string& path, std::span<const std::byte> bytes,
                        const std::function<void(int)>& prepare) {
-    const std::string temporary = temporary_name(path);
-    Descriptor file = open_temporary(temporary);
-    if (file.get() < 0) {
-        return -1;
-    }
-    prepare(file.get());
-    int error = write_at(file.get(), bytes, 0) && ::fsync(file.get()) == 0 ? 0 : errno;
+    Temporary file(path);
+    int error = file.error();
     if (error == 0) {
-        error = rename_to_free(temporary, path);
+        prepare(file.fd());
+        error = file.write(bytes);
+    }
+    if (error == 0) {
+        error = file.take_free(path);
     }
     if (error != 0) {
-        ::unlink(temporary.c_str());
         errno = error;
         return -1;
     }
     sync_folder(path);
-    return file.release();
+    return file.release().release();
 }
 
 std::string why_not_writable(const std::string& name) {
@@ -213,9 +267,11 @@ std::string why_not_writable(const std::string& name) {
     if (!S_ISDIR(status.st_mode)) {
         return folder + " is not a folder";
     }
-    const std::string temporary = temporary_name(path);
-    const int error = write_temporary(temporary, {});
-    ::unlink(temporary.c_str());
+    // The temporary's name is the longest one.
+    if (::lstat(Temporary::name_for(path).c_str(), &status) != 0 && errno == ENAMETOOLONG) {
+        return std::strerror(ENAMETOOLONG);
+    }
+    const int error = Temporary(path).error();
     return error == 0 ? "" : std::strerror(error);
 }
 

@@ -1,9 +1,11 @@
 // The results file: complete or absent, readable by other programs, refused when it is not ours.
+#include <fcntl.h>
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -280,7 +282,34 @@ TEST_CASE("An output that cannot be written is known before the run") {
     CHECK(contains(why_not_writable(folder.file(".")), "folder"));
     CHECK(contains(why_not_writable(folder.file("r.h5/x.h5")), "folder"));
     CHECK_FALSE(why_not_writable("").empty());
+    CHECK(contains(why_not_writable(folder.file(std::string(250, 'r'))), "too long"));
     CHECK_THROWS_AS(write_results(folder.file("no/r.h5"), example()), std::runtime_error);
+}
+
+TEST_CASE("Of a file whose writer is killed before it has its name nothing is left") {
+    const Folder folder;
+    const int unnamed = ::open(folder.file(".").c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (unnamed < 0) {
+        WARN("the file system has no files without a name");
+        return;
+    }
+    ::close(unnamed);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        create_exclusively(folder.file("r.part"), {}, [](int) { ::kill(::getpid(), SIGKILL); });
+        ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+    CHECK(folder.files() == 0);
+    // Nothing is in the way of the next one, and the one after finds it taken.
+    const int fd = create_exclusively(folder.file("r.part"), {}, [](int) {});
+    CHECK(fd >= 0);
+    ::close(fd);
+    CHECK(create_exclusively(folder.file("r.part"), {}, [](int) {}) == -1);
+    CHECK(errno == EEXIST);
+    CHECK(folder.files() == 1);
 }
 
 TEST_CASE("What is no regular file is refused and stays") {
