@@ -202,14 +202,13 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
     return threads == 0 ? 0.0 : std::max(0.0, sum / threads);
 }
 
-// A tile that records `recorded` meshes, as one that records them all.
-void complete(TileCost& cost, int recorded, int to_record) {
-    const auto missing = static_cast<double>(to_record - recorded);
-    if (cost.whole.meshes > 0) {
-        cost.whole.march *= 1.0 + missing / static_cast<double>(cost.whole.meshes);
-    } else {
-        cost.whole.march *= static_cast<double>(to_record) / recorded;  // a copy
-    }
+// A tile that records `measured`'s meshes, as one that records all of `whole`. Its records and
+// their baselines are marched alike.
+void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
+    const bool marched = cost.whole.meshes > 0;  // otherwise copied
+    cost.whole.march *=
+        marched ? marched_meshes(whole) / marched_meshes(measured)
+                : static_cast<double>(whole.recorded_meshes()) / measured.recorded_meshes();
 }
 
 // Meshes that a tile may record.
@@ -290,8 +289,8 @@ RunCalibration calibrate_run(const Scene& scene, const BatchPlan& plan, int thre
         measure(measured, plan, budget_s, result);
         result.memory.records = result.threads * (all_records - motion_bytes(measured));
         for (GroupCost& group : result.cost) {
-            complete(group.fresh, result.recorded, result.to_record);
-            complete(group.reused, result.recorded, result.to_record);
+            complete(group.fresh, measured, scene);
+            complete(group.reused, measured, scene);
         }
     }
     return result;

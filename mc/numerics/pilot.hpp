@@ -21,8 +21,8 @@ struct PilotRecord {
     std::vector<std::vector<double>> features;  // by gearbox, [feature * noise levels + level]
     int features_used = 0, levels = 0;
     int steps = 0;             // a mesh period
-    double tile_meshes = 0.0;  // mesh periods marched, of eight gearboxes at once
-    // Processor time of one thread and gearbox, in full tiles.
+    double tile_meshes = 0.0;  // mesh periods marched, of a tile of the gearboxes at once
+    // Processor time of one thread and gearbox, in full tiles of as many lanes as a run has.
     double march_s = 0.0;  // the march alone
     double total_s = 0.0;  // sampling, stiffness, march, signals and features
 
@@ -52,7 +52,7 @@ class Pilot {
 
   private:
     using Tile = std::function<GearboxTile(std::span<const GearboxId>)>;
-    PilotRecord record(const Scene& scene, const Tile& tile_of) const;
+    PilotRecord record(const Scene& scene, int lanes, const Tile& tile_of) const;
 
     std::vector<GearboxId> ids_;
     Sampler sampler_;
