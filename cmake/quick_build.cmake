@@ -37,6 +37,18 @@ if(GEARPOD_QUICK)
   gearpod_unite(gearpod_mc)
 endif()
 
+# Files of kernels hold little else than one line for the templates that all of them read.
+function(gearpod_precompile_kernels library)
+  if(GEARPOD_QUICK AND NOT library STREQUAL "gearpod_kernels")
+    target_precompile_headers(${library} REUSE_FROM gearpod_kernels)
+  elseif(GEARPOD_QUICK)
+    target_precompile_headers(gearpod_kernels PRIVATE <lockstep/integrators/all_integrators.hpp>
+      <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
+      <lockstep/kernels/paced_kernels.hpp>)
+  endif()
+endfunction()
+gearpod_precompile_kernels(gearpod_kernels)
+
 # Test programs read Catch2 once; what has a main() of its own sets Catch2 up before it reads it.
 function(gearpod_precompile_tests program)
   if(NOT GEARPOD_QUICK)

@@ -56,7 +56,8 @@ if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     list(APPEND gearpod_kernel_options -march=x86-64-v3)
   endif()
 endif()
-list(APPEND gearpod_kernel_options -fno-trapping-math -fno-math-errno)
+set(gearpod_kernel_arithmetic -fno-trapping-math -fno-math-errno)
+list(APPEND gearpod_kernel_options ${gearpod_kernel_arithmetic})
 
 # Which instruction sets a build has: `gearpod_sets`, and the lanes of each.
 option(GEARPOD_PORTABLE "build kernels of all instruction sets and widths, not just this processor's" OFF)
@@ -131,10 +132,17 @@ void add_${name}(KernelTable& table) {${calls}
 
 }  // namespace gearpod::lockstep
 ")
-  set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${options}"
-    SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${options}")
   set(files ${files} ${file} PARENT_SCOPE)
   set(adders ${adders} add_${name} PARENT_SCOPE)
+endfunction()
+
+# A library of such files. A precompiled header has to know how errors of arithmetic are treated.
+function(gearpod_kernel_library name)
+  add_library(${name} OBJECT ${ARGN})
+  target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
+  target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})
+  target_compile_options(${name} PRIVATE ${gearpod_kernel_arithmetic})
 endfunction()
 
 # All pairs INTEGRATOR:KIND of the table.
