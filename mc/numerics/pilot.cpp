@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "lockstep/kernels/built_kernels.hpp"
 #include "lockstep/steps/step_pilot.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
@@ -120,7 +121,8 @@ Pilot::Pilot(const Scene& scene, std::vector<GearboxId> ids)
     : ids_(std::move(ids)), sampler_(scene.study()), path_(path_grid(scene)) {}
 
 PilotRecord Pilot::run(const Scene& scene) const {
-    const int lanes = std::max(lockstep::kPilotLanes, scene.study().numerics.lanes);
+    const lockstep::Precision precision = scene.plan().precision;
+    const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
     return record(scene, lanes, [&](std::span<const GearboxId> some) {
         return run_gearboxes(scene, sampler_, path_, filled(some, lanes), lanes);
     });

@@ -12,6 +12,11 @@ using lockstep::Precision;
 enum class StepGrid { uniform, graded };
 enum class Horizon { reuse, march };
 
+// As many as fill a 512-bit register.
+constexpr int full_lanes(Precision precision) {
+    return precision == Precision::single_precision ? 16 : 8;
+}
+
 struct Numerics {
     std::optional<lockstep::Integrator> integrator;  // empty: chosen for the gearbox
     Precision precision = Precision::double_precision;
@@ -27,8 +32,8 @@ struct Numerics {
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
     int max_meshes = 0;                // 0: from the damping
     Horizon horizon = Horizon::reuse;
-    int lanes = 8;    // 8, 4 or 1; in single precision 16 as well, by default
-    int threads = 0;  // 0: all
+    int lanes = full_lanes(Precision::double_precision);     // of its precision, 8, 4 or 1
+    int threads = 0;                                         // 0: all
     std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest
 
     bool operator==(const Numerics&) const = default;

@@ -143,11 +143,10 @@ void fill_path(StudyDraft& draft) {
     }
 }
 
-// As many as fill a 512-bit register.
 void fill_lanes(StudyDraft& draft) {
     Numerics& n = draft.study.numerics;
-    if (!draft.is_given("numerics.lanes") && n.precision == Precision::single_precision) {
-        n.lanes = 16;
+    if (!draft.is_given("numerics.lanes")) {
+        n.lanes = full_lanes(n.precision);
     }
 }
 

@@ -76,6 +76,22 @@ TEST_CASE("the reference is what two independent methods converge to", "[accurac
     CHECK(reference.agreement.sensor > 0.0);
 }
 
+TEST_CASE("Singles march the gearboxes of doubles but for rounding", "[accuracy]") {
+    const auto yang = [](std::vector<std::string> more) {
+        more.insert(more.end(), {"numerics.integrator=rk4", "numerics.steps_per_mesh=384"});
+        return Scene(shipped_study("yang-fig-15.toml", more));
+    };
+    const Scene doubles = yang({}), singles = yang({"numerics.precision=single"});
+    const Pilot pilot(doubles);
+    const PilotRecord first = pilot.run(doubles), second = pilot.run(singles);
+    CHECK(second.sensor.size() == first.sensor.size());
+    const PilotError error = pilot_error(second, first);
+    CHECK(error.sensor > 0.0);
+    CHECK(error.sensor < 1e-3);
+    CHECK(error.te < 1e-3);
+    CHECK(error.largest_feature() < 1e-3);
+}
+
 TEST_CASE("numerics.tolerance keeps the features and costs less", "[accuracy]") {
     const Reference reference = tian_reference();
     const Scene own(tian());
