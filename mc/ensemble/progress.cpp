@@ -58,9 +58,10 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
         return show_json(elapsed, rate, left, false);
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
-    std::string numbers = fmt::format("{} of {}{} gearboxes, {:.0f} a second, {} left", done_,
-                                      left < missing ? "at most " : "", total_, rate,
-                                      duration_text(static_cast<double>(left) / rate));
+    std::string numbers = fmt::format(
+        "{} of {}{} gearboxes, {} a second, {} left", done_, left < missing ? "at most " : "",
+        total_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
+        duration_text(static_cast<double>(left) / rate));
     if (!rate_.empty()) {
         numbers += ", " + rate_;
     }
