@@ -23,6 +23,7 @@ try:
     import build_page
     import charts
     import words
+    from lives import campaign_data
 except ImportError as error:
     print(f"skipped: {error} (Debian: python3-matplotlib)")
     sys.exit(77)
@@ -368,12 +369,11 @@ class Program(unittest.TestCase):
         self.assertEqual(html, build_page.page_html(data))
         parsed = PageHtml(html)
         self.assertEqual(parsed.problems, [])
-        self.assertEqual(parsed.count("figure"), 3)
-        self.assertEqual(parsed.count("script"), 0)
+        self.assertEqual((parsed.count("figure"), parsed.count("script")), (3, 0))
         ended = sum(life["end_h"] is not None for life in data["lives"])
         self.assertGreater(ended, 0)
-        self.assertIn("Holds for identical teeth", data["assumptions"])
-        self.assertIn("the lives of other gearboxes", data["assumptions"])
+        for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
+            self.assertIn(words_, data["assumptions"])
         for words_ in (data["assumptions"], f"of {ended} cracks before the tooth goes", "Warning times",
                        "What false alarms buy", "each of the 31 teeth in all its 81 meetings"):
             self.assertIn(words_, parsed.text())
@@ -383,6 +383,12 @@ class Program(unittest.TestCase):
         self.assertEqual(again.stdout, told.stdout)
         self.assertEqual(pathlib.Path(self.html()).read_text(), html)
         os.remove(self.html())
+
+    def test_a_tooth_that_breaks_is_drawn_as_deep_as_it_was(self):
+        lives = campaign_data.CampaignData({"lives": [], "baseline_records": 1, "interval_h": 5,
+                                            "first_depth_m": 1e-3, "last_depth_m": 4e-3})
+        life = {"hours": [0, 5], "depth_m": [0, 2e-3]}
+        self.assertEqual([lives.depth_at_end({**life, "end_h": h}) for h in (7, 10)], [4, 2])
 
     def test_a_page_that_cannot_be_written_is_said_first(self):
         failed = self.gearpod("report", self.results, "--html", "/nonexistent/folder/r.html")

@@ -36,6 +36,13 @@ class CampaignData:
                 self.worked[k]["end_h"] - monitored["alarm_h"][k]
                 for k in self.ended] if monitored["alarm_h"] else []
 
+    def depth_at_end(self, life):
+        """In mm: the last one, or what the last record had where the next breaks the tooth."""
+        interval = self.data["interval_h"]
+        if life["end_h"] < life["hours"][-1] + interval * (1 - 1e-9):
+            return self.last_mm
+        return 1e3 * (life["depth_m"][-1] or self.data["first_depth_m"])
+
     @staticmethod
     def alarm_h(monitored, k):
         """When it first alarms in the k-th life that worked; None if it does not, or is None."""

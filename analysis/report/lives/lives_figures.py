@@ -46,8 +46,7 @@ def _depths(campaign, best, page):
     for k, life in enumerate(campaign.worked[:DRAWN]):
         grown = [(h, 1e3 * d) for h, d in zip(life["hours"], life["depth_m"]) if d > 0]
         if life["end_h"] is not None:
-            by_depth = life["end_h"] > life["hours"][-1]  # else a force too large for what was left
-            grown.append((life["end_h"], campaign.last_mm if by_depth else grown[-1][1]))
+            grown.append((life["end_h"], campaign.depth_at_end(life)))
             axes.plot(*grown[-1], marker="x", color=INK, markersize=4, zorder=3)
         axes.plot([h for h, _ in grown], [d for _, d in grown], color=colour(0), linewidth=0.8,
                   alpha=0.55)
