@@ -32,6 +32,28 @@ void check_curve(StudyDraft& draft) {
     }
 }
 
+// A baseline of too few records knows no scatter: own_deviations() are then NaN.
+void check_watch(StudyDraft& draft) {
+    const Life& life = draft.study.life;
+    const Monitoring& watch = draft.study.monitoring;
+    const int least = watch.torque_regression ? 4 : 3;
+    if (watch.baseline_records > 0 && watch.baseline_records < least) {
+        draft.reject("monitoring.baseline_records",
+                     fmt::format("{} of a gearbox's records do not say how they scatter{}",
+                                 watch.baseline_records,
+                                 watch.torque_regression ? " along a line in the torque" : ""),
+                     fmt::format("take {} or more, or 0 for features as they are", least));
+    }
+    const double most = 1000.0 / *life.interval_h;
+    if (watch.false_alarms_per_1000_h >= most) {
+        draft.reject("monitoring.false_alarms_per_1000_h",
+                     fmt::format("{:g} are an alarm or more in every record of a healthy gearbox "
+                                 "(life.interval_h)",
+                                 watch.false_alarms_per_1000_h),
+                     fmt::format("it must be below {:.6g}", most));
+    }
+}
+
 }  // namespace
 
 // Only on a study that is sound otherwise: its fault and teeth are then what they are.
@@ -52,6 +74,7 @@ void check_life(StudyDraft& draft) {
                      "use member = \"planet\" or \"sun\"");
     }
     check_curve(draft);
+    check_watch(draft);
     if (draft.problems.empty() && crack_begin_m(life) >= *life.last_depth_m) {
         draft.reject(life.curve_h.empty() ? "life.first_depth_mm" : "life.curve_depth_mm",
                      fmt::format("{:g} mm is not below last_depth_mm, {:g} mm",

@@ -163,6 +163,11 @@ TEST_CASE("Records and curves that cannot be are refused with the key") {
     CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
               .mentions("life.first_depth_mm"));
     CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
+    CHECK(refused("--set monitoring.baseline_records=2").mentions("take 3 or more, or 0"));
+    CHECK(refused("--set monitoring.baseline_records=3 --set monitoring.torque_regression=true")
+              .mentions("along a line in the torque"));
+    CHECK(refused("--set monitoring.false_alarms_per_1000_h=200")
+              .mentions("an alarm or more in every record"));
 }
 
 TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
