@@ -20,10 +20,26 @@ std::string load_text(const RecordLaw& law) {
                 : "");
 }
 
+// Inputs of `run`: in a life the crack has the depth to which it has grown.
+bool is_of_fault(const RandomInput& input) {
+    return input.key.starts_with("fault.");
+}
+
+std::string growth_text(const Study& study) {
+    std::string text = study.life.curve_h.empty() ? "Paris' law under the records' torque and speed"
+                                                  : "along the given curve";
+    for (const RandomInput& input : study.random) {
+        text += is_of_fault(input) ? ", whatever " + input.key + " in [random]" : "";
+    }
+    return text;
+}
+
 std::string of_gearbox(const Study& study) {
     std::string text = has_tooth_errors(study) ? "tooth errors" : "";
     for (const RandomInput& input : study_of_gearboxes(study).random) {
-        text += (text.empty() ? "" : ", ") + input.key;
+        if (!is_of_fault(input)) {
+            text += (text.empty() ? "" : ", ") + input.key;
+        }
     }
     return text.empty() ? "nothing: gearboxes are alike" : text;
 }
@@ -51,9 +67,8 @@ void print_life(const Scene& scene) {
     print_entry("speed of a record", load_text(laws.speed));
     print_entry("gain of a record", laws.gain.text());
     print_entry("noise of a record", laws.noise.text());
-    print_entry("growth", life.curve_h.empty() ? "Paris' law under the records' torque and speed"
-                                               : "along the given curve");
-    print_entry("depths marched", fmt::format("none and {} to {:g} mm; between, interpolated",
+    print_entry("growth", growth_text(study));
+    print_entry("depths marched", fmt::format("none, and {} up to {:g} mm; between, interpolated",
                                               life.depth_steps, 1e3 * *life.last_depth_m));
     print_entry("gearboxes", fmt::format("{} crack, {} healthy set thresholds, {} count false "
                                          "alarms",

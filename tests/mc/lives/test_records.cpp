@@ -177,6 +177,15 @@ TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
     CHECK(said.mentions("torque of a record"));
     CHECK(said.mentions("interpolated between marches at 0.97 and 1.03"));
     CHECK(said.mentions("speed of a record"));
+    // A depth that [random] draws is `run`'s: in a life it grows.
+    const Outcome drawn =
+        program("describe " + study("planet-life.toml") +
+                " --set 'random.fault.depth_mm={distribution=\"uniform\",low=1,high=3}' --set "
+                "'detection.size_edges_mm=[1,2,3]'");
+    INFO(drawn.output);
+    CHECK(drawn.code == 0);
+    CHECK(drawn.mentions("torque and speed, whatever fault.depth_mm in [random]"));
+    CHECK(!drawn.mentions(", fault.depth_mm,"));
 }
 
 }  // namespace
