@@ -21,11 +21,15 @@ struct MarchedMeshes {
     double healthy, depth;
 };
 
+// Whether a depth marches but what differs from the march without.
+bool changes_alone(const Scene& scene) {
+    return scene.study().numerics.horizon == Horizon::march &&
+           scene.recorded_meshes() == scene.span_meshes();
+}
+
 MarchedMeshes meshes_of(const Scene& scene) {
     const double all = marched_meshes(scene);
-    const bool each_alone = scene.study().numerics.horizon == Horizon::march &&
-                            scene.recorded_meshes() == scene.span_meshes();
-    return {all, each_alone ? std::min(passage_meshes(scene), all) : all};
+    return {all, changes_alone(scene) ? std::min(passage_meshes(scene), all) : all};
 }
 
 // Seconds of a tile of a batch.
@@ -55,16 +59,19 @@ double mean_records(const LifeTiles& tiles) {
     return sum / static_cast<double>(count);
 }
 
-// A tile's signals: of each load those that the march keeps, and those without a crack, at the
-// depths below and above; and, of one of its gearboxes, its records' folded products.
+// A tile's signals: of each load those that the march keeps, with the transmission error of every
+// mesh where depths march changes alone, and those without a crack, at the depths below and above;
+// two more while a depth is marched and looked at; and, of one of its gearboxes, its records'
+// folded products.
 double tile_bytes(const LifeTiles& tiles) {
     const Scene& scene = tiles.scene();
     const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
     const auto lanes = static_cast<double>(tiles.lanes()),
                loads = static_cast<double>(tiles.load_count());
+    const double signals = (changes_alone(scene) ? 5.0 : 4.0) * loads + 2.0;
     const double basis = 3.0 * loads + 1.0;
     const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
-    return 8.0 * (4.0 * loads * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
+    return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
            motion_bytes(scene);
 }
 
