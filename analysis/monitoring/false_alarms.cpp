@@ -148,7 +148,11 @@ MonitorThreshold monitor_threshold(const Detector& detector, std::span<const Hea
     if (rank > records) {
         return threshold;
     }
-    threshold.value = smallest_threshold(detector, lives, records - rank);
+    const double value = smallest_threshold(detector, lives, records - rank);
+    if (!std::isfinite(value)) {
+        return threshold;  // no record has a statistic
+    }
+    threshold.value = value;
     threshold.alarms = count(detector, lives, threshold.value).alarms;
     return threshold;
 }

@@ -18,7 +18,8 @@ struct HealthyLife {
 
 // A detector's threshold.
 struct MonitorThreshold {
-    double value = kNan;  // NaN if the lives are too short for the rate
+    // NaN if the lives are too short for the rate, or for the detector to say anything.
+    double value = kNan;
     long records = 0;     // seen by the monitor
     double hours = 0.0;
     long alarms = 0;                // of these lives beyond it

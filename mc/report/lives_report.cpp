@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/json_values.hpp"
@@ -92,14 +92,74 @@ std::string share_text(const analysis::LifeAnswers& a) {
                                              a.share_bounds.lower, a.share_bounds.upper);
 }
 
-std::string row_text(const std::string& feature, const std::string& detector,
-                     const std::vector<std::string>& cells) {
-    constexpr std::array<int, 7> kWidths{10, 22, 20, 9, 19, 9, 9};
-    std::string row = fmt::format("{:<20}{:<12}", feature, detector);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        row += fmt::format("{:>{}}", cells[c], kWidths[c]);
+// Cells of lines below each other, two columns to the left and the others to the right.
+std::string table_text(const std::vector<std::vector<std::string>>& lines) {
+    std::vector<std::size_t> widths(lines.front().size(), 0);
+    for (const auto& line : lines) {
+        for (std::size_t c = 0; c < line.size(); ++c) {
+            widths[c] = std::max(widths[c], line[c].size());
+        }
     }
-    return row + "\n";
+    std::string text;
+    for (const auto& line : lines) {
+        for (std::size_t c = 0; c < line.size(); ++c) {
+            text += c < 2 ? fmt::format("{:<{}}", line[c], widths[c] + (c == 0 ? 2 : 0))
+                          : fmt::format("  {:>{}}", line[c], widths[c]);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string interpolation_text(const Campaign& campaign, const Life& life) {
+    const InterpolationErrors& off = campaign.interpolation;
+    if (std::isnan(off.first)) {
+        return "";  // none of those that are looked at was marched
+    }
+    std::string text = fmt::format(
+        "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
+        "{:.2g} of it at {:.3g} mm",
+        off.first, 1e3 * first_interpolated_m(life), off.last, 1e3 * last_interpolated_m(life));
+    if (off.load > 0.0) {
+        text += fmt::format(
+            "; between the torques and speeds that are marched by {:.2g} of the signal", off.load);
+    }
+    return text;
+}
+
+// Why there are dashes; "" where there are none.
+std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
+    std::string out;
+    const Study& study = monitor.study();
+    const double rate = study.monitoring.false_alarms_per_1000_h;
+    if (ended == 0) {
+        analysis::add_wrapped(out,
+                              fmt::format("no tooth goes within {} records of {:g} h: nothing can "
+                                          "be found before the end; raise life.records",
+                                          study.life.records, *study.life.interval_h),
+                              2);
+    }
+    for (const MonitoredFeature& one : monitor.answers()) {
+        const analysis::MonitorThreshold& threshold = one.answers.threshold;
+        if (!std::isnan(threshold.value)) {
+            continue;
+        }
+        const bool few = threshold.least_per_1000_h > rate;
+        analysis::add_wrapped(
+            out,
+            few ? fmt::format("no threshold: {:.0f} h of healthy lives are too few for {:g} false "
+                              "alarms in 1000 h{}",
+                              threshold.hours, rate,
+                              threshold.hours > 0.0
+                                  ? fmt::format("; {:.3g} is the least that they can set",
+                                                threshold.least_per_1000_h)
+                                  : "")
+                : fmt::format("no threshold: {} says nothing of {} records behind the baseline",
+                              one.detector, study.life.records - study.monitoring.baseline_records),
+            2);
+        break;
+    }
+    return out;
 }
 
 }  // namespace
@@ -109,7 +169,7 @@ std::vector<std::string> answer_columns(const Study& study) {
             "false alarms/1000 h",
             "found before end",
             "mm 50 %",
-            fmt::format("90 % ({:g} % conf.)", 100.0 * study.detection.confidence),
+            fmt::format("90 % (at {:g} %)", 100.0 * study.detection.confidence),
             "warn h",
             "9 in 10"};
 }
@@ -133,9 +193,9 @@ std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Stud
 std::string lives_text(const LifeMonitor& monitor) {
     const Study& study = monitor.study();
     const Campaign& campaign = monitor.campaign();
-    const auto& monitored = monitor.answers();
-    const auto ended = std::ranges::count_if(
-        campaign.cracked, [](const GearboxLife& one) { return one.history.end_hours.has_value(); });
+    const auto ended = std::ranges::count_if(campaign.cracked, [](const GearboxLife& one) {
+        return one.status == Status::ok && one.history.end_hours.has_value();
+    });
     std::string out = fmt::format(
         "{} cracks grow from {:g} to {:g} mm, a record each {:g} h: {} teeth go within {} records\n"
         "thresholds: {} healthy lives, {:g} false alarms in 1000 h; false alarms: {} other healthy "
@@ -150,29 +210,17 @@ std::string lives_text(const LifeMonitor& monitor) {
     if (campaign.failed > 0) {
         out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
     }
-    const InterpolationErrors& off = campaign.interpolation;
-    out += fmt::format(
-        "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
-        "{:.2g} of it at {:.3g} mm; between the torques and speeds that are marched by {:.2g} of "
-        "the signal\n",
-        off.first, 1e3 * first_interpolated_m(study.life), off.last,
-        1e3 * last_interpolated_m(study.life), off.load);
+    if (const std::string off = interpolation_text(campaign, study.life); !off.empty()) {
+        analysis::add_wrapped(out, off, 2);
+    }
     out += costs_text(campaign) + "\n";
-    out += row_text("feature", "detector", answer_columns(study));
-    for (const MonitoredFeature& one : monitored) {
-        out += row_text(one.feature, one.detector, answer_cells(one.answers, study));
+    std::vector<std::vector<std::string>> lines{{"feature", "detector"}};
+    std::ranges::copy(answer_columns(study), std::back_inserter(lines.front()));
+    for (const MonitoredFeature& one : monitor.answers()) {
+        lines.push_back({one.feature, one.detector});
+        std::ranges::copy(answer_cells(one.answers, study), std::back_inserter(lines.back()));
     }
-    for (const MonitoredFeature& one : monitored) {
-        if (std::isnan(one.answers.threshold.value)) {
-            out += fmt::format(
-                "no threshold: {:.0f} h of healthy lives are too few for {:g} false alarms in 1000 "
-                "h; {:.3g} is the least that they can set\n",
-                one.answers.threshold.hours, study.monitoring.false_alarms_per_1000_h,
-                one.answers.threshold.least_per_1000_h);
-            break;
-        }
-    }
-    return out;
+    return out + table_text(lines) + unanswered_text(monitor, ended);
 }
 
 nlohmann::json answers_json(const MonitoredFeature& one) {

@@ -28,6 +28,17 @@ std::vector<HealthyLife> draw_lives(int gearboxes, std::size_t baseline, int rec
     return lives;
 }
 
+TEST_CASE("A detector that says nothing of such short lives has no threshold") {
+    Engine engine(3);
+    const auto lives = draw_lives(40, 0, 4, engine);
+    const auto set = [&](const char* text) {
+        return monitor_threshold(*parse_detector(text), lives, 100.0);
+    };
+    CHECK(std::isfinite(set("4 of 6").value));
+    CHECK(std::isnan(set("5 of 6").value));  // of four records
+    CHECK(set("5 of 6").least_per_1000_h < 100.0);
+}
+
 TEST_CASE("Lives of one record have the thresholds of single recordings") {
     Engine engine(1);
     for (const int gearboxes : {40, 100, 399}) {
