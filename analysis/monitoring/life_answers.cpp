@@ -35,6 +35,23 @@ std::optional<std::size_t> detection(const Detector& detector, const CrackedLife
     return std::nullopt;
 }
 
+// Over all pairs of a healthy life and one that ends.
+double share_by_chance(const Detector& detector, std::span<const HealthyLife> healthy,
+                       std::span<const CrackedLife> cracked, double threshold) {
+    long pairs = 0, found = 0;
+    for (const HealthyLife& one : healthy) {
+        const std::vector<std::size_t> alarms = watch(detector, one.values, threshold).alarms;
+        for (const CrackedLife& life : cracked) {
+            if (life.end_hours) {
+                const auto first = std::lower_bound(alarms.begin(), alarms.end(), life.first);
+                ++pairs;
+                found += first != alarms.end() && *first < life.values.size() ? 1 : 0;
+            }
+        }
+    }
+    return pairs > 0 ? static_cast<double>(found) / static_cast<double>(pairs) : kNan;
+}
+
 }  // namespace
 
 double quantile_bound(std::vector<double> values, double quantile, double confidence) {
@@ -77,6 +94,7 @@ LifeAnswers answer(const Detector& detector, std::span<const HealthyLife> settin
     }
     if (answers.ended > 0) {
         answers.share = static_cast<double>(answers.found) / static_cast<double>(answers.ended);
+        answers.share_by_chance = share_by_chance(detector, healthy, cracked, threshold);
         answers.share_bounds = wilson_interval(answers.found, answers.ended, confidence);
     }
     answers.size_50 = {sample_quantile(sizes, 0.5), quantile_bound(sizes, 0.5, confidence)};

@@ -32,7 +32,10 @@ struct LifeAnswers {
     long ended = 0, found = 0;     // lives that end within their records; of these found before
     double share = kNan;
     Interval share_bounds{kNan, kNan};  // Wilson's
-    LifeQuantile size_50, size_90;      // at detection, over the lives that end
+    // What would be found of lives as long were they healthy: the share of healthy ones that alarm
+    // on as many records behind the same one.
+    double share_by_chance = kNan;
+    LifeQuantile size_50, size_90;  // at detection, over the lives that end
     // Hours from the alarm to the end, of those found: median, and what nine in ten have.
     double warning_50 = kNan, warning_90 = kNan;
     // Of each cracked life the first alarm behind the crack's begin; NaN of none.

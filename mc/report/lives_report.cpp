@@ -165,13 +165,10 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
 }  // namespace
 
 std::vector<std::string> answer_columns(const Study& study) {
-    return {"threshold",
-            "false alarms/1000 h",
-            "found before end",
-            "mm 50 %",
-            fmt::format("90 % (at {:g} %)", 100.0 * study.detection.confidence),
-            "warn h",
-            "9 in 10"};
+    return {"threshold",        "false alarms/1000 h",
+            "found before end", "by chance",
+            "mm 50 %",          fmt::format("90 % (at {:g} %)", 100.0 * study.detection.confidence),
+            "warn h",           "9 in 10"};
 }
 
 std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Study& study) {
@@ -182,6 +179,7 @@ std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Stud
                 : fmt::format("{} [{}, {}]", number_or_dash(f.per_1000_h),
                               number_or_dash(f.bounds.lower), number_or_dash(f.bounds.upper)),
             share_text(a),
+            std::isnan(a.share_by_chance) ? "-" : fmt::format("{:.2f}", a.share_by_chance),
             depth_text(a.size_50.value, study),
             std::isnan(a.size_90.value) ? "-"
                                         : depth_text(a.size_90.value, study) + " (" +
@@ -240,6 +238,7 @@ nlohmann::json answers_json(const MonitoredFeature& one) {
             {"found", a.found},
             {"share", analysis::number(a.share)},
             {"share_bounds", interval_json(a.share_bounds)},
+            {"share_by_chance", analysis::number(a.share_by_chance)},
             {"depth_50_m", analysis::number(a.size_50.value)},
             {"depth_50_bound_m", analysis::number(a.size_50.bound)},
             {"depth_90_m", analysis::number(a.size_90.value)},

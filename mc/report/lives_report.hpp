@@ -10,8 +10,8 @@
 namespace gearpod::mc {
 
 // What a feature and detector come to, a cell a column of answer_columns(): threshold, false alarms
-// with their interval, share found, depths at 50 and at 90 % with its bound, hours before for 50 %
-// and for nine in ten.
+// with their interval, share found and what false alarms alone would find of lives as long, depths
+// at 50 and at 90 % with its bound, hours before for 50 % and for nine in ten.
 std::vector<std::string> answer_columns(const Study& study);
 std::vector<std::string> answer_cells(const analysis::LifeAnswers& answers, const Study& study);
 
@@ -20,8 +20,8 @@ std::string lives_text(const LifeMonitor& monitor);
 
 // Of one feature by one detector: {"feature", "detector", "threshold", "threshold_hours",
 // "false_alarms": {"count", "hours", "per_1000_h", "bounds", "dispersion", "expected"}, "ended",
-// "found", "share", "share_bounds", "depth_50_m", "depth_50_bound_m", "depth_90_m",
-// "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as below.
+// "found", "share", "share_bounds", "share_by_chance", "depth_50_m", "depth_50_bound_m",
+// "depth_90_m", "depth_90_bound_m", "warning_50_h", "warning_90_h"}; null as below.
 nlohmann::json answers_json(const MonitoredFeature& monitored);
 
 // {"kind": "lives", "title", "assumptions", "interval_h", "record", "baseline_records",

@@ -16,13 +16,15 @@ def _answers(campaign):
             f"{one['share_bounds'][1]:.2f}]")
         rows.append([one["feature"], one["detector"], _number(one["threshold"]),
                      f"{_number(alarms['per_1000_h'])}\u00a0[{_number(low)},\u00a0{_number(high)}]", share,
+                     "–" if one["share_by_chance"] is None else f"{one['share_by_chance']:.2f}",
                      *(["–", "–"] if one["share"] is None else
                        [campaign.depth_text(one["depth_50_m"]),
                         campaign.depth_text(one["depth_90_m"])]),
                      _number(one["warning_50_h"]), _number(one["warning_90_h"])])
-    return blocks.table("Every feature by every detector",
+    return blocks.table("Every feature by every detector; by chance: the share that false alarms "
+                        "alone would find in lives as long",
                         ["feature", "detector", "threshold", "false alarms in 1000 h",
-                         "found before the end", "50 % by, mm", "90 % by, mm", "warning, h",
+                         "found before the end", "by chance", "50 % by, mm", "90 % by, mm", "warning, h",
                          "nine in ten, h"], rows)
 
 

@@ -1,4 +1,5 @@
 // What a monitor is worth, on lives whose detections are known.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -48,11 +49,36 @@ TEST_CASE("Detection, depth and warning are those of the first alarm on the crac
     CHECK(got.ended == 4);
     CHECK(got.found == 3);
     CHECK(got.share == 0.75);
+    CHECK(got.share_by_chance == 1.0);  // every healthy life alarms at record 3
     CHECK(got.size_50.value == 3.0);
     CHECK(std::isinf(got.size_90.value));
     CHECK(std::isnan(got.size_90.bound));  // of four lives
     CHECK(got.warning_50 == 6.0);          // alarms at 2, 4 and 6 h
     CHECK(got.warning_90 == 4.0);
+}
+
+TEST_CASE("What false alarms alone find is what they find of blind records") {
+    // Independent normal records: one of n alarms with 1 - (1 - p)^n.
+    std::mt19937_64 engine(12);
+    std::normal_distribution<double> normal;
+    const auto draw = [&](int lives, std::size_t records) {
+        std::vector<HealthyLife> all;
+        for (int i = 0; i < lives; ++i) {
+            all.push_back({std::vector<double>(records), static_cast<double>(records)});
+            std::ranges::generate(all.back().values, [&] { return normal(engine); });
+        }
+        return all;
+    };
+    const auto setting = draw(400, 100), further = draw(1600, 100);
+    std::vector<CrackedLife> blind;
+    for (const HealthyLife& life : draw(1600, 50)) {  // a crack that changes nothing
+        blind.push_back({life.values, std::vector<double>(50), std::vector<double>(50), 20, 50.0});
+    }
+    const auto got = answer(*parse_detector("single"), setting, further, blind, 20.0, 0.95);
+    const double expected = 1.0 - std::pow(1.0 - 0.02, 30.0);
+    // A share of 1600 lives scatters by 0.012.
+    CHECK(got.share_by_chance == Approx(expected).margin(0.06));
+    CHECK(got.share == Approx(got.share_by_chance).margin(0.06));
 }
 
 TEST_CASE("A quantile's bound holds as often as it says") {
