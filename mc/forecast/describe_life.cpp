@@ -11,12 +11,12 @@ namespace gearpod::mc {
 namespace {
 
 // How records of other torques or speeds come about.
-std::string load_text(const RecordLaw& law) {
-    const std::vector<double> factors = law.marched();
+std::string load_text(const RecordLaw& law, int count) {
+    const std::vector<double> factors = law.marched(count);
     return law.text() +
            (factors.size() > 1
                 ? fmt::format("; interpolated between marches at {:.3g} of {}",
-                              fmt::join(factors, " and "), law.given() ? "the study's value" : "it")
+                              fmt::join(factors, ", "), law.given() ? "the study's value" : "it")
                 : "");
 }
 
@@ -63,8 +63,8 @@ void print_life(const Scene& scene) {
     }
     print_entry("drawn for a gearbox", of_gearbox(study));
     const RecordLaws laws(study);
-    print_entry("torque of a record", load_text(laws.torque));
-    print_entry("speed of a record", load_text(laws.speed));
+    print_entry("torque of a record", load_text(laws.torque, torques_marched(life)));
+    print_entry("speed of a record", load_text(laws.speed, speeds_marched(life)));
     print_entry("gain of a record", laws.gain.text());
     print_entry("noise of a record", laws.noise.text());
     print_entry("growth", growth_text(study));

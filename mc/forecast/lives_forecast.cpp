@@ -42,7 +42,7 @@ double tile_s(const LifeTiles& tiles, const MarchedMeshes& meshes, double mesh_s
         marched += loads * life.depth_steps * meshes.depth;
     }
     if (looked) {
-        marched += 2.0 * meshes.depth + (loads > 1.0 ? meshes.healthy : 0.0);
+        marched += 2.0 * meshes.depth + static_cast<double>(tiles.gap_count()) * meshes.healthy;
     }
     return marched * mesh_s;
 }

@@ -68,9 +68,17 @@ void LifeTiles::Look::between_loads(const Marched& healthy) {
         }
         return;
     }
-    const Load halfway{tiles_.laws_.torque.halfway(), tiles_.laws_.speed.halfway()};
-    const HealthyMarch there = tiles_.march(ids_, halfway);
-    const std::vector<double> shares = tiles_.shares(halfway);
+    const Life& life = tiles_.scene_.study().life;
+    for (const double torque : tiles_.laws_.torque.between(torques_marched(life))) {
+        for (const double speed : tiles_.laws_.speed.between(speeds_marched(life))) {
+            at_load({torque, speed}, healthy);
+        }
+    }
+}
+
+void LifeTiles::Look::at_load(const Load& load, const Marched& healthy) {
+    const HealthyMarch there = tiles_.march(ids_, load);
+    const std::vector<double> shares = tiles_.shares(load);
     for (std::size_t lane = 0; lane < errors_.size(); ++lane) {
         const auto& at = there.healthy().lane[lane].sensor;
         const bool failed =
@@ -82,12 +90,12 @@ void LifeTiles::Look::between_loads(const Marched& healthy) {
         }
         std::vector<double> composed(at.size(), 0.0);
         for (std::size_t l = 0; l < shares.size(); ++l) {
-            for (std::size_t i = 0; i < composed.size(); ++i) {
+            for (std::size_t i = 0; i < composed.size() && shares[l] != 0.0; ++i) {
                 composed[i] += shares[l] * healthy[lane][l].sensor[i];
             }
         }
-        errors_[lane].load =
-            rms_apart(at, composed, 1.0, at, 0.0) / rms_apart(at, at, 0.0, at, 0.0);
+        errors_[lane].load = std::fmax(errors_[lane].load, rms_apart(at, composed, 1.0, at, 0.0) /
+                                                               rms_apart(at, at, 0.0, at, 0.0));
     }
 }
 

@@ -5,14 +5,21 @@ namespace gearpod::mc {
 LifeTiles::LifeTiles(const Scene& scene)
     : scene_((check_composable(scene), scene)),
       laws_(scene.study()),
-      torques_(laws_.torque.marched()),
-      speeds_(laws_.speed.marched()),
+      torques_(laws_.torque.marched(torques_marched(scene.study().life))),
+      speeds_(laws_.speed.marched(speeds_marched(scene.study().life))),
       sampler_(study_of_gearboxes(scene.study())),
       path_(path_grid(scene)),
       crack_(scene) {}
 
 std::size_t LifeTiles::lanes() const {
     return static_cast<std::size_t>(scene_.study().numerics.lanes);
+}
+
+std::size_t LifeTiles::gap_count() const {
+    const Life& life = scene_.study().life;
+    return load_count() == 1 ? 0
+                             : laws_.torque.between(torques_marched(life)).size() *
+                                   laws_.speed.between(speeds_marched(life)).size();
 }
 
 InstanceInputs LifeTiles::inputs(const GearboxId& id) const {

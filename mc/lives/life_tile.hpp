@@ -22,8 +22,9 @@ struct GearboxLife {
 };
 
 // What interpolation takes, rms over the span: in the middle of the first and the last step of
-// depth, over what the crack changes there, and without a crack halfway between the torques and
-// speeds that are marched, over the signal there. NaN where it was not looked at.
+// depth, over what the crack changes there, and without a crack halfway between neighbours of the
+// torques and speeds that are marched, the largest, over the signal there. NaN where it was not
+// looked at.
 struct InterpolationErrors {
     double first = std::numeric_limits<double>::quiet_NaN();
     double last = std::numeric_limits<double>::quiet_NaN();
@@ -61,8 +62,9 @@ class LifeTiles {
     RecordTrial try_records() const;
 
     LifeHistory history(const GearboxId& id) const;  // of one that cracks
-    // At how many loads it is marched.
+    // At how many loads it is marched, and is looked at between these.
     std::size_t load_count() const { return torques_.size() * speeds_.size(); }
+    std::size_t gap_count() const;
 
     const Scene& scene() const { return scene_; }
     // Gearboxes in lockstep.

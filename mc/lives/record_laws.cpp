@@ -11,6 +11,8 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr double kReach = 1.5;  // standard deviations
+
 double nominal_of(const Study& study, const RandomInput& input) {
     const std::size_t dot = input.key.find('.');
     const Key& key = *find_key(input.key.substr(0, dot), input.key.substr(dot + 1));
@@ -50,20 +52,33 @@ double RecordLaw::rms() const {
     return std::sqrt(sum);
 }
 
-std::vector<double> RecordLaw::marched() const {
+std::vector<double> RecordLaw::marched(int count) const {
     if (!varies()) {
         return {1.0};
     }
-    constexpr double kReach = 1.5;
-    const double low = factor(-kReach), high = factor(kReach);
-    if (low < high) {
-        return {low, high};
+    std::vector<double> all;
+    for (int i = 0; i < count; ++i) {
+        const double next = factor(-kReach + 2.0 * kReach * i / (count - 1));
+        if (all.empty() || next > all.back()) {
+            all.push_back(next);
+        }
+    }
+    if (all.size() > 1) {
+        return all;
     }
     // A law of few values that are seldom others.
     const Support support = input_ ? input_->distribution.support() : Support{1.0, 1.0};
     return support.low < support.high
                ? std::vector<double>{support.low / nominal_, support.high / nominal_}
-               : std::vector<double>{low};
+               : all;
+}
+
+std::vector<double> RecordLaw::between(int count) const {
+    std::vector<double> all;
+    for (int i = 0; i + 1 < count; ++i) {
+        all.push_back(factor(-kReach + kReach * (2.0 * i + 1.0) / (count - 1)));
+    }
+    return all;
 }
 
 std::string RecordLaw::text() const {
@@ -89,8 +104,12 @@ std::vector<double> shares_of(const std::vector<double>& marched, double factor)
     if (marched.size() == 1) {
         return {1.0};
     }
-    const double high = (factor - marched[0]) / (marched[1] - marched[0]);
-    return {1.0 - high, high};
+    const auto above = std::upper_bound(marched.begin() + 1, marched.end() - 1, factor);
+    const auto i = static_cast<std::size_t>(above - marched.begin());
+    std::vector<double> shares(marched.size(), 0.0);
+    shares[i] = (factor - marched[i - 1]) / (marched[i] - marched[i - 1]);
+    shares[i - 1] = 1.0 - shares[i];
+    return shares;
 }
 
 Study study_of_gearboxes(const Study& study) {

@@ -24,10 +24,11 @@ class RecordLaw {
     double factor(double unit) const;
     // Root of the mean square that noise of such factors averages to; a little more of short laws.
     double rms() const;
-    // Factors at which a gearbox is marched for records in between, those of -1.5 and 1.5; one
-    // where nothing varies.
-    std::vector<double> marched() const;
-    double halfway() const { return factor(0.0); }  // between these
+    // Ascending factors at which a gearbox is marched for records in between, those of so many
+    // evenly spaced numbers from -1.5 to 1.5, two or more; one where nothing varies.
+    std::vector<double> marched(int count) const;
+    // One between each of these and the next, of the number halfway.
+    std::vector<double> between(int count) const;
     // "scatters by 2 % (rms) about the gearbox's", "lognormal, ..."
     std::string text() const;
 
@@ -44,7 +45,8 @@ struct RecordLaws {
     bool noise_of_sensor_alone;  // else of the encoders as well
 };
 
-// How much of what is marched at these factors makes up another.
+// How much of what is marched at these ascending factors makes up another, along the line between
+// its neighbours or, beyond the ends, between the outer two.
 std::vector<double> shares_of(const std::vector<double>& marched, double factor);
 
 // The study as its gearboxes see it: inputs of records stay at their nominal values.

@@ -24,6 +24,9 @@ struct Life {
     // Of a record about its gearbox's value: rms of its logarithm. In short what [random] may say
     // of a record's torque, speed, gain and noise.
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
+    // Torques and speeds at which a gearbox is marched where its records' differ, two without:
+    // signals between are interpolated.
+    std::optional<int> marched_torques, marched_speeds;
     // How long a recording is, in seconds or in turns of the carrier; without either every tooth of
     // a planet meets every tooth of the ring once. A record averages so many.
     std::optional<double> record_s, record_turns;
@@ -31,6 +34,12 @@ struct Life {
 
     bool operator==(const Life&) const = default;
 };
+inline int torques_marched(const Life& life) {
+    return life.marched_torques.value_or(2);
+}
+inline int speeds_marched(const Life& life) {
+    return life.marched_speeds.value_or(2);
+}
 // How deep the crack of a life begins.
 double crack_begin_m(const Life& life);
 

@@ -2,6 +2,9 @@
 // baseline.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 #include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
@@ -30,6 +33,25 @@ void check_curve(StudyDraft& draft) {
                                  1e3 * life.curve_depth_m.back(), 1e3 * *life.last_depth_m),
                      "go on to the depth at which lives end");
     }
+}
+
+void check_loads(StudyDraft& draft) {
+    const Study& study = draft.study;
+    const Life& life = study.life;
+    const auto check = [&](const char* key, const std::optional<int>& marched,
+                           RecordQuantity quantity, double scatter) {
+        const bool by_law = std::ranges::any_of(study.random, [&](const RandomInput& input) {
+            return input.distribution.per_record() && record_quantity(input.key) == quantity;
+        });
+        if (marched && scatter == 0.0 && !by_law) {
+            draft.reject(
+                std::string("life.marched_") + key + "s",
+                fmt::format("records have one {}, which is marched", key),
+                fmt::format("leave it out, or let records' {0} vary (life.{0}_scatter)", key));
+        }
+    };
+    check("torque", life.marched_torques, RecordQuantity::torque, life.torque_scatter);
+    check("speed", life.marched_speeds, RecordQuantity::speed, life.speed_scatter);
 }
 
 // A baseline of too few records knows no scatter: own_deviations() are then NaN.
@@ -74,6 +96,7 @@ void check_life(StudyDraft& draft) {
                      "use member = \"planet\" or \"sun\"");
     }
     check_curve(draft);
+    check_loads(draft);
     check_watch(draft);
     if (draft.problems.empty() && crack_begin_m(life) >= *life.last_depth_m) {
         draft.reject(life.curve_h.empty() ? "life.first_depth_mm" : "life.curve_depth_mm",

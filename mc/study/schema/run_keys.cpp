@@ -95,6 +95,8 @@ const Key kKeys[] = {
     {"life", "speed_scatter", number<&Life::speed_scatter>, kNone, from_to(0, 0.3), with_life, kShared, "the same of the speed"},
     {"life", "gain_scatter", number<&Life::gain_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same of the sensor's gain"},
     {"life", "noise_scatter", number<&Life::noise_scatter>, kNone, from_to(0, 1), with_life, kShared, "the same of both noises"},
+    {"life", "marched_torques", integer<&Life::marched_torques>, kNone, from_to(2, 16), with_life, kShared, "torques at which a gearbox is marched where its records' torque varies, by default 2; signals between are interpolated"},
+    {"life", "marched_speeds", integer<&Life::marched_speeds>, kNone, from_to(2, 16), with_life, kShared, "the same of the speed"},
     {"life", "record_s", number<&Life::record_s>, kS, kPositive, with_life, kShared, "length of a recording; without it or record_turns every tooth of a planet meets every tooth of the ring once"},
     {"life", "record_turns", number<&Life::record_turns>, kNone, kPositive, planetary<with_life>, kShared, "the same in turns of the carrier against the fixed ring or sun"},
     {"life", "recordings", integer<&Life::recordings>, kNone, from_to(1, 1000), with_life, kShared, "recordings that one record averages; where they are short, each begins with other teeth in mesh"},

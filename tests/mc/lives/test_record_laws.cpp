@@ -65,19 +65,39 @@ TEST_CASE("Records draw from the law that [random] gives them, about no gearbox'
     }
 }
 
+TEST_CASE("More marches divide the same range evenly, and a record has its neighbours") {
+    const mc::RecordLaw law(life_study(), mc::RecordQuantity::torque, 0.1);
+    const auto two = law.marched(2), four = law.marched(4), between = law.between(4);
+    REQUIRE(four.size() == 4);
+    REQUIRE(between.size() == 3);
+    CHECK(law.between(2) == std::vector<double>{1.0});
+    CHECK(four.front() == two.front());
+    CHECK(four.back() == two.back());
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(std::log(four[i + 1] / four[i]) == Approx(0.1));
+        CHECK(std::log(between[i] / four[i]) == Approx(0.05));
+        const auto shares = mc::shares_of(four, between[i]);
+        CHECK(shares[i] * four[i] + shares[i + 1] * four[i + 1] == Approx(between[i]));
+        CHECK(std::count(shares.begin(), shares.end(), 0.0) == 2);
+    }
+    CHECK(mc::shares_of(four, 0.5)[0] > 1.0);
+    CHECK(mc::shares_of(four, 0.5)[2] == 0.0);
+    CHECK(mc::shares_of(four, 2.0)[3] > 1.0);
+}
+
 TEST_CASE("A law of few values marches where its records are") {
     // Nine in ten at one torque: its quantiles at -1.5 and 1.5 may be the same.
     const mc::Study study =
         life_study({"random.operation.torque_N_m={distribution=\"discrete\",values=[300,429],"
                     "weights=[0.02,0.98],per=\"record\"}"});
     const mc::RecordLaw law(study, mc::RecordQuantity::torque, 0.0);
-    const auto marched = law.marched();
+    const auto marched = law.marched(2);
     REQUIRE(marched.size() == 2);
     CHECK(marched[0] * study.operation.torque_N_m == Approx(300.0));
     CHECK(marched[1] * study.operation.torque_N_m == Approx(429.0));
     CHECK(mc::shares_of(marched, marched[0])[0] == Approx(1.0));
     const mc::RecordLaw none(life_study(), mc::RecordQuantity::torque, 0.0);
-    CHECK(none.marched() == std::vector<double>{1.0});
+    CHECK(none.marched(2) == std::vector<double>{1.0});
 }
 
 TEST_CASE("A snapshot's baseline record draws what belongs to records anew, and only that") {

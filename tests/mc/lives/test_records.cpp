@@ -119,6 +119,27 @@ TEST_CASE("A record at another speed is near what is marched at that speed") {
     CHECK(apart < 0.03);
 }
 
+TEST_CASE("More marched torques and speeds take interpolation's error away") {
+    const auto error = [](int marched) {
+        const std::string count = std::to_string(marched);
+        const mc::Scene scene(
+            quiet_study({"life.speed_scatter=0.001", "life.torque_scatter=0.05",
+                         "life.marched_torques=" + count, "life.marched_speeds=" + count}));
+        const mc::LifeTiles tiles(scene);
+        CHECK(tiles.load_count() == static_cast<std::size_t>(marched * marched));
+        const mc::GearboxId id{mc::Group::graded, 1};
+        mc::LifeCosts costs;
+        mc::InterpolationErrors errors;
+        tiles.run(std::span(&id, 1), false, costs, std::span(&errors, 1));
+        return errors.load;
+    };
+    // Linear between neighbours: a third of the distance, a ninth of the error.
+    const double two = error(2), four = error(4);
+    CHECK(two > 0.0);
+    CHECK(four < two / 6.0);
+    CHECK(four > two / 14.0);
+}
+
 TEST_CASE("A crack follows the given curve at its gearbox's pace") {
     const std::vector<std::string> curve{"life.curve_h=[0,50,100]", "life.curve_depth_mm=[1,2,4]",
                                          "life.curve_pace=2"};
@@ -163,6 +184,9 @@ TEST_CASE("Records and curves that cannot be are refused with the key") {
     CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
               .mentions("life.first_depth_mm"));
     CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
+    CHECK(refused("--set life.marched_speeds=3").mentions("records have one speed"));
+    CHECK(refused("--set life.marched_torques=1 --set life.torque_scatter=0.1")
+              .mentions("life.marched_torques: must be between 2 and 16"));
     CHECK(refused("--set monitoring.baseline_records=2").mentions("take 3 or more, or 0"));
     CHECK(refused("--set monitoring.baseline_records=3 --set monitoring.torque_regression=true")
               .mentions("along a line in the torque"));
@@ -175,7 +199,7 @@ TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
     CHECK(said.code == 0);
     CHECK(said.mentions("drawn for a gearbox"));
     CHECK(said.mentions("torque of a record"));
-    CHECK(said.mentions("interpolated between marches at 0.97 and 1.03"));
+    CHECK(said.mentions("interpolated between marches at 0.97, 1.03"));
     CHECK(said.mentions("speed of a record"));
     // A depth that [random] draws is `run`'s: in a life it grows.
     const Outcome drawn =
