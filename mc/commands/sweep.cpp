@@ -99,6 +99,9 @@ Progressed progressed(const RunOptions& run, bool lives) {
     try {
         const Results old = read_frame(path);
         const StudyScene made = make_scene(run.study);
+        if (!made) {
+            return Progressed::nothing;  // the run says why
+        }
         const Study& study = made.scene->study();
         const bool are_lives = old.provenance_value("kind") == kLivesKind;
         if (are_lives != lives || !why_not_grown(old, path, study, Part{}).empty()) {

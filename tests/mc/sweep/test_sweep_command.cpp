@@ -113,6 +113,16 @@ TEST_CASE("A sweep says every problem once before anything is computed") {
     CHECK(program("sweep " + kStudy).code == 2);
 }
 
+TEST_CASE("A sweep refuses a study without a scene, whatever is there of it") {
+    const Folder folder;
+    const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
+    REQUIRE(program(sweep(folder, vary)).code == 0);
+    const Outcome refused = program(sweep(folder, vary + "--set numerics.steps_per_mesh=1"));
+    INFO(refused.output);
+    CHECK(refused.code == 2);
+    CHECK(refused.mentions("numerics.steps_per_mesh: 1 steps are too few"));
+}
+
 TEST_CASE("A sweep does not write over another study's results") {
     const Folder folder;
     const std::string vary = "--quiet --vary sensor.gain=[1,2] ";
