@@ -9,6 +9,22 @@
 #include "analysis/detection/clustered_rate.hpp"
 
 namespace gearpod::analysis {
+namespace {
+
+// Records of one gearbox without noise are the same: that they share the threshold does not make
+// the feature a constant.
+bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
+                     double threshold) {
+    std::set<std::size_t> tied;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] == threshold) {
+            tied.insert(gearbox[i]);
+        }
+    }
+    return tied.size() == 1;
+}
+
+}  // namespace
 
 FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                                   const FeatureSample& healthy,
@@ -28,6 +44,14 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
         std::vector<double> values;
         for (std::size_t i = 0; i < gearbox.size(); ++i) {
             values.push_back(healthy.values[i * levels + n]);
+        }
+        if (tied_within_one(values, gearbox, level.threshold)) {
+            const std::string tie = fmt::format(
+                "noise level {:g}: healthy ones share the "
+                "threshold's value",
+                level.noise_level);
+            std::erase_if(result.warnings,
+                          [&](const std::string& warning) { return warning.starts_with(tie); });
         }
         const Interval own = level.threshold_rate;
         const Interval clustered =

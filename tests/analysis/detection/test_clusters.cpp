@@ -169,5 +169,29 @@ TEST_CASE("Detection takes the recordings' gearboxes into its intervals and says
     CHECK_THAT(four.warnings[0], Catch::Contains("200 healthy ones are of 4 gearboxes"));
 }
 
+TEST_CASE("Equal records of one gearbox are no constant feature") {
+    // 50 gearboxes of 8 records without noise; then all gearboxes alike.
+    std::vector<double> values, zeros(400, 0.0), sizes{1.0}, graded{60.0};
+    std::vector<std::size_t> gearbox;
+    for (std::size_t i = 0; i < 400; ++i) {
+        gearbox.push_back(i / 8);
+        values.push_back(static_cast<double>(i / 8));
+    }
+    DetectionRequest request;
+    request.noise_levels = {0.0};
+    request.groups = {{1.0, 1.0}};
+    const auto said = [&](std::span<const double> healthy) {
+        std::string text;
+        for (const std::string& warning :
+             detect_clustered("f", Alarm::high, {zeros, healthy}, gearbox, {sizes, graded}, request)
+                 .warnings) {
+            text += warning + "\n";
+        }
+        return text;
+    };
+    CHECK_THAT(said(values), !Catch::Contains("constant") && Catch::Contains("50 gearboxes"));
+    CHECK_THAT(said(zeros), Catch::Contains("the feature is constant"));
+}
+
 }  // namespace
 }  // namespace gearpod::analysis
