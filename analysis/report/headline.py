@@ -48,9 +48,12 @@ def sentence(report):
     name, cell = best
     whom = ("the faulty recordings" if report.sizes.name == "label" else
             f"those of {report.sizes.group(cell['size_low'], cell['size_high'])}")
+    silent = sum(f["levels"][level]["threshold"] is None for f in report.detection)
+    others = (f" {silent} of the {len(report.detection)} features "
+              f"{'has' if silent == 1 else 'have'} no threshold." if silent else "")
     return (f"No tested {fault(report)} is found with {promise(report)} at {at}. The best is "
             f"{name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
-            f"{whom}.")
+            f"{whom}.{others}")
 
 
 def _noise_limit(report):

@@ -204,6 +204,18 @@ std::string basis_text(const SmallestFault& least) {
 }
 
 // Of faults without a size: no curves.
+// Of how many features nothing is known, as they have no threshold at that level; "" of none.
+std::string silent_text(const Reliability& reliability, std::size_t n) {
+    const auto silent = std::ranges::count_if(
+        reliability.features,
+        [&](const FeatureReliability& feature) { return !feature.levels[n].has_threshold; });
+    return silent == 0 ? ""
+                       : fmt::format("; {} of the {} features {} no threshold, which says nothing "
+                                     "of them",
+                                     silent, reliability.features.size(),
+                                     silent == 1 ? "has" : "have");
+}
+
 void add_unsized_level(std::string& out, const Reliability& reliability, std::size_t n) {
     const auto features = in_order(reliability, n);
     std::size_t width = 8;
@@ -237,8 +249,11 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     } else if (without_threshold(reliability, n)) {
         out += "no threshold: nothing is known of the faults found\n";
     } else {
-        out += fmt::format("no tested fault is found with 90 % probability at {:g} % confidence\n",
-                           percent);
+        add_wrapped(
+            out,
+            fmt::format("no tested fault is found with 90 % probability at {:g} % confidence{}",
+                        percent, silent_text(reliability, n)),
+            4);
     }
     const auto features = in_order(reliability, n);
     std::size_t width = 8;

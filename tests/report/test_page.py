@@ -105,6 +105,17 @@ class Answers(unittest.TestCase):
                 self.assertIn(said, answer(name))
                 self.assertNotRegex(answer(name), r"\d mm is found")
 
+    def test_features_without_a_threshold_are_counted(self):
+        data = case("usual")
+        n = data["noise"]["reference"]
+        data["reliability"]["levels"][n]["smallest_fault"] = None
+        text = page(data).text()
+        self.assertIn("No tested crack is found", text)
+        self.assertNotIn("no threshold.", text)
+        features = data["detection"]["features"]
+        features[0]["levels"][n]["threshold"] = None
+        self.assertIn(f"1 of the {len(features)} features has no threshold.", page(data).text())
+
     def test_all_detected_is_a_tested_size(self):
         self.assertIn("A crack of 0.5 mm is found", answer("all_detected"))
         self.assertIn("no detection curve vouches for it (te_fm0: every faulty gearbox was",
