@@ -9,6 +9,7 @@
 
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/tail.hpp"
+#include "analysis/detection/tilted_sample.hpp"
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "features/feature.hpp"
@@ -69,45 +70,85 @@ std::string beyond_text(double extrapolation, bool tilted) {
                                : "";
 }
 
+// Thresholds of a study whose records are tilted, by what they rest on.
+struct TiltedCounts {
+    long all = 0, tilted = 0, gearboxes = 0;
+    long first = 0;            // of the first record of each gearbox: too few have the alarms
+    long plain = 0, none = 0;  // of plain records, as features have that no tilt concerns; without
+    double upper = 0.0;        // the largest rate that these leave open
+};
+
+TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
+                           const DetectionRequest& request) {
+    TiltedCounts counts;
+    for (const FeatureDetection& feature : features) {
+        const features::Feature* known = features::find_feature(feature.feature);
+        const bool plain = known != nullptr && !known->from_sensor;
+        const long records = plain ? static_cast<long>(request.threshold_records) : 1;
+        for (const LevelDetection& level : feature.levels) {
+            ++counts.all;
+            counts.tilted += level.tilted ? 1 : 0;
+            counts.gearboxes =
+                std::max(counts.gearboxes,
+                         level.tilted ? level.tilted->gearboxes : level.threshold_sample / records);
+            counts.first += !level.tilted && !plain ? 1 : 0;
+            if (plain) {
+                const bool none = std::isnan(level.threshold);
+                ++counts.plain;
+                counts.none += none ? 1 : 0;
+                counts.upper = std::max(counts.upper, none ? 0.0 : level.threshold_rate.upper);
+            }
+        }
+    }
+    return counts;
+}
+
+// Of thresholds from plain records, "" if they keep the rate.
+std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
+    std::string text;
+    if (counts.none > 0) {
+        text = fmt::format(
+            " {} of features that the accelerometer's noise does not reach {} too "
+            "few records.",
+            counts.none, counts.none == 1 ? "has" : "have");
+    }
+    if (counts.upper > 2.0 * false_alarm_rate) {
+        const long with = counts.plain - counts.none;
+        text += fmt::format(" {} {} from plain records: the rate may be up to {:.2g}.", with,
+                            with == 1 ? "is" : "are", counts.upper);
+    }
+    return text;
+}
+
 // Which thresholds are from tilted records, and what the others rest on.
 std::string tilted_text(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
-    long from_tilted = 0, all = 0, gearboxes = 0;
-    for (const FeatureDetection& feature : features) {
-        // Of others than the accelerometer's features all records are plain, and count.
-        const features::Feature* known = features::find_feature(feature.feature);
-        const long records = known != nullptr && !known->from_sensor
-                                 ? static_cast<long>(request.threshold_records)
-                                 : 1;
-        for (const LevelDetection& level : feature.levels) {
-            ++all;
-            from_tilted += level.tilted ? 1 : 0;
-            gearboxes = std::max(gearboxes, level.tilted ? level.tilted->gearboxes
-                                                         : level.threshold_sample / records);
-        }
-    }
+    const TiltedCounts counts = tilted_counts(features, request);
     std::string text;
-    if (const double rarer = 1.0 / (request.false_alarm_rate * static_cast<double>(gearboxes));
-        from_tilted > 0) {
+    if (counts.tilted > 0) {
+        const double rarer =
+            1.0 / (request.false_alarm_rate * static_cast<double>(counts.gearboxes));
         text = fmt::format(
-            "{} of the {} thresholds are from {} tilted records of each of {} healthy gearboxes{}.",
-            from_tilted, all, request.threshold_records, gearboxes,
+            " {} of the {} thresholds {} from {} tilted records of each of {} healthy gearboxes{}.",
+            counts.tilted, counts.all, counts.tilted == 1 ? "is" : "are", request.threshold_records,
+            counts.gearboxes,
             rarer > 1.0
                 ? fmt::format(", for a false-alarm rate {:.2g}-fold rarer than one in these", rarer)
                 : "");
     }
-    if (from_tilted == all) {
-        return text;
+    const std::string others = counts.first > 0
+                                   ? sample_shortage(counts.gearboxes, request.false_alarm_rate,
+                                                     request.confidence, Subject::gearboxes)
+                                   : "";
+    if (!others.empty()) {
+        text += (counts.tilted > 0
+                     ? fmt::format(" Of {} other{} too few gearboxes have the alarms. ",
+                                   counts.first, counts.first == 1 ? "" : "s")
+                     : " Too few gearboxes have the alarms for thresholds from tilted records. ") +
+                others;
     }
-    const std::string others = sample_shortage(gearboxes, request.false_alarm_rate,
-                                               request.confidence, Subject::gearboxes);
-    return others.empty() ? text
-                          : (text.empty() ? "Too few gearboxes have the alarms for "
-                                            "thresholds from tilted records. "
-                                          : text +
-                                                " Of the others too few gearboxes have "
-                                                "the alarms. ") +
-                                others;
+    text += plain_text(counts, request.false_alarm_rate);
+    return text.empty() ? "" : text.substr(1);
 }
 
 // Of gearboxes with several records each: nothing is known beyond these, whose tails go together.
@@ -143,6 +184,10 @@ std::string sample_shortage(long healthy, double false_alarm_rate, double confid
                             Subject subject, long records, bool tilted) {
     if (records > 1 && tilted) {
         const std::string others = sample_shortage(healthy, false_alarm_rate, confidence, subject);
+        if (!others.empty() && static_cast<double>(healthy) < kLeastCarrying) {
+            return fmt::format("Tilted records set thresholds from {:g} gearboxes on. {}",
+                               kLeastCarrying, others);
+        }
         return others.empty()
                    ? ""
                    : fmt::format(

@@ -221,7 +221,8 @@ void check_precision(StudyDraft& draft) {
 void check_tilted_records(StudyDraft& draft) {
     const Ensemble& e = draft.study.ensemble;
     constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
-    if (e.tilted() && draft.all_usable({"ensemble.threshold_records"}) &&
+    // Without several records the tilt has no place, which is said already.
+    if (e.tilted() && e.threshold_records > 1 && draft.all_usable({"ensemble.threshold_records"}) &&
         e.threshold_records % kKinds != 0) {
         draft.reject("ensemble.threshold_records",
                      fmt::format("{} are no multiple of {} (ensemble.threshold_tilt)",

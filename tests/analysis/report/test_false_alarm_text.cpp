@@ -90,10 +90,43 @@ TEST_CASE("A report counts the thresholds from tilted records and the gearboxes 
     features[0].levels[1].tilted = {640, 100.0, 15.6};
     CHECK_THAT(
         sample_shortage(features, request, Subject::gearboxes),
-        Catch::StartsWith("1 of the 2 thresholds are from 32 tilted records of each of 640") &&
-            Catch::Contains("16-fold rarer") && Catch::Contains("Of the others"));
+        Catch::StartsWith("1 of the 2 thresholds is from 32 tilted records of each of 640") &&
+            Catch::Contains("16-fold rarer") && Catch::Contains("Of 1 other too"));
     CHECK_THAT(sample_shortage(640, 1e-4, 0.95, Subject::gearboxes, 32, true),
                Catch::StartsWith("Tilted records carry") && Catch::Contains("640 give no"));
+}
+
+TEST_CASE("Tilted records of fewer gearboxes than can carry a rate are not said to carry it") {
+    CHECK_THAT(sample_shortage(19, 0.01, 0.95, Subject::gearboxes, 32, true),
+               Catch::StartsWith("Tilted records set thresholds from 20 gearboxes on. Too few"));
+    CHECK_THAT(sample_shortage(20, 0.01, 0.95, Subject::gearboxes, 32, true),
+               Catch::StartsWith("Tilted records carry"));
+}
+
+TEST_CASE("A report does not take plain records for tilted ones without a threshold") {
+    DetectionRequest request;
+    request.false_alarm_rate = 1e-3;
+    request.noise_levels = {1.0, 5.0};
+    request.threshold_records = 32;
+    request.threshold_tilt = true;
+    std::vector<FeatureDetection> features{with_samples(request, {6400, 6400}),
+                                           with_samples(request, {6400, 6400})};
+    features[1].feature = "window_ratio";
+    for (LevelDetection& level : features[0].levels) {
+        level.threshold_rate = {0.0, 0.018};
+    }
+    for (LevelDetection& level : features[1].levels) {
+        level.tilted = {200, 70.0, 5.0};
+    }
+    // All of the accelerometer's thresholds are there, those of te_rms leave their rate open.
+    CHECK(sample_shortage(features, request, Subject::gearboxes) ==
+          "2 of the 4 thresholds are from 32 tilted records of each of 200 healthy gearboxes, for "
+          "a false-alarm rate 5-fold rarer than one in these. 2 are from plain records: the rate "
+          "may be up to 0.018.");
+    features[0] = with_samples(request, {480, 480});
+    CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
+               Catch::EndsWith("2 of features that the accelerometer's noise does not reach have "
+                               "too few records."));
 }
 
 TEST_CASE("A report names the noise levels without a threshold") {
