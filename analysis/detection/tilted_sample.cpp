@@ -139,7 +139,8 @@ std::optional<TiltedSample::Estimate> TiltedSample::at(double threshold, double 
         falling_.begin(), falling_.end(),
         [value = sign_ * threshold](const Record& record) { return record.value > value; });
     const auto count = static_cast<std::size_t>(end - falling_.begin());
-    auto found = estimate(count, cumulative_[count], confidence);
+    // Weights have the mean 1, and of frequent records their sum may come out larger.
+    auto found = estimate(count, std::min(1.0, cumulative_[count]), confidence);
     if (found) {
         found->threshold = threshold;
     }
@@ -177,10 +178,11 @@ std::optional<TiltedSample::Estimate> TiltedSample::estimate(std::size_t count, 
         boost::math::quantile(boost::math::students_t(found.carrying - 1.0), 1.0 - tail);
     const double alarms = narrower * narrower / variance;
     using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
-    found.rate = {
-        rate / alarms * boost::math::quantile(Gamma(alarms), tail),
+    const double upper =
         rate / alarms * boost::math::quantile(boost::math::complement(Gamma(alarms + 1.0), tail)) +
-            exponential_share(scores, share) * missing};
+        exponential_share(scores, share) * missing;
+    found.rate = {std::min(1.0, rate / alarms * boost::math::quantile(Gamma(alarms), tail)),
+                  std::min(1.0, upper)};
     found.expected = rate;
     found.alarms = static_cast<long>(count);
     return found;

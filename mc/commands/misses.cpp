@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "analysis/report/json_values.hpp"
+#include "analysis/report/text_lines.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/missed_faults.hpp"
 #include "mc/ensemble/results_check.hpp"
@@ -25,6 +26,7 @@ namespace gearpod::mc {
 namespace {
 
 constexpr long kMostRows = 100'000'000;
+constexpr int kMostRecords = 10'000;  // as of ensemble.threshold_records
 
 // Every option that is wrong, a line each.
 class Complaints {
@@ -99,17 +101,32 @@ void check_numbers(const Study& study, const MissesOptions& options, Complaints&
                        "its study gives the noise by density, which colours it; only white noise, "
                        "sensor.noise_m_s2, is tilted");
     }
-    if (options.records < kKinds || options.records % kKinds != 0) {
-        complaints.add("--records",
-                       fmt::format("{} is no multiple of {}", options.records, kKinds));
+    if (options.records < kKinds || options.records % kKinds != 0 ||
+        options.records > kMostRecords) {
+        complaints.add("--records", fmt::format("{} is no multiple of {} up to {}", options.records,
+                                                kKinds, kMostRecords));
     }
-    if (options.gearboxes < 2 || options.gearboxes > kMostRows / std::max(1, options.records)) {
+    const int records = std::clamp(options.records, kKinds, kMostRecords);
+    if (options.gearboxes < 2 || options.gearboxes > kMostRows / records) {
         complaints.add("--gearboxes", fmt::format("{} is not between 2 and {}", options.gearboxes,
-                                                  kMostRows / std::max(1, options.records)));
+                                                  kMostRows / records));
     }
-    if (!(options.size > 0.0)) {
+    if (!(options.size > 0.0) || std::isinf(options.size)) {
         complaints.add("--size", fmt::format("{:g} is no fault", options.size));
     }
+}
+
+// What is wrong with the study of the misses: with the fault's size, or with what the file holds.
+[[noreturn]] void refuse(const MissesOptions& options, const std::string& size_key,
+                         Problems problems) {
+    for (Problem& problem : problems) {
+        const bool of_size = problem.key == size_key;
+        problem.file = of_size ? "--size" : options.results;
+        problem.line = 0;
+        problem.key = of_size ? "" : problem.key;
+    }
+    const std::string text = format(problems);
+    throw std::runtime_error(text.substr(0, text.size() - 1));
 }
 
 struct Prepared {
@@ -143,39 +160,62 @@ Prepared prepare(const MissesOptions& options) {
     prepared.question.gearboxes = options.gearboxes;
     prepared.question.records = options.records;
     prepared.study = study_of_misses(study, prepared.question);
-    const std::string name = "study of the results";
-    prepared.made = make_scene(name, read_study_text(resolved_text(prepared.study), name));
+    prepared.made = make_scene(options.results,
+                               read_study_text(resolved_text(prepared.study), options.results));
     if (!prepared.made) {
-        throw std::runtime_error(format(prepared.made.problems));
+        refuse(options, fault_size_key(study).path(), prepared.made.problems);
     }
     return prepared;
+}
+
+std::string rate_text(const Prepared& prepared, const MissAnswer& answer) {
+    const MissQuestion& q = prepared.question;
+    const std::string records =
+        fmt::format("{} tilted records of each of {} gearboxes", q.records, answer.gearboxes);
+    if (!answer.misses) {
+        return fmt::format(
+            "not known from {}: too few of them have the misses. It takes more records or "
+            "gearboxes; where noise is not what makes the misses, records do not help",
+            records);
+    }
+    return fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %, from {}, {:.0f} of which carry it",
+                       answer.misses->expected, answer.misses->rate.lower,
+                       answer.misses->rate.upper, 100.0 * prepared.study.detection.confidence,
+                       records, answer.misses->carrying);
+}
+
+// What counting would have taken.
+std::string counting_text(const MissAnswer& answer) {
+    const double times = answer.counted / static_cast<double>(answer.records);
+    const std::string error =
+        fmt::format("relative error {:.2g}; ", std::sqrt(answer.misses->variance));
+    return times > 1.0 ? error + fmt::format(
+                                     "counting misses of single records takes {:.3g} of "
+                                     "them for the same, {:.3g} times as many",
+                                     answer.counted, times)
+                       : error +
+                             "not so rare that tilting pays: `run` counts them with fewer "
+                             "records";
 }
 
 std::string answer_text(const MissesOptions& options, const Prepared& prepared,
                         const MissAnswer& answer) {
     const MissQuestion& q = prepared.question;
     const bool high = features::find_feature(q.feature)->alarm == features::AlarmSide::high;
-    std::string text = fmt::format(
-        "faults of {:g}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ", options.size,
-        prepared.unit, q.feature, q.noise_level, high ? ">" : "<", q.threshold);
-    const std::string records =
-        fmt::format("{} tilted records of each of {} gearboxes", q.records, answer.gearboxes);
-    if (!answer.misses) {
-        return text +
-               fmt::format(
-                   "not known from {}: too few of them have the misses. It takes more records or "
-                   "gearboxes; where noise is not what makes the misses, records do not help\n",
-                   records);
+    std::string text;
+    analysis::add_wrapped(
+        text,
+        fmt::format("faults of {:g}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): {}",
+                    options.size, prepared.unit, q.feature, q.noise_level, high ? ">" : "<",
+                    q.threshold, rate_text(prepared, answer)),
+        2);
+    if (answer.misses) {
+        analysis::add_wrapped(text, counting_text(answer), 2);
     }
-    text +=
-        fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %, from {}, {:.0f} of which carry it\n",
-                    answer.misses->expected, answer.misses->rate.lower, answer.misses->rate.upper,
-                    100.0 * prepared.study.detection.confidence, records, answer.misses->carrying);
-    return text + fmt::format(
-                      "relative error {:.2g}; counting misses of single records takes {:.3g} of "
-                      "them for the same, {:.3g} times as many\n",
-                      std::sqrt(answer.misses->variance), answer.counted,
-                      answer.counted / static_cast<double>(answer.records));
+    if (answer.failed > 0) {
+        text += fmt::format("{} of the gearboxes failed, and do not count\n", answer.failed);
+    }
+    return text;
 }
 
 nlohmann::json answer_json(const MissesOptions& options, const Prepared& prepared,

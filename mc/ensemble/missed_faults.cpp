@@ -94,9 +94,10 @@ MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const
     answer.gearboxes = all.gearboxes;
     answer.failed = all.failed;
     answer.records = static_cast<long>(all.values.size());
-    answer.counted = answer.misses ? (1.0 - answer.misses->expected) /
-                                         (answer.misses->expected * answer.misses->variance)
-                                   : std::numeric_limits<double>::quiet_NaN();
+    answer.counted =
+        answer.misses && answer.misses->expected < 1.0
+            ? (1.0 - answer.misses->expected) / (answer.misses->expected * answer.misses->variance)
+            : std::numeric_limits<double>::quiet_NaN();
     return answer;
 }
 

@@ -30,7 +30,7 @@ struct MissAnswer {
     long gearboxes = 0, failed = 0;
     long records = 0;  // computed
     // Plain records of as many gearboxes that would be counted for the same error; NaN without
-    // `misses`.
+    // `misses`, or if all are missed.
     double counted = 0.0;
 };
 

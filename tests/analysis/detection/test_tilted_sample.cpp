@@ -116,6 +116,18 @@ TEST_CASE("Thresholds at 1e-2 to 1e-6 from tilted records are the normal law's")
     }
 }
 
+TEST_CASE("Rates from tilted records are 1 at most") {
+    std::mt19937_64 engine(8);
+    for (int study = 0; study < 20; ++study) {
+        const auto found = Records(0.2, Law::normal, 50, 8, engine).sample().at(-6.0, 0.95);
+        REQUIRE(found);
+        CHECK(found->expected <= 1.0);
+        CHECK(found->expected > 0.8);
+        CHECK(found->rate.upper <= 1.0);
+        CHECK(found->rate.lower < found->expected);
+    }
+}
+
 TEST_CASE("Tilted records agree with counted ones") {
     std::mt19937_64 engine(2);
     constexpr double kRate = 1e-3;

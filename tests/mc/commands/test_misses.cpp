@@ -58,6 +58,22 @@ TEST_CASE("Rates of misses are those of counted ones") {
     CHECK(answer["upper"].get<double>() > rate - 3.0 * error);
 }
 
+TEST_CASE("Faults that are nearly always missed are missed at most always") {
+    const test::Folder folder;
+    const std::string asked = "misses " + run_small(folder) +
+                              " --feature window_ratio --size 0.01 --gearboxes 60 --records 16 "
+                              "--quiet";
+    const test::Outcome text = program(asked);
+    INFO(text.output);
+    REQUIRE(text.code == 0);
+    CHECK(text.mentions("not so rare that tilting pays"));
+    const auto answer = nlohmann::json::parse(program(asked + " --json -").output);
+    CHECK(answer["miss_rate"] <= 1.0);
+    CHECK(answer["miss_rate"] > 0.9);
+    CHECK(answer["upper"] <= 1.0);
+    CHECK((answer["counted_records"].is_null() || answer["counted_records"] > 0.0));
+}
+
 TEST_CASE("Rates of misses have the same bits by any threads") {
     const test::Folder folder;
     const std::string asked =
@@ -88,9 +104,19 @@ TEST_CASE("What misses cannot be asked of is refused, every problem at once") {
     CHECK(wrong.mentions("--size: 0 is no fault"));
     CHECK(wrong.mentions("--noise-level: 3 is none of the file's levels above 0: 0, 2"));
     CHECK(wrong.mentions("--records: 6 is no multiple of 4"));
+    const test::Outcome many = program("misses " + results +
+                                       " --feature window_ratio --size 1 --records 40000 "
+                                       "--gearboxes 1");
+    CHECK(many.code == 2);
+    CHECK(many.output ==
+          "--records: 40000 is no multiple of 4 up to 10000\n"
+          "--gearboxes: 1 is not between 2 and 10000\n");
     const test::Outcome unknown = program("misses " + results + " --feature nothing --size 1");
     CHECK(unknown.code == 2);
     CHECK(unknown.mentions("which has te_rms, window_ratio"));
-    CHECK(program("misses " + results + " --feature window_ratio --size 900").code == 2);
+    const test::Outcome deep = program("misses " + results + " --feature window_ratio --size 900");
+    CHECK(deep.code == 2);
+    CHECK(deep.output.starts_with("--size: "));
+    CHECK(std::count(deep.output.begin(), deep.output.end(), '\n') == 1);
     CHECK(program("misses " + folder.file("none.h5") + " --feature fm4 --size 1").code == 2);
 }
