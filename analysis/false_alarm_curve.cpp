@@ -138,7 +138,8 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
     least.cost = std::numeric_limits<double>::infinity();
     least.without = cost(0.0, 0.0);
     double rarest = 1.0;
-    const auto consider = [&](double value, double rate) {
+    bool counted = true;  // the least's is an order statistic
+    const auto consider = [&](double value, double rate, bool order_statistic) {
         const double pd = share_beyond(faulty, value), expected = cost(rate, pd);
         rarest = std::min(rarest, rate);
         if (expected < least.cost) {
@@ -146,18 +147,21 @@ std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& cos
             least.false_alarm_rate = rate;
             least.pd = pd;
             least.cost = expected;
+            counted = order_statistic;
         }
     };
     for (std::size_t i = 0; i < healthy.size(); ++i) {
-        consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0));
+        consider(healthy[i], (sample - static_cast<double>(i)) / (sample + 1.0), true);
     }
     for (const double rate : kCurveRates) {
         if (const Threshold beyond = all.at(rate, half); beyond.tail || beyond.tilted) {
-            consider(sign * beyond.value, rate);
+            consider(sign * beyond.value, rate, false);
         }
     }
     // At a rate between two whole ranks the order statistic is the same one.
-    const Threshold chosen = all.at(least.false_alarm_rate, half);
+    const Threshold chosen =
+        counted ? alarm_threshold(all.plain(), values.alarm, least.false_alarm_rate)
+                : all.at(least.false_alarm_rate, half);
     least.extrapolation = extrapolation_of(chosen, least.false_alarm_rate);
     least.tilted = chosen.tilted.has_value();
     least.rate_bounds = all.rate_bounds(chosen, least.false_alarm_rate, half);

@@ -1,10 +1,12 @@
 // a90 and cost over the false-alarm rate, where both are known: a normal feature whose mean grows
 // with the size.
+#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
 
@@ -118,6 +120,46 @@ TEST_CASE("The threshold of least cost is where the laws' likelihoods are as the
     // Alarms that cost everything are never worth it.
     CHECK(least_cost(study.values(), {1e12, 1.0, 0.005}, 0.95)->rarest);
     CHECK(!least_cost({Alarm::high, {}, study.size, study.value}, costs, 0.95));
+}
+
+TEST_CASE("A threshold of least cost has the bounds of what it was taken from") {
+    // 300 healthy gearboxes of 8 records, most of them drawn towards alarms. The first ones, which
+    // alone set order statistics, come out quiet, so that these seem cheap.
+    constexpr std::array kShifts{0.0, 2.0, 3.5, 5.0};
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> noise;
+    std::vector<double> healthy, weights, size(4000, 3.0), value;
+    std::vector<std::size_t> gearbox;
+    for (std::size_t i = 0; i < 300 * 8; ++i) {
+        const double z = (i % 8 == 0 ? 0.8 : 1.0) * noise(engine) + kShifts[i % kShifts.size()];
+        double density = 0.0;
+        for (const double shift : kShifts) {
+            density += std::exp(shift * (z - 0.5 * shift)) / kShifts.size();
+        }
+        healthy.push_back(z);
+        weights.push_back(1.0 / density);
+        gearbox.push_back(i / 8);
+    }
+    for (std::size_t i = 0; i < size.size(); ++i) {
+        value.push_back(3.0 + noise(engine));
+    }
+    const GradedValues values{Alarm::high, {healthy, gearbox, weights}, size, value};
+    const HealthyThresholds all(values.healthy, Alarm::high);
+    int counted = 0;
+    for (const double miss : {300.0, 500.0, 700.0, 1000.0, 1500.0}) {
+        const auto least = least_cost(values, {10.0, miss, 0.005}, 0.95);
+        REQUIRE(least);
+        const Threshold at = all.at(least->false_alarm_rate, 0.975);
+        REQUIRE(at.tilted);  // which are there at all of these rates
+        CHECK(least->tilted == (least->threshold == at.value));
+        const Interval own = least->tilted
+                                 ? at.tilted->rate
+                                 : threshold_rate_interval(300, least->false_alarm_rate, 0.975);
+        CHECK(least->rate_bounds.lower == Approx(own.lower));
+        CHECK(least->rate_bounds.upper == Approx(own.upper));
+        counted += least->tilted ? 0 : 1;
+    }
+    CHECK(counted > 0);
 }
 
 }  // namespace
