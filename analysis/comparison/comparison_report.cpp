@@ -178,6 +178,12 @@ std::string comparison_text(const ComparisonReport& report) {
                             "a90: size with POD 90 %; AUC: area under the ROC, p by DeLong's test",
                             report.noise_level),
                 0);
+    if (report.first_records) {
+        add_wrapped(out,
+                    "Thresholds of these differences are those of the first record of each healthy "
+                    "gearbox; what stands above rests on all records.",
+                    0);
+    }
     for (std::size_t f = 1; f < report.files.size(); ++f) {
         add_file(out, report, f);
     }
@@ -226,6 +232,7 @@ nlohmann::json comparison_json(const ComparisonReport& report) {
             {"size", {{"name", report.size.name}, {"unit", report.size.unit}}},
             {"confidence", report.confidence},
             {"noise_level", report.noise_level},
+            {"first_records", report.first_records},
             {"files", files}};
 }
 

@@ -38,11 +38,13 @@ struct ComparisonReport {
     SizeUnit size;
     double confidence = 0.95;
     double noise_level = 1.0;  // that the terminal shows
+    // Healthy gearboxes have several records, and thresholds are compared that the first ones set.
+    bool first_records = false;
 };
 
 std::string comparison_text(const ComparisonReport& report);
 
-// {"kind": "comparison", "size", "confidence", "noise_level",
+// {"kind": "comparison", "size", "confidence", "noise_level", "first_records",
 //  "files": [{"path", "title", "gearboxes", "smallest_faults": [{"noise_level", "fault": {...},
 //    "without_threshold"}],
 //    "shortage": what sample_shortage() says or null, "pairs", "unpaired", "differing_inputs",

@@ -20,6 +20,7 @@
 #include "mc/random/philox.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/page.hpp"
+#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 
@@ -31,25 +32,29 @@ struct Side {
     std::string path;
     Results frame;                               // with the columns
     std::vector<std::size_t> threshold, graded;  // rows
+    std::size_t gearboxes = 0;
     std::vector<std::optional<analysis::SmallestFault>> smallest;
     std::vector<bool> without_threshold;
     std::string title;
+    SamplingKind sampling = SamplingKind::plain;
 };
 
 // What is missing of a study, "" if nothing is.
-std::string not_whole(const Results& frame) {
+std::string not_whole(const Results& frame, std::size_t gearboxes) {
     const std::string part = frame.provenance_value("part");
     const std::string state = frame.provenance_value("state");
     const bool stopped = state == "running" || state.starts_with("interrupted");
     return (part.empty() ? "" : fmt::format(", part {} of it alone", printable(part))) +
-           (stopped ? fmt::format(", {} of {} gearboxes ({})", frame.status.size(),
+           (stopped ? fmt::format(", {} of {} gearboxes ({})", gearboxes,
                                   printable(frame.provenance_value("gearboxes_asked_for")),
                                   printable(state))
                     : "");
 }
 
 Side read_side(const std::string& path) {
-    Side side{path, read_results(path), {}, {}, {}, {}, ""};
+    Side side;
+    side.path = path;
+    side.frame = read_results(path);
     const ColumnRows rows(side.frame);
     check_results(path, side.frame, rows);
     side.frame.detection = detect_all(side.frame, rows);
@@ -66,8 +71,10 @@ Side read_side(const std::string& path) {
             (threshold ? side.threshold : side.graded).push_back(row);
         }
     }
+    side.gearboxes = count_rows(rows, side.frame.request.threshold_records).all;
     const auto study = read_study_text(side.frame.provenance_value("study"), "").study;
-    side.title = (study ? printable(study->title) : "") + not_whole(side.frame);
+    side.title = (study ? printable(study->title) : "") + not_whole(side.frame, side.gearboxes);
+    side.sampling = study ? study->ensemble.sampling : SamplingKind::plain;
     return side;
 }
 
@@ -99,6 +106,10 @@ Rows rows_of(const Side& a, const Side& b) {
     if (seed != b.frame.provenance_value("seed")) {
         rows.unpaired = fmt::format("seed {} and {}", printable(seed),
                                     printable(b.frame.provenance_value("seed")));
+        return rows;
+    }
+    if (a.sampling != b.sampling) {
+        rows.unpaired = "those of one fill their inputs' ranges evenly: ensemble.sampling";
         return rows;
     }
     // The same place in a group is the same draw of every input that both have.
@@ -273,10 +284,11 @@ analysis::ComparisonReport compare_sides(const std::vector<Side>& sides) {
     report.confidence = first.frame.request.confidence;
     report.noise_level = shown_level(sides);
     for (const Side& side : sides) {
+        report.first_records = report.first_records || side.frame.request.threshold_records > 1;
         analysis::ComparedFile file;
         file.path = side.path;
         file.title = side.title;
-        file.gearboxes = static_cast<long>(side.frame.status.size());
+        file.gearboxes = static_cast<long>(side.gearboxes);
         file.noise_levels = side.frame.noise_levels;
         file.smallest = side.smallest;
         file.without_threshold = side.without_threshold;

@@ -94,7 +94,7 @@ int lead_lives(const LivesOptions& options, const LifeTiles& tiles, const Ranks&
                     fmt::print("\nresults: {}\n", path);
                 }
             }
-            const bool failed = count_rows(rows).failed() > 0;
+            const bool failed = count_rows(rows, 1).failed() > 0;
             checkpoint.remove();
             return failed ? kSomeFailed : kDone;
         } catch (const std::exception& error) {

@@ -122,7 +122,7 @@ int report_command(const ReportOptions& options) {
         const std::string state = results.provenance_value("state");
         if (state == "running" || state.starts_with("interrupted")) {
             fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results,
-                       count_rows(rows).all,
+                       count_rows(rows, results.request.threshold_records).all,
                        printable(results.provenance_value("gearboxes_asked_for")),
                        printable(state));
         }

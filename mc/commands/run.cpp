@@ -99,7 +99,9 @@ class Run {
         results.detection = detect_all(results, rows);
         results.provenance = provenance(study_, ranks_.size(), threads_);
         results.provenance.emplace_back("state", state);
-        results.provenance.emplace_back("gearboxes_asked_for", std::to_string(plan_.rows()));
+        results.provenance.emplace_back(
+            "gearboxes_asked_for",
+            std::to_string(plan_.threshold_gearboxes() + plan_.graded_rows()));
         if (!part_.empty()) {
             results.provenance.emplace_back("part", part_);
         }
@@ -187,7 +189,7 @@ class Run {
         if (!whole || !trouble.empty()) {
             return stop_short(outcome, trouble.empty());
         }
-        const RowCounts counts = count_rows(rows);
+        const RowCounts counts = count_rows(rows, plan_.threshold_records());
         checkpoint_->remove();
         if (says_results()) {
             fmt::print("{}\n", text);

@@ -51,7 +51,7 @@ Json failures_json(const Results& frame, const RowSource& rows) {
              {"gearboxes",
               std::vector<long>(first, first + static_cast<std::ptrdiff_t>(shape.levels))}});
     }
-    const RowCounts counts = count_rows(rows);
+    const RowCounts counts = count_rows(rows, frame.request.threshold_records);
     return {{"gearboxes", counts.all},
             {"diverged", counts.diverged},
             {"not_settled", counts.not_settled},
@@ -133,7 +133,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     const auto monitoring = monitoring_over_time(frame, rows);
     json["monitoring"] = monitoring ? monitoring_json(*monitoring) : Json(nullptr);
     json["gearboxes"] = json["failures"]["gearboxes"];
-    json["failed"] = count_rows(rows).failed();
+    json["failed"] = count_rows(rows, frame.request.threshold_records).failed();
     json["provenance"] = Json::object();
     for (const auto& [name, value] : frame.provenance) {
         json["provenance"][name] = value;

@@ -48,11 +48,16 @@ Spread spread_of(const std::vector<CrewTimes>& crews, const TimeRow& row) {
 
 }  // namespace
 
-RowCounts count_rows(const RowSource& rows) {
+RowCounts count_rows(const RowSource& rows, std::size_t records) {
     RowCounts counts;
     rows.visit([&](const RowBlock& block) {
-        counts.all += block.count();
-        for (const int status : block.status) {
+        for (std::size_t row = 0; row < block.count(); ++row) {
+            const bool threshold = block.group[row] == static_cast<int>(Group::threshold);
+            if (threshold && (block.first + row) % records != 0) {
+                continue;  // a further record of the gearbox before
+            }
+            ++counts.all;
+            const int status = block.status[row];
             if (status >= 0 && status < kStatuses) {
                 ++counts.with_status[static_cast<std::size_t>(status)];
             }

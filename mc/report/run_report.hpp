@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// All rows, and those without a value; `diverged` holds all but those that did not settle.
+// All gearboxes, and those without a value; `diverged` holds all but those that did not settle.
 struct RowCounts {
     std::size_t all = 0, diverged = 0, not_settled = 0;
     std::array<std::size_t, kStatuses> with_status{};
@@ -17,7 +17,8 @@ struct RowCounts {
     std::size_t failed() const { return diverged + not_settled; }
 };
 
-RowCounts count_rows(const RowSource& rows);
+// `records`: rows of each gearbox that sets thresholds (DetectionRequest::threshold_records).
+RowCounts count_rows(const RowSource& rows, std::size_t records);
 
 // What the answer takes for granted, detection rates, reliability and, if it was verified, the
 // numerical error.

@@ -99,7 +99,7 @@ PointSummary summarise(const SweepPoint& point, const std::string& results, int 
     const FileRows rows(results, frame);
     check_results(results, frame, rows);
     frame.detection = detect_all(frame, rows);
-    const RowCounts counts = count_rows(rows);
+    const RowCounts counts = count_rows(rows, frame.request.threshold_records);
     PointSummary summary;
     summary.point = point;
     summary.results = results;

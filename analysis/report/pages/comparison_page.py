@@ -170,6 +170,9 @@ def parts(data, page):
     answer += blocks.table("Files", ["", "file", "study", "gearboxes"],
                            [[letter(k), f["path"], f["title"], count(f["gearboxes"])]
                             for k, f in enumerate(compared.files)])
+    if data.get("first_records"):
+        answer += ('<p class="small">Thresholds of the differences are those of the first record '
+                   "of each healthy gearbox; the smallest faults rest on all records.</p>")
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
     body = page.section("sizes", "Sizes and areas", _forest(
         compared, page, "a90", f"Difference of a90 at {noise(compared.level)}",

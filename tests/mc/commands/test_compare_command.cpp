@@ -39,7 +39,8 @@ TEST_CASE("Comparisons pair the same gearboxes, and only these") {
     const std::string a = run(folder, "a.h5", ""),
                       more = run(folder, "more.h5", "--set ensemble.instances=210"),
                       noisy = run(folder, "noisy.h5", "--set sensor.noise_m_s2=3"),
-                      other = run(folder, "other.h5", "--seed 5");
+                      other = run(folder, "other.h5", "--seed 5"),
+                      evenly = run(folder, "evenly.h5", "--set ensemble.sampling=sobol");
     const std::string out = folder.file("c.json");
 
     const Json itself = compared(a + " " + a, out)["files"][1];
@@ -70,6 +71,25 @@ TEST_CASE("Comparisons pair the same gearboxes, and only these") {
     CHECK(all["files"][2]["unpaired"].is_null());
     CHECK(all["files"][3]["pairs"] == 0);
     CHECK(all["files"][3]["unpaired"] == "seed 2 and 5");
+    // Their inputs are other draws, of the same seed and sizes.
+    const Json sobol = compared(a + " " + evenly, out)["files"][1];
+    CHECK(sobol["pairs"] == 0);
+    CHECK_THAT(sobol["unpaired"].get<std::string>(), Catch::Contains("ensemble.sampling"));
+    CHECK(sobol["differing_inputs"].empty());
+}
+
+TEST_CASE("Gearboxes of several records are counted once") {
+    const Folder folder;
+    const std::string file = run(folder, "r.h5",
+                                 "--set ensemble.threshold_records=4 --set "
+                                 "'features.use=[\"te_rms\"]'");
+    const Json comparison = compared(file + " " + file, folder.file("c.json"));
+    CHECK(comparison["files"][0]["gearboxes"] == 240);
+    CHECK(comparison["first_records"] == true);
+    CHECK(program("compare " + file + " " + file).mentions("the first record of each healthy"));
+    const Json report = Json::parse(program("report " + file + " --json -").output);
+    CHECK(report["gearboxes"] == 240);
+    CHECK(report["provenance"]["gearboxes_asked_for"] == "240");
 }
 
 TEST_CASE("Comparisons say what cannot be compared, all of it") {
