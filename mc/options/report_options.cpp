@@ -16,14 +16,11 @@ void add_report(CLI::App& app, ReportOptions& report, int& code) {
                                    "write the page's figures into a folder, as SVG and PNG"));
     command->add_option("--by", report.condition,
                         "random input, e.g. torque_N_m, whose values get thresholds of their own");
-    command
-        ->add_option("--alarm-cost", report.alarm_cost,
-                     "of a false alarm; with the next two, the threshold of least expected cost")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--miss-cost", report.miss_cost, "of a record with a fault that is missed")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--fault-share", report.fault_share, "share of records that have a fault")
-        ->check(CLI::Range(0.0, 1.0));
+    command->add_option(
+        "--alarm-cost", report.alarm_cost,
+        "of a false alarm; with the next two, the threshold of least expected cost");
+    command->add_option("--miss-cost", report.miss_cost, "of a record with a fault that is missed");
+    command->add_option("--fault-share", report.fault_share, "share of records that have a fault");
     command->callback([&report, &code] { code = report_command(report); });
 }
 

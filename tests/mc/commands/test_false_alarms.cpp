@@ -83,7 +83,13 @@ TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none")
     CHECK(all.mentions("least expected cost by"));
     CHECK(all.mentions("without any alarm 5"));  // a hundredth of 500
     CHECK(program("report " + results).output.find("expected cost") == std::string::npos);
-    CHECK(program("report " + results + costs + " --fault-share 2").code == 2);
+    const Outcome bad =
+        program("report " + results + " --alarm-cost nan --miss-cost -1 --fault-share 2");
+    CHECK(bad.code == 2);
+    CHECK(bad.output ==
+          "--alarm-cost: must be a finite number >= 0, but is nan\n"
+          "--miss-cost: must be a finite number >= 0, but is -1\n"
+          "--fault-share: must be between 0 and 1, but is 2\n");
     const Outcome json = program("report " + results + costs + " --fault-share 0.01 --json -");
     CHECK(json.mentions("\"least_cost\""));
     CHECK(json.mentions("\"by_false_alarm_rate\""));
