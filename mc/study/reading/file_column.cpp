@@ -34,6 +34,9 @@ Value list_of(const FileColumn& wanted, const Position& position, std::size_t mo
         throw SignalError(fmt::format("{}: no column {}; its columns are {}", wanted.file,
                                       wanted.column, table.names()));
     }
+    if (table.rows.empty()) {
+        throw SignalError(wanted.file + ": has no row below its header");
+    }
     Value list;
     list.kind = Value::Kind::array;
     list.position = position;

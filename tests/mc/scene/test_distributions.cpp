@@ -136,6 +136,9 @@ TEST_CASE("Columns of a file are drawn in rows, and what it lacks is said") {
     gearpod::test::write_bytes(folder.file("bad.csv"), "torque\n1\nlots\n");
     CHECK(problems_of(kTorques + "file=\"" + folder.file("bad.csv") + "\",column=\"torque\"}")
               .find("bad.csv:3: \"lots\" is no number") != std::string::npos);
+    gearpod::test::write_bytes(folder.file("empty.csv"), "torque\n");
+    CHECK(problems_of(kTorques + "file=\"" + folder.file("empty.csv") + "\",column=\"torque\"}")
+              .find("empty.csv: has no row below its header") != std::string::npos);
 }
 
 TEST_CASE("Lists of a study may stand in a column of a file") {
