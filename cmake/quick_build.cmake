@@ -35,6 +35,7 @@ if(GEARPOD_QUICK)
   gearpod_unite(gearpod_physics)
   gearpod_unite(gearpod_analysis)
   gearpod_unite(gearpod_mc)
+  set_target_properties(gearpod_command_line PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endif()
 
 # Files of kernels hold little else than one line for the templates that all of them read.

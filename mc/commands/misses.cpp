@@ -293,7 +293,7 @@ int misses_command(const MissesOptions& options) {
         return answer.failed == 0 ? kDone : kSomeFailed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
-        return kResumable;
+        return kBadInput;  // nothing is kept
     }
 }
 
