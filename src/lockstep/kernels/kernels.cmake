@@ -56,8 +56,7 @@ if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     list(APPEND gearpod_kernel_options -march=x86-64-v3)
   endif()
 endif()
-set(gearpod_kernel_arithmetic -fno-trapping-math -fno-math-errno)
-list(APPEND gearpod_kernel_options ${gearpod_kernel_arithmetic})
+list(APPEND gearpod_kernel_options -fno-trapping-math -fno-math-errno)
 
 # Which instruction sets a build has: `gearpod_sets`, and the lanes of each.
 option(GEARPOD_PORTABLE "build kernels of all instruction sets and widths, not just this processor's" OFF)
@@ -137,12 +136,13 @@ void add_${name}(KernelTable& table) {${calls}
   set(adders ${adders} add_${name} PARENT_SCOPE)
 endfunction()
 
-# A library of such files. A precompiled header has to know how errors of arithmetic are treated.
+# A library of such files. Templates in a precompiled header are optimised as that is compiled, so
+# it has their options.
 function(gearpod_kernel_library name)
   add_library(${name} OBJECT ${ARGN})
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
   target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})
-  target_compile_options(${name} PRIVATE ${gearpod_kernel_arithmetic})
+  target_compile_options(${name} PRIVATE ${gearpod_kernel_options})
 endfunction()
 
 # All pairs INTEGRATOR:KIND of the table.
