@@ -205,6 +205,9 @@ double start_of_thread(const std::vector<MeasuredTile>& all, const std::array<Gr
 // A tile that records `measured`'s meshes, as one that records all of `whole`. Its records and
 // their baselines are marched alike.
 void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
+    if (measured.recorded_meshes() == whole.recorded_meshes()) {
+        return;
+    }
     const bool marched = cost.whole.meshes > 0;  // otherwise copied
     cost.whole.march *=
         marched ? marched_meshes(whole) / marched_meshes(measured)
