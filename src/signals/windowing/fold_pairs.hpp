@@ -33,16 +33,20 @@ GEARPOD_INLINE void evaluate_pairs(const FoldArguments& a, long p, int mesh,
     }
 }
 
-// All pairs at B phases from p on.
-template <int N, int B, int W, bool kSquared>
-GEARPOD_INLINE void evaluate_phases(const FoldArguments& a, long p) {
+// All pairs at `count` phases from p on. Only here do kernels know the number of planets when they
+// are compiled: what folds the pairs is compiled once, not once for each number of planets.
+template <int W, bool kSquared>
+GEARPOD_INLINE void evaluate_phases(const FoldArguments& a, long p, long count) {
     const long pairs = static_cast<long>(a.plan->pairs().carrier.size());
-    for (long b = 0; b < B; ++b) {
-        path_weights<N, W>(*a.path, p + b, a.exponent, a.whole_steps, a.weight);
-        for (int mesh = 0; mesh <= a.plan->largest_mesh(); ++mesh) {
-            evaluate_pairs<N, W, kSquared>(a, p + b, mesh, a.pairs + b * pairs * W);
-        }
-    }
+    with_planets(
+        a.path->planets(), [&]<int N>() __attribute__((always_inline)) {
+            for (long b = 0; b < count; ++b) {
+                path_weights<N, W>(*a.path, p + b, a.exponent, a.whole_steps, a.weight);
+                for (int mesh = 0; mesh <= a.plan->largest_mesh(); ++mesh) {
+                    evaluate_pairs<N, W, kSquared>(a, p + b, mesh, a.pairs + b * pairs * W);
+                }
+            }
+        });
 }
 
 }  // namespace gearpod::signals

@@ -49,23 +49,17 @@ GEARPOD_INLINE void hand_out(const FoldArguments& a, long p) {
     }
 }
 
-template <int N, int W>
-GEARPOD_INLINE void fold_phases(const FoldArguments& a) {
+template <int W>
+GEARPOD_INLINE void fold_all(const FoldArguments& a) {
+    whole_step_table<W>(a.path->positions(), a.exponent, a.whole_steps);
     const long sums = static_cast<long>(a.plan->sums().first.size()) - 1;
     for (long p = 0; p < a.path->phases(); ++p) {
-        evaluate_phases<N, 1, W, true>(a, p);
+        evaluate_phases<W, true>(a, p, 1);
         for (long s = 0; s < sums; ++s) {
             sum_pairs<W>(a, s);
         }
         hand_out<W>(a, p);
     }
-}
-
-template <int W>
-GEARPOD_INLINE void fold_all(const FoldArguments& a) {
-    whole_step_table<W>(a.path->positions(), a.exponent, a.whole_steps);
-    with_planets(
-        a.path->planets(), [&]<int N>() __attribute__((always_inline)) { fold_phases<N, W>(a); });
 }
 
 }  // namespace

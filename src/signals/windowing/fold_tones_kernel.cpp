@@ -70,26 +70,20 @@ GEARPOD_INLINE void fold_with_tones(const FoldArguments& a, long p) {
     }
 }
 
-template <int N, int W>
-GEARPOD_INLINE void fold_phases_with_tones(const FoldArguments& a) {
-    constexpr int B = kTonePhases;
-    long p = 0;
-    for (; p + B <= a.path->phases(); p += B) {
-        evaluate_phases<N, B, W, false>(a, p);
-        fold_with_tones<B, W>(a, p);
-    }
-    for (; p < a.path->phases(); ++p) {
-        evaluate_phases<N, 1, W, false>(a, p);
-        fold_with_tones<1, W>(a, p);
-    }
-}
-
 template <int W>
 GEARPOD_INLINE void fold_all(const FoldArguments& a) {
     whole_step_table<W>(a.path->positions(), a.exponent, a.whole_steps);
-    with_planets(
-        a.path->planets(), [&]<int N>()
-                               __attribute__((always_inline)) { fold_phases_with_tones<N, W>(a); });
+    const long phases = a.path->phases();
+    for (long p = 0; p < phases;) {
+        const long count = p + kTonePhases <= phases ? kTonePhases : 1;
+        evaluate_phases<W, false>(a, p, count);
+        if (count == kTonePhases) {
+            fold_with_tones<kTonePhases, W>(a, p);
+        } else {
+            fold_with_tones<1, W>(a, p);
+        }
+        p += count;
+    }
 }
 
 }  // namespace
