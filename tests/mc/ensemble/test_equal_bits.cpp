@@ -32,8 +32,8 @@ std::vector<std::string> shipped_studies() {
 std::vector<std::string> small(const std::string& name) {
     const mc::Study study = shipped_study(name);
     const bool slow = study.numerics.horizon == mc::Horizon::march;
-    return {slow ? "ensemble.instances=2" : "ensemble.instances=11",
-            slow ? "ensemble.threshold_instances=1" : "ensemble.threshold_instances=3"};
+    return {slow ? "ensemble.instances=2" : "ensemble.instances=9",
+            "ensemble.threshold_instances=1"};
 }
 
 }  // namespace

@@ -287,19 +287,21 @@ TEST_CASE("A checkpoint that is a link or a pipe is refused and not waited for")
 TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
-    fill(path, {0, 1, 2, 3, 4});
+    const std::vector<std::size_t> written{0, 1, 4};  // a full one, and the last of either group
+    fill(path, written);
     const std::string bytes = bytes_of(path);
     long refused = 0, found = 0;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::string damaged = bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
         write_bytes(path, damaged);
-        if (!reason_of(path).empty()) {
+        std::unique_ptr<Checkpoint> checkpoint;
+        try {
+            checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
+        } catch (const std::runtime_error&) {
             ++refused;
             continue;
         }
-        write_bytes(path, damaged);
-        const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         std::size_t there = 0;
         for (std::size_t batch = 0; batch < kPlan.batches(); ++batch) {
             if (checkpoint->has(batch)) {
@@ -307,15 +309,15 @@ TEST_CASE("Whatever byte of a checkpoint is damaged, no damaged batch is used") 
                 REQUIRE(same(checkpoint->read(batch), rows_of(kPlan, batch)));
             }
         }
-        if (there < kPlan.batches()) {
-            REQUIRE(there == kPlan.batches() - 1);
+        if (there < written.size()) {
+            REQUIRE(there == written.size() - 1);
             REQUIRE(checkpoint->findings().size() == 1);
             REQUIRE(contains(checkpoint->findings()[0], "1 tile is damaged"));
             ++found;
         }
     }
     CHECK(refused > 20);
-    CHECK(found == 5 * 1176 / 3);  // every byte looked at of every batch
+    CHECK(found == 3 * 1176 / 3);  // every byte looked at of every batch
 }
 
 TEST_CASE("A truncated checkpoint is continued with what is left, and says what it lost") {

@@ -40,11 +40,6 @@ std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes,
 }
 
 // Liang's gearbox ten times as fast, so that a mesh takes few steps.
-const std::vector<std::string> kFast{
-    "operation.carrier_speed_rpm=200",           "sensor.sampling_Hz=5000",
-    "gearbox.planet_bearing_damping_N_s_m=5000", "gearbox.sun_bearing_damping_N_s_m=5000",
-    "gearbox.ring_bearing_damping_N_s_m=5000",   "gearbox.carrier_bearing_damping_N_s_m=5000"};
-
 std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());
     return list;

@@ -33,7 +33,8 @@ double relative_range(const mc::SceneMesh& mesh) {
 }  // namespace
 
 TEST_CASE("A helix of no degrees gives the bits of giving none") {
-    const std::vector<std::string> few{"ensemble.instances=4", "ensemble.threshold_instances=2"};
+    std::vector<std::string> few = tests::kFast;
+    few.insert(few.end(), {"ensemble.instances=4", "ensemble.threshold_instances=1"});
     const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
     std::vector<std::string> all = few;
     all.push_back("gearbox.helix_angle_deg=0");

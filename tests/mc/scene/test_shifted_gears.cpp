@@ -42,7 +42,8 @@ std::vector<std::string> bell_with(const std::vector<std::string>& more) {
 }  // namespace
 
 TEST_CASE("Shifts of zero and the standard centre distance give the bits of giving none") {
-    const std::vector<std::string> few{"ensemble.instances=6", "ensemble.threshold_instances=2"};
+    std::vector<std::string> few = tests::kFast;
+    few.insert(few.end(), {"ensemble.instances=6", "ensemble.threshold_instances=1"});
     const auto reference = test::feature_bits(test::study_of_text(tests::kExampleStudy, few));
     for (const std::vector<std::string>& given :
          {std::vector<std::string>{"gearbox.sun_shift=0", "gearbox.planet_shift=0",
