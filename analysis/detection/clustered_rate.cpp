@@ -1,9 +1,6 @@
 #include "analysis/detection/clustered_rate.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,8 +8,8 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 #include "analysis/statistics/bivariate_tail.hpp"
+#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/midranks.hpp"
-#include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -100,17 +97,11 @@ double share_of_gearboxes(const Gearboxes& gearboxes) {
     return variance > 0.0 ? variance / (variance + mean_within) : 0.0;
 }
 
-double beta_quantile(double a, double b, double p) {
-    return boost::math::quantile(boost::math::beta_distribution<double, QuietPolicy>(a, b), p);
-}
-
 // By an effective sample size; `telling`: of how many gearboxes its scatter is known.
 Interval effective_interval(double recordings, double effect, double telling, double rate,
                             double tail) {
-    const boost::math::students_t few(telling - 1.0);
-    const boost::math::normal many;
     const double narrower =
-        boost::math::quantile(many, 1.0 - tail) / boost::math::quantile(few, 1.0 - tail);
+        normal_quantile(1.0 - tail) / student_quantile(telling - 1.0, 1.0 - tail);
     const double sample = recordings / effect * narrower * narrower + 1.0;
     const double a = sample * rate, b = sample - a;
     return {beta_quantile(a, b, tail), beta_quantile(a, b, 1.0 - tail)};

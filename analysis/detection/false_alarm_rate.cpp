@@ -1,26 +1,22 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
 #include "analysis/statistics/interval.hpp"
+#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 namespace {
 
-using Beta = boost::math::beta_distribution<double, QuietPolicy>;
 // (n+1)(1-rate) is a whole number for the usual rates: keep rounding from adding one to it.
 constexpr double kRounding = 1e-9;
 
 Interval equal_tails(double a, double b, double confidence) {
     const double tail = 0.5 * (1.0 - confidence);
-    const Beta law(a, b);
-    return {boost::math::quantile(law, tail),
-            boost::math::quantile(boost::math::complement(law, tail))};
+    return {beta_quantile(a, b, tail), beta_upper_quantile(a, b, tail)};
 }
 
 // P(count <= k) of the beta-binomial law, summed on k's side of the mean, where terms fall
@@ -32,10 +28,9 @@ double beta_binomial_cdf(long k, long tested, double a, double b) {
         return 1.0;
     }
     auto i = static_cast<double>(below ? k : k + 1);
-    const auto lgamma = [](double x) { return boost::math::lgamma(x, QuietPolicy()); };
-    double p =
-        std::exp(lgamma(m + 1.0) - lgamma(i + 1.0) - lgamma(m - i + 1.0) + lgamma(i + a) +
-                 lgamma(m - i + b) - lgamma(m + a + b) + lgamma(a + b) - lgamma(a) - lgamma(b));
+    double p = std::exp(log_gamma(m + 1.0) - log_gamma(i + 1.0) - log_gamma(m - i + 1.0) +
+                        log_gamma(i + a) + log_gamma(m - i + b) - log_gamma(m + a + b) +
+                        log_gamma(a + b) - log_gamma(a) - log_gamma(b));
     constexpr double kNoMore = 1e-18;
     double sum = 0.0;
     while (i >= 0.0 && i <= m && p > kNoMore * sum) {

@@ -1,12 +1,12 @@
 #include "analysis/detection/tail.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
@@ -173,13 +173,12 @@ double TailFit::rate(double value) const {
 }
 
 std::vector<double> TailFit::shares() const {
-    using Beta = boost::math::beta_distribution<double, QuietPolicy>;
     constexpr int kShares = 9;  // it varies little beside the law
-    const Beta law(static_cast<double>(exceedances_ + 1),
-                   static_cast<double>(sample_ - exceedances_));
+    const auto above = static_cast<double>(exceedances_ + 1);
+    const auto below = static_cast<double>(sample_ - exceedances_);
     std::vector<double> shares;
     for (int i = 0; i < kShares; ++i) {
-        shares.push_back(boost::math::quantile(law, (i + 0.5) / kShares));
+        shares.push_back(beta_quantile(above, below, (i + 0.5) / kShares));
     }
     return shares;
 }

@@ -1,13 +1,12 @@
 #include "analysis/detection/threshold.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "analysis/statistics/interval.hpp"
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -69,8 +68,8 @@ long rank_within(long sample, double rate, double tail, bool below) {
     while (high - low > 1) {
         const long middle = low + (high - low) / 2;
         // P(beyond the middle-th of n <= rate), which grows with the rank.
-        const double p = boost::math::ibeta(static_cast<double>(sample + 1 - middle),
-                                            static_cast<double>(middle), rate, QuietPolicy());
+        const double p =
+            beta_cdf(static_cast<double>(sample + 1 - middle), static_cast<double>(middle), rate);
         ((below ? p <= tail : p < 1.0 - tail) ? low : high) = middle;
     }
     return below ? low : high;

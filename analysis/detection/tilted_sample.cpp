@@ -1,13 +1,10 @@
 #include "analysis/detection/tilted_sample.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/gamma.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "analysis/statistics/bivariate_tail.hpp"
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -174,14 +171,11 @@ std::optional<TiltedSample::Estimate> TiltedSample::estimate(std::size_t count, 
     found.variance = variance;
     const double tail = 0.5 * (1.0 - confidence);
     const double narrower =
-        boost::math::quantile(boost::math::normal(), 1.0 - tail) /
-        boost::math::quantile(boost::math::students_t(found.carrying - 1.0), 1.0 - tail);
+        normal_quantile(1.0 - tail) / student_quantile(found.carrying - 1.0, 1.0 - tail);
     const double alarms = narrower * narrower / variance;
-    using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
-    const double upper =
-        rate / alarms * boost::math::quantile(boost::math::complement(Gamma(alarms + 1.0), tail)) +
-        exponential_share(scores, share) * missing;
-    found.rate = {std::min(1.0, rate / alarms * boost::math::quantile(Gamma(alarms), tail)),
+    const double upper = rate / alarms * gamma_upper_quantile(alarms + 1.0, 1.0, tail) +
+                         exponential_share(scores, share) * missing;
+    found.rate = {std::min(1.0, rate / alarms * gamma_quantile(alarms, 1.0, tail)),
                   std::min(1.0, upper)};
     found.expected = rate;
     found.alarms = static_cast<long>(count);

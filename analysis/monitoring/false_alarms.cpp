@@ -1,14 +1,11 @@
 #include "analysis/monitoring/false_alarms.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/gamma.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "analysis/detection/false_alarm_rate.hpp"
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -107,14 +104,11 @@ Dispersion dispersion_of(const std::vector<long>& alarms, std::span<const Health
 // gamma laws of the count's mean and variance, for the upper bound with one more cluster. Of
 // independent alarms F. Garwood's, Biometrika 28 (1936), 437-442.
 Interval count_bounds(double alarms, const Dispersion& dispersion, double tail) {
-    using Gamma = boost::math::gamma_distribution<double, QuietPolicy>;
     const double variance = dispersion.ratio * alarms;
     const double more = alarms + dispersion.cluster;
     const double more_variance = variance + dispersion.cluster * dispersion.cluster;
-    const Gamma below(alarms / dispersion.ratio, dispersion.ratio);
-    const Gamma above(more * more / more_variance, more_variance / more);
-    return {alarms > 0.0 ? boost::math::quantile(below, tail) : 0.0,
-            boost::math::quantile(boost::math::complement(above, tail))};
+    return {alarms > 0.0 ? gamma_quantile(alarms / dispersion.ratio, dispersion.ratio, tail) : 0.0,
+            gamma_upper_quantile(more * more / more_variance, more_variance / more, tail)};
 }
 
 // The tail of a normal number that Student's t reaches with that many degrees of freedom where its
@@ -124,9 +118,7 @@ double tail_of(double confidence, double freedom) {
     if (!std::isfinite(freedom)) {
         return tail;
     }
-    using Student = boost::math::students_t_distribution<double, QuietPolicy>;
-    using Normal = boost::math::normal_distribution<double, QuietPolicy>;
-    return boost::math::cdf(Normal(), boost::math::quantile(Student(freedom), tail));
+    return normal_cdf(student_quantile(freedom, tail));
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include "analysis/monitoring/life_answers.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/wilson.hpp"
 
 namespace gearpod::analysis {
@@ -55,12 +54,11 @@ double share_by_chance(const Detector& detector, std::span<const HealthyLife> he
 }  // namespace
 
 double quantile_bound(std::vector<double> values, double quantile, double confidence) {
-    using Binomial = boost::math::binomial_distribution<double, QuietPolicy>;
     std::sort(values.begin(), values.end());
     // The r-th smallest lies below the quantile if r or more values do.
-    const Binomial below(static_cast<double>(values.size()), quantile);
+    const auto count = static_cast<double>(values.size());
     for (std::size_t r = 1; r <= values.size(); ++r) {
-        if (boost::math::cdf(below, static_cast<double>(r - 1)) >= confidence) {
+        if (binomial_cdf(count, quantile, static_cast<double>(r - 1)) >= confidence) {
             return values[r - 1];
         }
     }

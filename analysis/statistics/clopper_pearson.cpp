@@ -1,10 +1,9 @@
 #include "analysis/statistics/clopper_pearson.hpp"
 
-#include <boost/math/distributions/beta.hpp>
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 
@@ -17,16 +16,15 @@ Interval clopper_pearson_interval(long detected, long tested, double confidence)
         const double nan = std::numeric_limits<double>::quiet_NaN();
         return {nan, nan};
     }
-    using Beta = boost::math::beta_distribution<double, QuietPolicy>;
     const double tail = 0.5 * (1.0 - confidence);
     const auto k = static_cast<double>(detected);
     const auto n = static_cast<double>(tested);
     Interval bounds{0.0, 1.0};
     if (detected > 0) {
-        bounds.lower = boost::math::quantile(Beta(k, n - k + 1.0), tail);
+        bounds.lower = beta_quantile(k, n - k + 1.0, tail);
     }
     if (detected < tested) {
-        bounds.upper = boost::math::quantile(boost::math::complement(Beta(k + 1.0, n - k), tail));
+        bounds.upper = beta_upper_quantile(k + 1.0, n - k, tail);
     }
     return bounds;
 }

@@ -1,11 +1,10 @@
 #include "analysis/statistics/difference_interval.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
+#include "analysis/statistics/laws.hpp"
 #include "analysis/statistics/link.hpp"
-#include "analysis/statistics/quiet_policy.hpp"
 
 namespace gearpod::analysis {
 
@@ -42,10 +41,8 @@ double mcnemar_p_value(const PairedCounts& counts) {
     if (differ == 0) {
         return 1.0;
     }
-    const boost::math::binomial_distribution<double, QuietPolicy> law(static_cast<double>(differ),
-                                                                      0.5);
     const auto fewer = static_cast<double>(std::min(counts.only_a, counts.only_b));
-    return std::min(1.0, 2.0 * boost::math::cdf(law, fewer));
+    return std::min(1.0, 2.0 * binomial_cdf(static_cast<double>(differ), 0.5, fewer));
 }
 
 double pooled_p_value(long found_a, long tested_a, long found_b, long tested_b) {

@@ -1,12 +1,11 @@
 #include "analysis/statistics/wilson.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/statistics/quiet_policy.hpp"
+#include "analysis/statistics/laws.hpp"
 
 namespace gearpod::analysis {
 
@@ -19,9 +18,7 @@ Interval wilson_interval(long detected, long tested, double confidence) {
         const double nan = std::numeric_limits<double>::quiet_NaN();
         return {nan, nan};
     }
-    const boost::math::normal_distribution<double, QuietPolicy> normal;
-    const double z =
-        boost::math::quantile(boost::math::complement(normal, 0.5 * (1.0 - confidence)));
+    const double z = normal_upper_quantile(0.5 * (1.0 - confidence));
     const auto n = static_cast<double>(tested);
     const double p = static_cast<double>(detected) / n;
     const double z2 = z * z;

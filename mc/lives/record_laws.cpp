@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "analysis/statistics/laws.hpp"
 #include "mc/study/schema/schema.hpp"
 
 namespace gearpod::mc {
@@ -35,7 +35,7 @@ double RecordLaw::factor(double unit) const {
     if (!input_) {
         return std::exp(scatter_ * unit);
     }
-    const double share = boost::math::cdf(boost::math::normal_distribution<double>(), unit);
+    const double share = analysis::normal_cdf(unit);
     return input_->distribution.quantile(share) / nominal_;
 }
 

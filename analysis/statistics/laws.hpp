@@ -1,0 +1,26 @@
+// Quantiles and probabilities of the usual laws. Boost.Math's templates for them are compiled here
+// alone: they take the compiler longer than all that asks for them. NaN or infinity where an
+// argument or a result is out of range (quiet_policy.hpp).
+#pragma once
+
+namespace gearpod::analysis {
+
+double normal_cdf(double value);
+double normal_quantile(double probability);
+double normal_upper_quantile(double tail);
+
+double student_quantile(double freedom, double probability);
+
+double beta_cdf(double a, double b, double value);
+double beta_quantile(double a, double b, double probability);
+double beta_upper_quantile(double a, double b, double tail);
+
+double gamma_quantile(double shape, double scale, double probability);
+double gamma_upper_quantile(double shape, double scale, double tail);
+
+// P(at most `found` of `tried`).
+double binomial_cdf(double tried, double rate, double found);
+
+double log_gamma(double value);
+
+}  // namespace gearpod::analysis
