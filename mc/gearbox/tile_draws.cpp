@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lockstep/integrators/sensor_filter.hpp"
+#include "mc/scene/stepping.hpp"
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"
 
@@ -51,10 +53,31 @@ void draw_noise(std::vector<NoiseInputs> noise, std::span<const double> mesh_per
     }
 }
 
+// Mesh periods of run-in at most; fluctuations begin so long before the first recorded one, however
+// many of them are marched.
+int most_run_in(const Scene& scene) {
+    return scene.max_meshes() / 2;
+}
+
+// Mesh periods in which the slowest oscillation of the sensor's low-pass decays by 1/e.
+double filter_decay_meshes(const Scene& scene) {
+    const double rate = 0.5 * lockstep::kFilterDamping[1] * scene.plan().low_pass_rad_s;
+    return scene.nominal_mesh_frequency_Hz() / rate;
+}
+
 }  // namespace
 
 int run_in_meshes(const Scene& scene) {
-    return why_no_mesh_repeats(scene.study()).empty() ? 0 : scene.max_meshes() / 2;
+    constexpr double kFewest = 10.0;
+    const Study& study = scene.study();
+    if (why_no_mesh_repeats(study).empty() || study.effects.quasi_static()) {
+        return 0;
+    }
+    // Twice what the nominal gearbox and its sensor take: others decay more slowly.
+    const double decays = -2.0 * std::log(settle_tolerance(study));
+    const double meshes = decays * std::max(scene.decay_meshes(), filter_decay_meshes(scene));
+    return static_cast<int>(
+        std::min(std::ceil(std::max(kFewest, meshes)), static_cast<double>(most_run_in(scene))));
 }
 
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
@@ -85,7 +108,7 @@ std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
         excitation.turning_m_s.push_back(drive.turning_m_s(inputs[lane]));
     }
     // The sensor's time runs on when the speed drops: some more of the torque's knots.
-    const double first = -run_in_meshes(scene), last = scene.signal_meshes();
+    const double first = -most_run_in(scene), last = scene.signal_meshes();
     if (torque_fluctuates(study)) {
         excitation.torque = torque_has_sine(study) ? torque : lockstep::Fluctuation{};
         if (torque_has_noise(study)) {

@@ -23,12 +23,13 @@ inline const GearboxId& id_of_lane(std::span<const GearboxId> ids, std::size_t l
 signals::Tones draw_tones(const Scene& scene, std::span<const GearboxId> ids,
                           std::span<const InstanceInputs> inputs);
 
-// Mesh periods that are marched before the first recorded one.
+// Mesh periods that are marched before the first recorded one: those in which what its teeth or its
+// drive excite when they set in decays to the settling tolerance.
 int run_in_meshes(const Scene& scene);
 
-// Gravity, and the fluctuations of torque and speed; their noise has knots from before the run-in
-// to behind the last mesh of scene.signal_meshes(), and begins anywhere between two knots. None if
-// nothing drives the gearboxes unevenly.
+// Gravity, and the fluctuations of torque and speed; their noise has knots from before any run-in,
+// the same however long it is, to behind the last mesh of scene.signal_meshes(), and begins
+// anywhere between two knots. None if nothing drives the gearboxes unevenly.
 std::optional<lockstep::Excitation> draw_excitation(const Scene& scene,
                                                     std::span<const GearboxId> ids,
                                                     std::span<const InstanceInputs> inputs);

@@ -1,0 +1,70 @@
+// What is marched before the first recorded mesh, against a far longer run-in.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "lockstep/tile/tile.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+#include "mc/gearbox/tooth_draws.hpp"
+#include "tests/mc/study_file.hpp"
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+namespace {
+
+// The first recorded mesh of a gearbox with real teeth behind so many others.
+lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
+    const GearboxId id{Group::graded, 3};
+    InstanceInputs instance = Sampler(scene.study()).sample(id.group, id.index);
+    instance.fault_size = 0.0;
+    const dynamics::GearboxInputs inputs = scene.inputs(instance);
+    const auto errors = draw_tooth_errors(scene, std::span(&id, 1), {&instance, 1});
+    lockstep::FaultCurves faults{&scene.pairs(), scene.pattern(), {}};
+    faults.curve.assign(static_cast<std::size_t>(scene.fault().curves()), {nullptr});
+    faults.tooth_errors = &errors.value();
+    lockstep::TileSettings settings;
+    settings.tolerance = 1e-10;
+    settings.max_meshes = scene.max_meshes();
+    settings.march_meshes = 1;
+    settings.run_in_meshes = run_in;
+    const lockstep::TileResult tile =
+        lockstep::run_tile<1>(scene.plan(), std::span(&inputs, 1), faults, settings);
+    REQUIRE(tile.status.front() == lockstep::LaneStatus::ok);
+    return tile.records.at(static_cast<std::size_t>(tile.content.front()));
+}
+
+double apart(const machine::AlignedVector& a, const machine::AlignedVector& b) {
+    REQUIRE(a.size() == b.size());
+    double difference = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        difference += (a[i] - b[i]) * (a[i] - b[i]);
+        squares += b[i] * b[i];
+    }
+    return std::sqrt(difference / squares);
+}
+
+}  // namespace
+
+TEST_CASE("What sets in with real teeth has decayed when recording begins") {
+    const Scene scene(test::shipped_study("planet-life.toml",
+                                          {"numerics.precision=\"double\"", "numerics.lanes=1"}));
+    const int run_in = run_in_meshes(scene);
+    CHECK(run_in <= 10);
+    const lockstep::MeshRecord own = first_mesh(scene, run_in), late = first_mesh(scene, 100);
+    CHECK(apart(own.acceleration, late.acceleration) < settle_tolerance(scene.study()));
+    CHECK(apart(own.te, late.te) < settle_tolerance(scene.study()));
+    // Not so at once.
+    CHECK(apart(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
+}
+
+TEST_CASE("The run-in is as long as the slower of gearbox and sensor, and as the tolerance asks") {
+    const auto run_in = [](const std::vector<std::string>& keys) {
+        return run_in_meshes(Scene(test::shipped_study("planet-life.toml", keys)));
+    };
+    // The low-pass' slower section decays at 0.3827 2 pi 0.5 Hz = 1.2 1/s, a mesh is 1/11.97 s: to
+    // 1e-4 in 91.7 of them, and twice that is cut to half the meshes in which it must settle.
+    CHECK(run_in({"sensor.low_pass_Hz=0.5"}) == 100);
+    // To 1e-2, twice: 45.9 / 2 at 1 Hz.
+    CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-2"}) == 46);
+    CHECK(run_in({"sensor.low_pass_Hz=1", "numerics.settle_tolerance=1e-4"}) == 92);
+}
