@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kMostSamples = 20'000;   // likewise: a span of thousands of them fits the memory
+constexpr int kMostSamples = 20'000;  // likewise: a span of thousands of them fits the memory
 constexpr int kFewestSamples = 4;
 
 // The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
@@ -54,19 +54,21 @@ class StepNeeds {
   public:
     StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
               const std::vector<double>& stiffest_N_m)
-        : layout_(layout),
+        : study_(study),
+          drive_(drive),
+          layout_(layout),
           stiffest_(stiffest_N_m),
+          sampler_(study),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
-        const Sampler sampler(study);
-        gearboxes_.push_back(gearbox_inputs(study, drive, sampler.nominal()));
+        gearboxes_.push_back(gearbox_inputs(study, drive, sampler_.nominal()));
         // A pilot of the ensemble, the same for every run of the study, stands for the rest.
-        constexpr int kPilot = 32;
-        for (int i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
-            gearboxes_.push_back(gearbox_inputs(
-                study, drive, sampler.sample(Group::graded, static_cast<std::uint64_t>(i))));
+        constexpr std::uint64_t kPilot = 32;
+        for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
+            gearboxes_.push_back(graded(i));
         }
-        decay_meshes_ =
-            1.0 / (lockstep::runge_kutta_limit(system(0)).slowest_decay_1_s * period(0));
+        const dynamics::GearboxInputs& nominal = gearboxes_[0];
+        decay_meshes_ = 1.0 / (lockstep::runge_kutta_limit(system(nominal)).slowest_decay_1_s *
+                               period(nominal));
         runge_kutta_ = stable_steps(lockstep::Integrator::rk4);
     }
 
@@ -75,13 +77,33 @@ class StepNeeds {
     double stable(lockstep::Integrator integrator) const {
         return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
     }
-    double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(0); }
+    // Steps with which it is stable for gearboxes that the pilot misses, too.
+    double ample(lockstep::Integrator integrator) const {
+        constexpr double kMargin = 1.2, kLeastMargin = 1.04;
+        // Runge-Kutta methods damp what is near their limit, and have to be further from it.
+        if (lockstep::facts(integrator).growth != nullptr) {
+            return kMargin * stable(integrator);
+        }
+        // Half as far again beyond the worst of a larger pilot as that is beyond the upper tenth,
+        // in logarithms: of ends of a range a little, of normal tails as far as 1e5 gearboxes
+        // reach.
+        constexpr std::uint64_t kPilot = 256;
+        std::vector<double> needs{needed_steps(gearboxes_[0], integrator)};
+        for (std::uint64_t i = 0; i < (study_.random.empty() ? 0 : kPilot); ++i) {
+            needs.push_back(needed_steps(graded(i), integrator));
+        }
+        std::sort(needs.begin(), needs.end());
+        const double worst = needs.back(), upper = needs[needs.size() * 9 / 10];
+        const double beyond = worst > 0.0 ? std::pow(worst / upper, 1.5) : 1.0;
+        return worst * std::clamp(beyond, kLeastMargin, kMargin);
+    }
+    double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(gearboxes_[0]); }
     // Steps with which an implicit method is accurate for all of them.
     double implicit(lockstep::Integrator integrator) const {
         double steps = 1.0;
-        for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
-            steps = std::max(
-                steps, lockstep::implicit_steps(integrator, system(i), period(i), low_pass_rad_s_));
+        for (const dynamics::GearboxInputs& gearbox : gearboxes_) {
+            steps = std::max(steps, lockstep::implicit_steps(integrator, system(gearbox),
+                                                             period(gearbox), low_pass_rad_s_));
         }
         return steps;
     }
@@ -90,21 +112,32 @@ class StepNeeds {
     }
 
   private:
-    dynamics::GearboxMatrices system(std::size_t i) const {
-        return dynamics::assemble(layout_, gearboxes_[i], stiffest_);
+    dynamics::GearboxInputs graded(std::uint64_t i) const {
+        return gearbox_inputs(study_, drive_, sampler_.sample(Group::graded, i));
+    }
+    dynamics::GearboxMatrices system(const dynamics::GearboxInputs& gearbox) const {
+        return dynamics::assemble(layout_, gearbox, stiffest_);
+    }
+    double needed_steps(const dynamics::GearboxInputs& gearbox,
+                        lockstep::Integrator integrator) const {
+        return period(gearbox) / lockstep::longest_stable_step(system(gearbox), integrator);
     }
     double stable_steps(lockstep::Integrator integrator) const {
         double steps = 0.0;
-        for (std::size_t i = 0; i < gearboxes_.size(); ++i) {
-            steps =
-                std::max(steps, period(i) / lockstep::longest_stable_step(system(i), integrator));
+        for (const dynamics::GearboxInputs& gearbox : gearboxes_) {
+            steps = std::max(steps, needed_steps(gearbox, integrator));
         }
         return steps;
     }
-    double period(std::size_t i) const { return dynamics::mesh_period_s(gearboxes_[i]); }
+    static double period(const dynamics::GearboxInputs& gearbox) {
+        return dynamics::mesh_period_s(gearbox);
+    }
 
+    const Study& study_;
+    const Drive& drive_;
     const dynamics::GearboxLayout& layout_;
     const std::vector<double>& stiffest_;
+    const Sampler sampler_;
     double low_pass_rad_s_;
     std::vector<dynamics::GearboxInputs> gearboxes_;  // the nominal one first
     double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
@@ -119,14 +152,13 @@ class StepNeeds {
                      "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
 }
 
-// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. The
-// margin covers what the pilot misses, and a gearbox beyond it is reported as diverged.
+// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. A gearbox
+// beyond what is ample by the pilot is reported as diverged.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
-    constexpr double kMargin = 1.2;
-    const double stable = needs.stable(integrator);
+    const double stable = needs.stable(integrator), ample = needs.ample(integrator);
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
     const double least = std::ceil(std::max(stable, 0.5 * band));
-    const double chosen = std::ceil(std::max(kMargin * stable, band));
+    const double chosen = std::ceil(std::max(ample, band));
     const bool asked_for = given >= least && given <= kMostSteps;
     if (!asked_for && stable > lockstep::kMostExplicitSteps) {
         refuse_explicit(needs, chosen);
@@ -146,12 +178,9 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
                         given, least, name(integrator)),
             "leave the key out to have the steps chosen");
     }
-    return {integrator,
-            given > 0 ? given : static_cast<int>(chosen),
-            static_cast<int>(least),
-            needs.decay_meshes(),
-            1.0 / std::max({1.0, kMargin * stable, 0.5 * band}),
-            0.0};
+    return {
+        integrator,           given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
+        needs.decay_meshes(), 1.0 / std::max({1.0, ample, 0.5 * band}),     0.0};
 }
 
 Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {

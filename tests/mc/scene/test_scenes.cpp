@@ -1,8 +1,11 @@
 // Scenes of every kind of gearbox and motion, from study text to recorded motion.
+#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dynamics/gearbox_matrices.hpp"
+#include "lockstep/steps/step_limit.hpp"
 #include "tests/mc/scene_examples.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -59,7 +62,7 @@ TEST_CASE("Steps by which central differences are unstable are refused, their ow
     const Scene own(test::shipped_study("liang-fig-5-8.toml", {by}));
     CHECK(own.plan().integrator == lockstep::Integrator::central_difference);
     const int least = own.least_steps();
-    CHECK(static_cast<int>(own.plan().grid.steps.size()) >= 1.2 * least);
+    CHECK(static_cast<int>(own.plan().grid.steps.size()) >= 1.04 * least);
     CHECK(run_one(own).status[0] == mc::Status::ok);
     const auto with_steps = [&](int steps) {
         return test::shipped_study("liang-fig-5-8.toml",
@@ -74,6 +77,24 @@ TEST_CASE("Steps by which central differences are unstable are refused, their ow
         CHECK(std::string(error.what()).find("central-difference is unstable") !=
               std::string::npos);
     }
+}
+
+TEST_CASE(
+    "Central differences' own steps are stable for gearboxes that no pilot has, and not for more") {
+    const Scene scene(test::shipped_study("planet-life.toml"));
+    const mc::Sampler sampler(scene.study());
+    double most = 0.0;
+    for (std::uint64_t i = 1000; i < 4000; ++i) {
+        const auto inputs = scene.inputs(sampler.sample(mc::Group::threshold, i));
+        const double limit = lockstep::longest_stable_step(
+            dynamics::assemble(scene.plan().layout, inputs, scene.stiffest_pairs()),
+            lockstep::Integrator::central_difference);
+        most = std::max(most, dynamics::mesh_period_s(inputs) / limit);
+    }
+    const double longest =
+        *std::max_element(scene.plan().grid.lengths.begin(), scene.plan().grid.lengths.end());
+    CHECK(1.0 / longest > 1.02 * most);
+    CHECK(1.0 / longest < 1.1 * most);
 }
 
 TEST_CASE("Single precision on a gearbox too stiff for explicit steps is refused with its part") {
