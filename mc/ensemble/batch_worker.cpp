@@ -38,11 +38,15 @@ BatchRows BatchWorker::compute(const Batch& batch, Seconds& seconds) {
     for (std::size_t i = 0; i < batch.gearboxes; ++i) {
         ids.push_back({batch.group, batch.first_index + i, Record::judged, 0, draws});
     }
+    return compute(ids, batch.records, seconds);
+}
+
+BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t records,
+                               Seconds& seconds) {
     BatchRows rows;
     const auto lanes = static_cast<std::size_t>(task_.scene.study().numerics.lanes);
     for (std::size_t first = 0; first < ids.size(); first += lanes) {
-        add_rows(std::span(ids).subspan(first, std::min(lanes, ids.size() - first)), batch.records,
-                 rows, seconds);
+        add_rows(ids.subspan(first, std::min(lanes, ids.size() - first)), records, rows, seconds);
     }
     return rows;
 }
@@ -61,7 +65,7 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
         machine::leave_if_stopped();
         const LaneSignals own = std::move(signals[lane]);  // freed when its row is done
         GearboxId id = ids[lane];
-        const std::vector<double> parameters = task_.sampler.row(id.group, id.index);
+        const std::vector<double> parameters = task_.sampler.row(id);
         const bool tilted = id.draws != NoiseDraws::plain;
         for (id.repeat = 0; id.repeat < records; ++id.repeat) {
             rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());

@@ -52,6 +52,8 @@ class BatchWorker {
     // The same bits whatever the lanes and whatever was computed before. Adds its time to
     // `seconds`.
     BatchRows compute(const Batch& batch, Seconds& seconds);
+    // Of any gearboxes, so many records of each.
+    BatchRows compute(std::span<const GearboxId> ids, std::size_t records, Seconds& seconds);
 
   private:
     void add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,

@@ -209,7 +209,7 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
     }
     for (std::size_t i = 0; i < rows; ++i) {
         const GearboxId id = id_of_row(study, static_cast<long>(i * gearboxes_of(plan) / rows));
-        const std::vector<double> parameters = sampler.row(id.group, id.index);
+        const std::vector<double> parameters = sampler.row(id);
         Philox engine(static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
                       parameter_id("analysis.trial"));
         boost::random::normal_distribution<double> normal;

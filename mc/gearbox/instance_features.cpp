@@ -39,7 +39,8 @@ void InstanceFeatures::load(const LaneSignals& gearbox, const InstanceInputs& in
     InstanceSignals::load(gearbox, inputs, id);
     InstanceInputs before = inputs;
     if (baseline_) {
-        const GearboxId earlier{id.group, id.index, Record::baseline};
+        GearboxId earlier{id.group, id.index, Record::baseline};
+        earlier.exchanged = id.exchanged;
         before.noise_m_s2 = earlier_noise(scene_.study(), inputs, earlier);
         baseline_->load(*gearbox.baseline, before, earlier);
     }

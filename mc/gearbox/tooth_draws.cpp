@@ -1,6 +1,5 @@
 #include "mc/gearbox/tooth_draws.hpp"
 
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 
 #include "gears/tooth_deviations.hpp"
@@ -59,17 +58,14 @@ MeshKind mesh_of_side(const ToothedBody& body, std::size_t side) {
     return MeshKind::pinion_gear;
 }
 
-using Normal = boost::random::normal_distribution<double>;
-
-gears::WaveNumbers wave_numbers(Philox& engine) {
-    Normal unit;
+gears::WaveNumbers wave_numbers(Normals& normal) {
     gears::WaveNumbers numbers;
     for (double& number : numbers.centre) {
-        number = unit(engine);
+        number = normal();
     }
     for (int h = 0; h < gears::WaveNumbers::kHarmonics; ++h) {
-        numbers.cosine[h] = unit(engine);
-        numbers.sine[h] = unit(engine);
+        numbers.cosine[h] = normal();
+        numbers.sine[h] = normal();
     }
     return numbers;
 }
@@ -85,8 +81,8 @@ gears::DeviationScales scales_of_member(const Scene& scene, Member member,
 // Fills one lane of all flanks.
 class LaneTeeth {
   public:
-    LaneTeeth(const Scene& scene, std::size_t lane, std::size_t lanes, Philox pitch, Philox waves,
-              Philox slopes, lockstep::ToothErrors& errors)
+    LaneTeeth(const Scene& scene, std::size_t lane, std::size_t lanes, Normals pitch, Normals waves,
+              Normals slopes, lockstep::ToothErrors& errors)
         : scene_(scene),
           lane_(lane),
           lanes_(lanes),
@@ -108,13 +104,13 @@ class LaneTeeth {
             // The wave speaks of the flank a quarter of a pitch from the tooth's middle, in contact
             // at the pitch point; the deviation is that of the engagement's middle.
             const double ahead = 0.25 * looks + engagement.from_pitch;
-            const double common = scales.common_slope * unit_(slopes_);
+            const double common = scales.common_slope * slopes_();
             const std::span<const double> measured = measured_index(body, s, flanks.teeth);
             for (int t = 0; t < flanks.teeth; ++t) {
                 const auto at = static_cast<std::size_t>(t) * lanes_ + lane_;
                 const auto tooth = static_cast<std::size_t>((t + body.first[s]) % flanks.teeth);
-                const double scatter = scales.pitch * scatter_(pitch_);
-                const double own_slope = common + scales.slope * unit_(slopes_);
+                const double scatter = scales.pitch * pitch_();
+                const double own_slope = common + scales.slope * slopes_();
                 const bool drawn = measured.empty();
                 const double drift = drawn ? wave.drift_m[tooth] : 0.0;
                 flanks.error_m[at] =
@@ -160,8 +156,7 @@ class LaneTeeth {
 
     const Scene& scene_;
     std::size_t lane_, lanes_;
-    Philox pitch_, waves_, slopes_;
-    Normal scatter_, unit_;
+    Normals pitch_, waves_, slopes_;
     lockstep::ToothErrors& errors_;
 };
 
@@ -187,11 +182,11 @@ std::optional<lockstep::ToothErrors> draw_tooth_errors(const Scene& scene,
         errors.gears.insert(errors.gears.end(), body.sides.size(), {teeth, none, none});
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto stream = [&](const char* purpose) {
-            return gearbox_stream(scene.study(), id_of_lane(ids, lane), purpose);
+        const auto normals = [&](const char* purpose) {
+            return Normals(scene.study(), id_of_lane(ids, lane), purpose);
         };
-        LaneTeeth teeth(scene, lane, lanes, stream("gearbox.pitch_error.teeth"),
-                        stream("gearbox.index_wave.gears"), stream("gearbox.profile_slope.teeth"),
+        LaneTeeth teeth(scene, lane, lanes, normals("gearbox.pitch_error.teeth"),
+                        normals("gearbox.index_wave.gears"), normals("gearbox.profile_slope.teeth"),
                         errors);
         for (const ToothedBody& body : bodies) {
             teeth.draw(body, scales_of_member(scene, body.member, inputs[lane]));

@@ -38,7 +38,7 @@ BatchRows life_rows(const LifeTiles& tiles, const Sampler& sampler, const Batch&
         const auto lives =
             tiles.run(part, batch.group == Group::graded, costs, std::span(errors).first(looked));
         for (std::size_t lane = 0; lane < part.size(); ++lane) {
-            add_life(tiles.scene().study(), sampler.row(part[lane].group, part[lane].index),
+            add_life(tiles.scene().study(), sampler.row(part[lane]),
                      lives[lane], errors[lane], rows);
         }
     }

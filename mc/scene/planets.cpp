@@ -1,6 +1,5 @@
 #include "mc/scene/planets.hpp"
 
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -40,16 +39,15 @@ Planets given_planets(const Study& study) {
     return planets;
 }
 
-void draw_planets(const Study& study, Philox engine, Planets& planets) {
+void draw_planets(const Study& study, std::function<double()> normal, Planets& planets) {
     const UnlikePlanets& drawn = study.planets;
-    boost::random::normal_distribution<double> unit;
     for (std::size_t n = 0; n < static_cast<std::size_t>(study.gearbox.planets); ++n) {
-        const double tangential = unit(engine), radial = unit(engine);
+        const double tangential = normal(), radial = normal();
         move_pin(angle_of(study.gearbox, n), drawn.pin_tangential_rms_m * tangential,
                  drawn.pin_radial_rms_m * radial, planets[n]);
-        planets[n].bearing_stiffness *= std::exp(drawn.bearing_stiffness_scatter * unit(engine));
-        planets[n].bearing_damping *= std::exp(drawn.bearing_damping_scatter * unit(engine));
-        planets[n].mass *= std::exp(drawn.mass_scatter * unit(engine));
+        planets[n].bearing_stiffness *= std::exp(drawn.bearing_stiffness_scatter * normal());
+        planets[n].bearing_damping *= std::exp(drawn.bearing_damping_scatter * normal());
+        planets[n].mass *= std::exp(drawn.mass_scatter * normal());
     }
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "dynamics/planetary.hpp"
-#include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
 namespace gearpod::mc {
@@ -19,8 +19,8 @@ using Planets = std::array<PlanetInstance, dynamics::kMaxPlanets>;
 // As the study gives them; all alike without.
 Planets given_planets(const Study& study);
 
-// Adds what is drawn: five normal numbers a planet, whatever the study asks for. The study's
-// scatters are those of this gearbox.
-void draw_planets(const Study& study, Philox engine, Planets& planets);
+// Adds what is drawn: five standard normal numbers a planet, whatever the study asks for. The
+// study's scatters are those of this gearbox.
+void draw_planets(const Study& study, std::function<double()> normal, Planets& planets);
 
 }  // namespace gearpod::mc

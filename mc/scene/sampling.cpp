@@ -198,24 +198,6 @@ InstanceInputs resolve_inputs(const Study& study) {
     return inputs;
 }
 
-Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return {static_cast<std::uint64_t>(study.ensemble.seed), id.group, id.index,
-            parameter_id(purpose)};
-}
-
-Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return id.record == Record::judged
-               ? gearbox_stream(study, id, purpose)
-               : gearbox_stream(study, id, std::string(purpose).append(".baseline"));
-}
-
-Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return id.repeat == 0
-               ? record_stream(study, id, purpose)
-               : record_stream(study, id,
-                               std::string(purpose) + ".repeat." + std::to_string(id.repeat));
-}
-
 NoiseDraws threshold_draws(const Study& study) {
     return study.ensemble.tilted() ? NoiseDraws::towards_alarms : NoiseDraws::plain;
 }
@@ -226,13 +208,13 @@ Sampler::Sampler(const Study& study)
       turn_lengths_(turn_lengths(study.random)),
       plan_(study, turns(study.random, true), turns(study.random, false)) {}
 
-Study Sampler::draw(Group group, std::uint64_t index, Record record) const {
+Study Sampler::draw(const GearboxId& id) const {
     Study drawn = study_;
     const std::vector<double> shares = copula_.shares([&](std::size_t input) {
         if (plan_.has(input)) {
-            return standard_normal(plan_.share(input, group, index));
+            return standard_normal(plan_.share(input, id.group, id.index));
         }
-        Philox engine = gearbox_stream(study_, {group, index}, study_.random[input].key);
+        Philox engine = gearbox_stream(study_, id, study_.random[input].key);
         return boost::random::normal_distribution<double>()(engine);
     });
     for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
@@ -245,45 +227,49 @@ Study Sampler::draw(Group group, std::uint64_t index, Record record) const {
         if (plan_.has(i)) {
             std::get<NumberAccess>(key_of(input).access)
                 .set(drawn,
-                     input.distribution.quantile(plan_.share(i, group, index)) * input.to_si);
+                     input.distribution.quantile(plan_.share(i, id.group, id.index)) * input.to_si);
             continue;
         }
         const int rows = input.distribution.rows().group;
-        const GearboxId id{group, index, input.distribution.per_record() ? record : Record::judged};
-        Philox engine =
-            record_stream(study_, id, rows > 0 ? "random.rows." + std::to_string(rows) : input.key);
-        const double value = input.distribution.draw(engine, index / turn_lengths_[i]);
+        const std::string purpose =
+            rows > 0 ? "random.rows." + std::to_string(rows) : std::string(input.key);
+        GearboxId own = id;
+        own.record = input.distribution.per_record() ? id.record : Record::judged;
+        Philox engine = record_stream(study_, own, purpose);
+        const std::uint64_t turn = drawn_from(study_, id, purpose) / turn_lengths_[i];
+        const double value = input.distribution.draw(engine, turn);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
-    if (group == Group::threshold) {
+    if (id.group == Group::threshold) {
         set_fault_size(drawn, 0.0);
     }
     return drawn;
 }
 
 InstanceInputs Sampler::sample(Group group, std::uint64_t index) const {
-    return resolve(draw(group, index), group, index);
+    return sample(GearboxId{group, index});
 }
 
 InstanceInputs Sampler::sample(const GearboxId& id, std::span<const GivenInput> given) const {
-    Study drawn = draw(id.group, id.index);
+    GearboxId judged = id;
+    judged.record = Record::judged;
+    Study drawn = draw(judged);
     for (const GivenInput& one : given) {
         std::get<NumberAccess>(key_of(one.key).access).set(drawn, one.value);
     }
-    return resolve(drawn, id.group, id.index);
+    return resolve(drawn, id);
 }
 
-InstanceInputs Sampler::resolve(const Study& drawn, Group group, std::uint64_t index) const {
+InstanceInputs Sampler::resolve(const Study& drawn, const GearboxId& id) const {
     InstanceInputs inputs = resolve_inputs(drawn);
     if (draws_planets(study_)) {
-        draw_planets(drawn, gearbox_stream(study_, {group, index}, "gearbox.planets"),
-                     inputs.planets);
+        draw_planets(drawn, Normals(study_, id, "gearbox.planets"), inputs.planets);
     }
     return inputs;
 }
 
 InstanceInputs Sampler::sample(const GearboxId& id) const {
-    InstanceInputs inputs = resolve(draw(id.group, id.index, id.record), id.group, id.index);
+    InstanceInputs inputs = resolve(draw(id), id);
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
         Philox engine = record_stream(study_, id, "operation.torque");
@@ -323,8 +309,8 @@ std::vector<ParameterColumn> Sampler::columns() const {
     return columns;
 }
 
-std::vector<double> Sampler::row(Group group, std::uint64_t index) const {
-    const Study drawn = draw(group, index);
+std::vector<double> Sampler::row(const GearboxId& id) const {
+    const Study drawn = draw(id);
     std::vector<double> row;
     for (const RandomInput& input : study_.random) {
         if (!is_fault_size(input)) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mc/random/philox.hpp"
+#include "mc/scene/gearbox_streams.hpp"
 #include "mc/scene/planets.hpp"
 #include "mc/scene/sampling_plan.hpp"
 #include "mc/study/copula.hpp"
@@ -65,29 +65,6 @@ struct InstanceInputs {
     double paris_factor, paris_exponent, curve_pace;
 };
 
-// Of a gearbox: the one that is judged, and the one from before its fault that it is compared with.
-enum class Record { judged, baseline };
-
-// How a record's noise is drawn: as it is, or as one of several kinds in turn, most of them tilted
-// (signals/windowing/noise_tilt.hpp).
-enum class NoiseDraws { plain, towards_alarms, towards_misses };
-
-// Which gearbox: row `index` of its group; and which record of it.
-struct GearboxId {
-    Group group = Group::graded;
-    std::uint64_t index = 0;
-    Record record = Record::judged;
-    std::uint64_t repeat = 0;  // of the judged record, with other noise
-    NoiseDraws draws = NoiseDraws::plain;
-};
-
-// The random numbers for a purpose that belong to the gearbox, the same in all its records.
-Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose);
-// Those that every record has of its own.
-Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose);
-// Those of its noise: every repeat has its own, the first that of the record.
-Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
-
 // How the records that set thresholds are drawn.
 NoiseDraws threshold_draws(const Study& study);
 
@@ -130,11 +107,11 @@ class Sampler {
     // holds.
     std::vector<ParameterColumn> columns() const;
     // The values of one instance in that order, SI; the weight of a plain record, 1.
-    std::vector<double> row(Group group, std::uint64_t index) const;
+    std::vector<double> row(const GearboxId& id) const;
 
   private:
-    Study draw(Group group, std::uint64_t index, Record record = Record::judged) const;
-    InstanceInputs resolve(const Study& drawn, Group group, std::uint64_t index) const;
+    Study draw(const GearboxId& id) const;
+    InstanceInputs resolve(const Study& drawn, const GearboxId& id) const;
     Study study_;
     Copula copula_;
     // By random input: how many instances have the same turn in succession.

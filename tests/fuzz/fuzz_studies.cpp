@@ -86,7 +86,7 @@ std::string nonsense(const mc::Study& study) {
     }
     const mc::Sampler sampler(study);
     for (const mc::Group group : {mc::Group::threshold, mc::Group::graded}) {
-        for (const double value : sampler.row(group, 12345)) {
+        for (const double value : sampler.row({group, 12345})) {
             if (!std::isfinite(value)) {
                 return "a gearbox is drawn that has a number that is not finite";
             }

@@ -21,7 +21,7 @@ const std::vector<std::string> kUntil{
 BatchRows rows_of(const Sampler& sampler, const RowShape& shape, const Batch& batch) {
     BatchRows rows;
     for (std::size_t i = 0; i < batch.rows(); ++i) {
-        const auto parameters = sampler.row(batch.group, batch.first_index + i);
+        const auto parameters = sampler.row({batch.group, batch.first_index + i});
         rows.values.insert(rows.values.end(), parameters.begin(), parameters.end());
         rows.values.resize(rows.values.size() + shape.features * shape.levels,
                            batch.group == Group::threshold ? 1.0 : 2.0);

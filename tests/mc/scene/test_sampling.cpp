@@ -319,7 +319,7 @@ TEST_CASE("A fixed-shaft gearbox's inputs are drawn like any other's") {
         CHECK(x.fixed_shaft.load_torque_N_m <= 31.0);
         CHECK(sampler.sample(Group::threshold, i).fault_size == 0.0);
         stiffnesses.insert(x.fixed_shaft.motor_coupling_stiffness_N_m_rad);
-        CHECK(sampler.row(Group::graded, i) ==
+        CHECK(sampler.row({Group::graded, i}) ==
               std::vector<double>{x.fixed_shaft.motor_coupling_stiffness_N_m_rad,
                                   x.fixed_shaft.load_torque_N_m, x.fault_size});
     }
@@ -353,7 +353,7 @@ TEST_CASE("Rows of the results hold the sampled values in SI under their names")
     CHECK(columns[3].name == "fault_depth_m");
     CHECK(sampler.speed_member() == Member::carrier);
     for (const Group group : {Group::graded, Group::threshold}) {
-        const auto row = sampler.row(group, 3);
+        const auto row = sampler.row({group, 3});
         const InstanceInputs inputs = sampler.sample(group, 3);
         CHECK(row == std::vector<double>{inputs.bodies[Member::planet].bearing_stiffness_N_m,
                                          inputs.speed_rad_s, inputs.path_exponent,

@@ -173,10 +173,10 @@ TEST_CASE("Healthy gearboxes are one sequence, whatever turn of the sizes they w
 TEST_CASE("A larger ensemble begins with the gearboxes of a smaller one, evenly drawn too") {
     const Sampler small(sobol_study()), large(sobol_study({"ensemble.instances=1000"}));
     for (std::uint64_t i = 0; i < 100; ++i) {
-        CHECK(small.row(Group::graded, i) == large.row(Group::graded, i));
+        CHECK(small.row({Group::graded, i}) == large.row({Group::graded, i}));
     }
     const Sampler other(sobol_study({"ensemble.seed=8"}));
-    CHECK(small.row(Group::graded, 3) != other.row(Group::graded, 3));
+    CHECK(small.row({Group::graded, 3}) != other.row({Group::graded, 3}));
 }
 
 TEST_CASE("Inputs that go together do so in evenly drawn gearboxes") {
