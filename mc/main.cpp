@@ -114,6 +114,9 @@ int run_program(int argc, char** argv) {
     MissesOptions misses;
     add_misses(app, misses, code);
 
+    RareOptions rare;
+    add_rare(app, rare, code);
+
     CompareOptions compare;
     add_compare(app, compare, code);
 

@@ -142,10 +142,10 @@ std::string tilted_text(std::span<const FeatureDetection> features,
                                    : "";
     if (!others.empty()) {
         text += (counts.tilted > 0
-                     ? fmt::format(" Of {} other{} too few gearboxes have the alarms. ",
-                                   counts.first, counts.first == 1 ? "" : "s")
-                     : " Too few gearboxes have the alarms for thresholds from tilted records. ") +
-                others;
+                     ? fmt::format(" Of {} other{} too few gearboxes have the alarms", counts.first,
+                                   counts.first == 1 ? "" : "s")
+                     : " Too few gearboxes have the alarms for thresholds from tilted records") +
+                " (`gearpod rare` asks gearboxes). " + others;
     }
     text += plain_text(counts, request.false_alarm_rate);
     return text.empty() ? "" : text.substr(1);

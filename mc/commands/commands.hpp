@@ -89,6 +89,18 @@ struct MissesOptions {
 };
 int misses_command(const MissesOptions& options);
 
+struct RareOptions {
+    std::string results;
+    std::string feature;
+    std::optional<double> rate;         // of false alarms whose threshold is asked for
+    std::optional<double> size;         // or of a fault whose misses are, in its unit
+    std::optional<double> noise_level;  // empty: the one that reports show first
+    long gearboxes = 1000;              // of a level
+    std::string json;                   // "": none; "-": standard output instead of the text
+    bool quiet = false;
+};
+int rare_command(const RareOptions& options);
+
 struct CompareOptions {
     std::vector<std::string> results;  // the first is what the others are held against
     std::string json, html;            // "": none; JSON "-": standard output

@@ -10,13 +10,10 @@
 
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/asked_results.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/missed_faults.hpp"
-#include "mc/ensemble/results_check.hpp"
-#include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
-#include "mc/report/example_gearboxes.hpp"
-#include "mc/results/file_rows.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -28,70 +25,27 @@ namespace {
 constexpr long kMostRows = 100'000'000;
 constexpr int kMostRecords = 10'000;  // as of ensemble.threshold_records
 
-// Every option that is wrong, a line each.
-class Complaints {
-  public:
-    void add(const std::string& option, const std::string& what) {
-        text_ += fmt::format("{}: {}\n", option, what);
-    }
-    void end() const {
-        if (!text_.empty()) {
-            throw std::runtime_error(text_.substr(0, text_.size() - 1));
-        }
-    }
-
-  private:
-    std::string text_;
-};
-
-template <class List, class Name>
-std::string joined(const List& list, Name name) {
-    std::string text;
-    for (const auto& item : list) {
-        text += (text.empty() ? "" : ", ") + name(item);
-    }
-    return text;
-}
-
 // The threshold that the file's healthy sample sets.
-void find_threshold(const Results& frame, const MissesOptions& options, Complaints& complaints,
-                    MissQuestion& question) {
-    const auto feature =
-        std::ranges::find(frame.detection, options.feature, &analysis::FeatureDetection::feature);
-    if (feature == frame.detection.end()) {
-        complaints.add(
-            "--feature",
-            fmt::format("\"{}\" is not in {}, which has {}", options.feature, options.results,
-                        joined(frame.features, [](const FeatureResult& f) { return f.name; })));
-        return;
-    }
-    const features::Feature* known = features::find_feature(options.feature);
-    if (known == nullptr || !known->from_sensor) {
+void find_threshold(const AskedResults& results, const MissesOptions& options,
+                    Complaints& complaints, MissQuestion& question) {
+    const features::Feature* feature = features::find_feature(options.feature);
+    if (feature != nullptr && !feature->from_sensor) {
         complaints.add("--feature",
                        fmt::format("\"{}\" does not look at the accelerometer, whose noise is "
                                    "tilted; take one that does",
                                    options.feature));
     }
-    const double wanted =
-        options.noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
-    const auto level = std::ranges::find(frame.noise_levels, wanted);
-    if (level == frame.noise_levels.end() || wanted == 0.0) {
-        complaints.add("--noise-level",
-                       fmt::format("{:g} is none of the file's levels above 0: {}", wanted,
-                                   joined(frame.noise_levels,
-                                          [](double one) { return fmt::format("{:g}", one); })));
+    const auto asked = find_asked(results, options.feature, options.noise_level, complaints);
+    if (!asked) {
         return;
     }
-    const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
     question.feature = options.feature;
-    question.noise_level = wanted;
-    question.threshold = feature->levels[at].threshold;
-    if (std::isnan(question.threshold)) {
-        complaints.add("--feature",
-                       fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
-                                   "gearboxes for the false-alarm rate",
-                                   options.feature, wanted));
+    question.noise_level = asked->detection->noise_level;
+    question.threshold = asked->detection->threshold;
+    if (question.noise_level == 0.0) {
+        complaints.add("--noise-level", "0 has no noise to tilt; `rare` asks gearboxes alone");
     }
+    needs_threshold(*asked, complaints);
 }
 
 void check_numbers(const Study& study, const MissesOptions& options, Complaints& complaints) {
@@ -116,55 +70,31 @@ void check_numbers(const Study& study, const MissesOptions& options, Complaints&
     }
 }
 
-// What is wrong with the study of the misses: with the fault's size, or with what the file holds.
-[[noreturn]] void refuse(const MissesOptions& options, const std::string& size_key,
-                         Problems problems) {
-    for (Problem& problem : problems) {
-        const bool of_size = problem.key == size_key;
-        problem.file = of_size ? "--size" : options.results;
-        problem.line = 0;
-        problem.key = of_size ? "" : problem.key;
-    }
-    const std::string text = format(problems);
-    throw std::runtime_error(text.substr(0, text.size() - 1));
-}
-
 struct Prepared {
     MissQuestion question;
-    Study study;  // of the misses
+    double confidence = 0.0;
     std::string unit;
     StudyScene made;
 };
 
 Prepared prepare(const MissesOptions& options) {
-    Results frame = read_frame(options.results);
-    const FileRows rows(options.results, frame);
-    check_results(options.results, frame, rows);
-    StudyReading reading = read_study_text(frame.provenance_value("study"), options.results);
-    if (!reading.study) {
-        throw std::runtime_error(options.results + ": its study cannot be read");
-    }
-    const Study& study = *reading.study;
+    const AskedResults results = read_asked(options.results);
+    const Study& study = results.study;
     if (study.fault.kind == nullptr) {
         throw std::runtime_error(options.results + ": its study has no fault to miss");
     }
-    frame.detection = detect_all(frame, rows);
     Complaints complaints;
     Prepared prepared;
     check_numbers(study, options, complaints);
-    find_threshold(frame, options, complaints, prepared.question);
+    find_threshold(results, options, complaints, prepared.question);
     complaints.end();
     const Unit& unit = fault_size_key(study).unit;
     prepared.unit = unit.suffix.empty() ? "" : " " + std::string(unit.name);
+    prepared.confidence = study.detection.confidence;
     prepared.question.size = options.size * unit.to_si;
     prepared.question.gearboxes = options.gearboxes;
     prepared.question.records = options.records;
-    prepared.study = study_of_misses(study, prepared.question);
-    prepared.made = make_scene(options.results,
-                               read_study_text(resolved_text(prepared.study), options.results));
-    if (!prepared.made) {
-        refuse(options, fault_size_key(study).path(), prepared.made.problems);
-    }
+    prepared.made = scene_of_asked(results, study_of_misses(study, prepared.question));
     return prepared;
 }
 
@@ -175,13 +105,13 @@ std::string rate_text(const Prepared& prepared, const MissAnswer& answer) {
     if (!answer.misses) {
         return fmt::format(
             "not known from {}: too few of them have the misses. It takes more records or "
-            "gearboxes; where noise is not what makes the misses, records do not help",
+            "gearboxes; where gearboxes make the misses, not noise, `rare` asks them",
             records);
     }
     return fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %, from {}, {:.0f} of which carry it",
                        answer.misses->expected, answer.misses->rate.lower,
-                       answer.misses->rate.upper, 100.0 * prepared.study.detection.confidence,
-                       records, answer.misses->carrying);
+                       answer.misses->rate.upper, 100.0 * prepared.confidence, records,
+                       answer.misses->carrying);
 }
 
 // What counting would have taken.
@@ -231,7 +161,7 @@ nlohmann::json answer_json(const MissesOptions& options, const Prepared& prepare
                         {"gearboxes", answer.gearboxes},
                         {"failed", answer.failed},
                         {"records", q.records},
-                        {"confidence", prepared.study.detection.confidence},
+                        {"confidence", prepared.confidence},
                         {"miss_rate", nullptr},
                         {"lower", nullptr},
                         {"upper", nullptr},
@@ -255,24 +185,9 @@ int misses_command(const MissesOptions& options) {
     const Ranks ranks;
     const Interruption interruption({});
     std::optional<Prepared> prepared;
-    std::string problem;
-    if (ranks.leads() &&
-        !can_write({"--json", options.json}, {{"the results file", options.results}})) {
-        problem = "-";  // which has said why
-    } else {
-        try {
-            prepared = prepare(options);
-        } catch (const std::exception& error) {
-            problem = exception_text(error);
-        }
-    }
-    for (const std::string& one : ranks.gather(problem)) {
-        if (!one.empty()) {
-            if (ranks.leads() && one != "-") {
-                fmt::print(stderr, "{}\n", one);
-            }
-            return kBadInput;
-        }
+    if (!prepare_together(ranks, options.results, options.json,
+                          [&] { prepared = prepare(options); })) {
+        return kBadInput;
     }
     try {
         Progress progress(options.gearboxes * options.records, options.quiet || !ranks.leads());
@@ -282,12 +197,8 @@ int misses_command(const MissesOptions& options) {
         if (!ranks.leads()) {
             return kDone;
         }
-        if (options.json != "-") {
-            fmt::print("{}", answer_text(options, *prepared, answer));
-        }
-        if (!options.json.empty() &&
-            !write_text_to(options.json,
-                           json_text(answer_json(options, *prepared, answer), 2) + "\n")) {
+        if (!write_answer(answer_text(options, *prepared, answer),
+                          answer_json(options, *prepared, answer), options.json)) {
             return kBadInput;
         }
         return answer.failed == 0 ? kDone : kSomeFailed;

@@ -34,19 +34,29 @@ struct Records {
 
 }  // namespace
 
-Study study_of_misses(const Study& study, const MissQuestion& question) {
+Study of_feature(const Study& study, const std::string& feature, double noise_level) {
     Study own = study;
-    const std::string size = fault_size_key(study).path();
-    std::erase_if(own.random, [&](const RandomInput& input) { return input.key == size; });
-    std::erase_if(own.correlations, [&](const Correlation& pair) {
-        return pair.first == size || pair.second == size;
-    });
-    set_fault_size(own, question.size);
+    own.features.use = {feature};
+    own.sensor.noise_levels = {noise_level};
+    own.ensemble.until = {};
+    return own;
+}
+
+Study with_fault(const Study& study, double size) {
+    Study own = study;
+    const std::string key = fault_size_key(study).path();
+    std::erase_if(own.random, [&](const RandomInput& input) { return input.key == key; });
+    std::erase_if(own.correlations,
+                  [&](const Correlation& pair) { return pair.first == key || pair.second == key; });
+    set_fault_size(own, size);
     own.detection.size_edges_m.clear();
     own.detection.size_edges.clear();
-    own.features.use = {question.feature};
-    own.sensor.noise_levels = {question.noise_level};
-    own.ensemble.until = {};
+    return own;
+}
+
+Study study_of_misses(const Study& study, const MissQuestion& question) {
+    Study own =
+        with_fault(of_feature(study, question.feature, question.noise_level), question.size);
     own.ensemble.instances = question.gearboxes;
     own.ensemble.threshold_records = question.records;
     own.ensemble.threshold_tilt = true;

@@ -20,8 +20,12 @@ struct MissQuestion {
     int records = 0;  // of each, a multiple of NoiseTilt::kKinds
 };
 
-// The study whose graded gearboxes all have a fault of that size and records like these, for one
-// feature at one level: all other inputs keep their distributions.
+// The study of one of its features at one noise level.
+Study of_feature(const Study& study, const std::string& feature, double noise_level);
+// The study whose graded gearboxes all have a fault of that size, SI: all other inputs keep their
+// distributions.
+Study with_fault(const Study& study, double size);
+// Both, with records like these.
 Study study_of_misses(const Study& study, const MissQuestion& question);
 
 struct MissAnswer {

@@ -31,6 +31,7 @@ void add_calibrate(CLI::App& app, CalibrateOptions& calibrate, int& code);
 void add_pod(CLI::App& app, PodOptions& pod, int& code);
 void add_report(CLI::App& app, ReportOptions& report, int& code);
 void add_misses(CLI::App& app, MissesOptions& misses, int& code);
+void add_rare(CLI::App& app, RareOptions& rare, int& code);
 void add_compare(CLI::App& app, CompareOptions& compare, int& code);
 
 }  // namespace gearpod::mc

@@ -46,4 +46,30 @@ void add_misses(CLI::App& app, MissesOptions& misses, int& code) {
     command->callback([&misses, &code] { code = misses_command(misses); });
 }
 
+void add_rare(CLI::App& app, RareOptions& rare, int& code) {
+    auto* command = app.add_subcommand(
+        "rare",
+        "the threshold for rare false alarms, or how often a fault is missed, where gearboxes make "
+        "the alarms or misses: lets those that come near them exchange some of their draws, level "
+        "by level");
+    command
+        ->add_option("results", rare.results,
+                     "results file (HDF5) of run, whose study and threshold it takes")
+        ->required();
+    command->add_option("--feature", rare.feature, "feature of the file")->required();
+    auto* rate =
+        command->add_option("--rate", rare.rate, "of false alarms whose threshold is asked for");
+    command
+        ->add_option("--size", rare.size,
+                     "fault size, in its unit in the study, whose misses are asked for")
+        ->excludes(rate);
+    command->add_option("--noise-level", rare.noise_level,
+                        "one of sensor.noise_levels; else 1 or the least above 0");
+    command->add_option("--gearboxes", rare.gearboxes, "of a level; 1000 unless given");
+    needs_name(
+        command->add_option("--json", rare.json, "write JSON to a file, or to - for the terminal"));
+    command->add_flag("--quiet", rare.quiet, "show no progress");
+    command->callback([&rare, &code] { code = rare_command(rare); });
+}
+
 }  // namespace gearpod::mc

@@ -40,7 +40,7 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     const std::string page = replaced(man.output);
     for (const char* command :
          {"run", "report", "compare", "describe", "stiffness", "modes", "accuracy", "simulate",
-          "features", "pod", "lives", "merge", "misses", "calibrate", "sweep", "new"}) {
+          "features", "pod", "lives", "merge", "misses", "rare", "calibrate", "sweep", "new"}) {
         INFO(command);
         const auto names = options(command);
         CHECK(names.size() >= 2);

@@ -102,7 +102,7 @@ TEST_CASE("What misses cannot be asked of is refused, every problem at once") {
     CHECK(wrong.code == 2);
     CHECK(wrong.mentions("--feature: \"te_rms\" does not look at the accelerometer"));
     CHECK(wrong.mentions("--size: 0 is no fault"));
-    CHECK(wrong.mentions("--noise-level: 3 is none of the file's levels above 0: 0, 2"));
+    CHECK(wrong.mentions("--noise-level: 3 is none of the file's levels: 0, 2"));
     CHECK(wrong.mentions("--records: 6 is no multiple of 4"));
     const test::Outcome many = program("misses " + results +
                                        " --feature window_ratio --size 1 --records 40000 "

@@ -1,0 +1,142 @@
+#include "mc/commands/asked_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "mc/commands/support.hpp"
+#include "mc/ensemble/results_check.hpp"
+#include "mc/files/json_text.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/report/example_gearboxes.hpp"
+#include "mc/results/file_rows.hpp"
+#include "mc/study/schema/schema.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+[[noreturn]] void fail_with(const std::string& lines) {
+    throw std::runtime_error(lines.substr(0, lines.size() - 1));
+}
+
+template <class List, class Name>
+std::string joined(const List& list, Name name) {
+    std::string text;
+    for (const auto& item : list) {
+        text += (text.empty() ? "" : ", ") + name(item);
+    }
+    return text;
+}
+
+}  // namespace
+
+void Complaints::add(const std::string& option, const std::string& what) {
+    text_ += fmt::format("{}: {}\n", option, what);
+}
+
+void Complaints::end() const {
+    if (!text_.empty()) {
+        fail_with(text_);
+    }
+}
+
+AskedResults read_asked(const std::string& path) {
+    AskedResults asked{path, read_frame(path), {}};
+    const FileRows rows(path, asked.frame);
+    check_results(path, asked.frame, rows);
+    StudyReading reading = read_study_text(asked.frame.provenance_value("study"), path);
+    if (!reading.study) {
+        throw std::runtime_error(path + ": its study cannot be read");
+    }
+    asked.study = std::move(*reading.study);
+    asked.frame.detection = detect_all(asked.frame, rows);
+    return asked;
+}
+
+std::optional<AskedFeature> find_asked(const AskedResults& results, const std::string& feature,
+                                       const std::optional<double>& noise_level,
+                                       Complaints& complaints) {
+    const Results& frame = results.frame;
+    const auto found =
+        std::ranges::find(frame.detection, feature, &analysis::FeatureDetection::feature);
+    if (found == frame.detection.end()) {
+        complaints.add(
+            "--feature",
+            fmt::format("\"{}\" is not in {}, which has {}", feature, results.path,
+                        joined(frame.features, [](const FeatureResult& f) { return f.name; })));
+        return std::nullopt;
+    }
+    const double wanted =
+        noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
+    const auto level = std::ranges::find(frame.noise_levels, wanted);
+    if (level == frame.noise_levels.end()) {
+        complaints.add("--noise-level", fmt::format("{:g} is none of the file's levels: {}", wanted,
+                                                    joined(frame.noise_levels, [](double one) {
+                                                        return fmt::format("{:g}", one);
+                                                    })));
+        return std::nullopt;
+    }
+    const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
+    return AskedFeature{features::find_feature(feature), &found->levels[at]};
+}
+
+void needs_threshold(const AskedFeature& asked, Complaints& complaints) {
+    if (std::isnan(asked.detection->threshold)) {
+        complaints.add("--feature",
+                       fmt::format("\"{}\" has no threshold at noise x {:g}: too few healthy "
+                                   "gearboxes for the false-alarm rate",
+                                   asked.feature->name, asked.detection->noise_level));
+    }
+}
+
+StudyScene scene_of_asked(const AskedResults& results, const Study& study) {
+    StudyScene made = make_scene(results.path, read_study_text(resolved_text(study), results.path));
+    if (!made) {
+        const std::string size = fault_size_key(study).path();
+        for (Problem& problem : made.problems) {
+            const bool of_size = problem.key == size;
+            problem.file = of_size ? "--size" : results.path;
+            problem.line = 0;
+            problem.key = of_size ? "" : problem.key;
+        }
+        fail_with(format(made.problems));
+    }
+    return made;
+}
+
+bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
+                      const std::function<void()>& prepare) {
+    std::string problem;
+    if (ranks.leads() && !can_write({"--json", json}, {{"the results file", results}})) {
+        problem = "-";  // which has said why
+    } else {
+        try {
+            prepare();
+        } catch (const std::exception& error) {
+            problem = exception_text(error);
+        }
+    }
+    for (const std::string& one : ranks.gather(problem)) {
+        if (!one.empty()) {
+            if (ranks.leads() && one != "-") {
+                fmt::print(stderr, "{}\n", one);
+            }
+            return false;
+        }
+    }
+    return true;
+}
+
+bool write_answer(const std::string& text, const nlohmann::json& json, const std::string& path) {
+    if (path != "-") {
+        fmt::print("{}", text);
+    }
+    return path.empty() || write_text_to(path, json_text(json, 2) + "\n");
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,258 @@
+// rare F.h5: rare false alarms or misses where gearboxes make them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "analysis/report/json_values.hpp"
+#include "analysis/report/text_lines.hpp"
+#include "mc/commands/asked_results.hpp"
+#include "mc/commands/commands.hpp"
+#include "mc/ensemble/rare_rates.hpp"
+#include "mc/input/exception_text.hpp"
+#include "mc/study/schema/sizes.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+constexpr long kFewestOfLevel = 20, kMostOfLevel = 1'000'000;
+constexpr double kRarestAlarms = 1e-9;
+
+struct PreparedRare {
+    RareQuestion question;
+    double confidence = 0.0;
+    std::string unit;  // of the fault's size
+    StudyScene made;
+};
+
+void ask_misses(const AskedResults& results, const RareOptions& options, const AskedFeature& asked,
+                Complaints& complaints, PreparedRare& prepared) {
+    if (results.study.fault.kind == nullptr) {
+        complaints.add(options.results, "its study has no fault to miss");
+        return;
+    }
+    if (!(*options.size > 0.0) || std::isinf(*options.size)) {
+        complaints.add("--size", fmt::format("{:g} is no fault", *options.size));
+    }
+    needs_threshold(asked, complaints);
+    const Unit& unit = fault_size_key(results.study).unit;
+    prepared.unit = unit.suffix.empty() ? "" : " " + std::string(unit.name);
+    prepared.question.size = *options.size * unit.to_si;
+    prepared.question.threshold = asked.detection->threshold;
+}
+
+PreparedRare prepare_rare(const RareOptions& options) {
+    const AskedResults results = read_asked(options.results);
+    Complaints complaints;
+    PreparedRare prepared;
+    RareQuestion& question = prepared.question;
+    if (!options.rate && !options.size) {
+        complaints.add("--rate", "or --size says what is asked for: --rate 1e-4 for false alarms");
+    }
+    if (options.rate && !(*options.rate >= kRarestAlarms && *options.rate <= 0.1)) {
+        complaints.add("--rate", fmt::format("{:g} is not between {:g} and 0.1", *options.rate,
+                                             kRarestAlarms));
+    }
+    if (options.gearboxes < kFewestOfLevel || options.gearboxes > kMostOfLevel) {
+        complaints.add("--gearboxes", fmt::format("{} is not between {} and {}", options.gearboxes,
+                                                  kFewestOfLevel, kMostOfLevel));
+    }
+    const auto asked = find_asked(results, options.feature, options.noise_level, complaints);
+    if (asked) {
+        question.noise_level = asked->detection->noise_level;
+    }
+    if (asked && options.size) {
+        ask_misses(results, options, *asked, complaints, prepared);
+    }
+    complaints.end();
+    question.feature = options.feature;
+    question.rate = options.rate;
+    question.gearboxes = options.gearboxes;
+    prepared.confidence = results.study.detection.confidence;
+    prepared.made = scene_of_asked(results, study_of_rare(results.study, question));
+    return prepared;
+}
+
+bool alarms_above(const RareQuestion& question) {
+    return features::find_feature(question.feature)->alarm == features::AlarmSide::high;
+}
+
+std::string not_known(const RareQuestion& question, const RareAnswer& answer) {
+    return !question.rate && answer.last_rate < kRarestMisses
+               ? fmt::format("rarer than {:g}", kRarestMisses)
+               : fmt::format(
+                     "not known from {} gearboxes a level: the descendants of fewer than "
+                     "{:g} of the first ones reach so far. It takes more of them "
+                     "(--gearboxes)",
+                     question.gearboxes, analysis::kLeastFamilies);
+}
+
+std::string alarms_text(const PreparedRare& prepared, const RareAnswer& answer) {
+    const RareQuestion& q = prepared.question;
+    const std::string asked = fmt::format(
+        "false alarms of {} at noise x {:g}, {:g} of healthy "
+        "gearboxes: ",
+        q.feature, q.noise_level, *q.rate);
+    if (!answer.estimate) {
+        return asked + not_known(q, answer);
+    }
+    return asked + fmt::format(
+                       "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}), whose rate is "
+                       "{:.3g} [{:.3g}, {:.3g}] at {:g} %",
+                       answer.estimate->threshold, answer.threshold.lower, answer.threshold.upper,
+                       alarms_above(q) ? ">" : "<", answer.estimate->expected,
+                       answer.estimate->rate.lower, answer.estimate->rate.upper,
+                       100.0 * prepared.confidence);
+}
+
+std::string misses_text(const RareOptions& options, const PreparedRare& prepared,
+                        const RareAnswer& answer) {
+    const RareQuestion& q = prepared.question;
+    const std::string asked = fmt::format(
+        "faults of {:g}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ", *options.size,
+        prepared.unit, q.feature, q.noise_level, alarms_above(q) ? ">" : "<", q.threshold);
+    return answer.estimate
+               ? asked + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %", answer.estimate->expected,
+                                     answer.estimate->rate.lower, answer.estimate->rate.upper,
+                                     100.0 * prepared.confidence)
+               : asked + not_known(q, answer);
+}
+
+// How it was found, and what counting would have taken.
+std::string cost_text(const RareQuestion& question, const RareAnswer& answer) {
+    std::string text =
+        fmt::format("{} gearboxes computed, {} a level, {} level{}", answer.computed,
+                    question.gearboxes, answer.levels, answer.levels == 1 ? "" : "s");
+    if (answer.levels > 1) {
+        text += fmt::format("; at least {:.0f} % of the exchanges of a level kept",
+                            100.0 * answer.least_kept);
+    }
+    if (answer.estimate) {
+        const double times = answer.counted / static_cast<double>(answer.computed);
+        text += fmt::format("; the rate rests on {:.0f} families of them, relative error {:.2g}",
+                            answer.estimate->families, std::sqrt(answer.estimate->variance));
+        text += times > 1.0 ? fmt::format(
+                                  ": counting takes {:.3g} gearboxes for the same, {:.2g} times "
+                                  "as many",
+                                  answer.counted, times)
+                            : ": not so rare that splitting pays, `run` counts them with fewer";
+    }
+    return text;
+}
+
+// What the last level's gearboxes have otherwise than all have.
+std::string shift_text(const RareAnswer& answer) {
+    std::string text = fmt::format("the last level, {:.2g} of all gearboxes, ", answer.last_rate);
+    if (answer.shifted.empty()) {
+        return text +
+               "has all random inputs as all gearboxes have them: others make the "
+               "difference, teeth, planets or noise";
+    }
+    text += "differs in its mean";
+    for (const ShiftedInput& input : answer.shifted) {
+        text += fmt::format("{} {} {:.4g}{} for {:.4g}", &input == &answer.shifted[0] ? "" : ",",
+                            input.name, input.rare, input.unit == "1" ? "" : " " + input.unit,
+                            input.all);
+    }
+    return text;
+}
+
+std::string rare_text(const RareOptions& options, const PreparedRare& prepared,
+                      const RareAnswer& answer) {
+    std::string text;
+    analysis::add_wrapped(text,
+                          prepared.question.rate ? alarms_text(prepared, answer)
+                                                 : misses_text(options, prepared, answer),
+                          2);
+    analysis::add_wrapped(text, cost_text(prepared.question, answer), 2);
+    if (answer.levels > 1) {
+        analysis::add_wrapped(text, shift_text(answer), 2);
+    }
+    if (answer.failed > 0) {
+        text += fmt::format("{} of the gearboxes failed, and raise no alarm\n", answer.failed);
+    }
+    return text;
+}
+
+nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepared,
+                         const RareAnswer& answer) {
+    const RareQuestion& q = prepared.question;
+    nlohmann::json shifted = nlohmann::json::array();
+    for (const ShiftedInput& input : answer.shifted) {
+        shifted.push_back({{"name", input.name},
+                           {"unit", input.unit},
+                           {"mean_of_all", input.all},
+                           {"mean", input.rare}});
+    }
+    nlohmann::json json{{"kind", q.rate ? "rare-false-alarms" : "rare-misses"},
+                        {"results", options.results},
+                        {"feature", q.feature},
+                        {"noise_level", q.noise_level},
+                        {"confidence", prepared.confidence},
+                        {"gearboxes_a_level", q.gearboxes},
+                        {"gearboxes", answer.computed},
+                        {"failed", answer.failed},
+                        {"levels", answer.levels},
+                        {"last_rate", answer.last_rate},
+                        {"least_kept", answer.least_kept},
+                        {"shifted_inputs", shifted},
+                        {"threshold", nullptr},
+                        {"rate", nullptr},
+                        {"lower", nullptr},
+                        {"upper", nullptr},
+                        {"families", nullptr},
+                        {"relative_error", nullptr},
+                        {"counted_gearboxes", nullptr}};
+    if (q.rate) {
+        json["rate_asked"] = *q.rate;
+        json["threshold_lower"] = analysis::number(answer.threshold.lower);
+        json["threshold_upper"] = analysis::number(answer.threshold.upper);
+    } else {
+        json["size"] = *options.size;
+        json["size_unit"] = prepared.unit.empty() ? "" : prepared.unit.substr(1);
+        json["threshold"] = q.threshold;
+    }
+    if (answer.estimate) {
+        json["threshold"] = answer.estimate->threshold;
+        json["rate"] = answer.estimate->expected;
+        json["lower"] = answer.estimate->rate.lower;
+        json["upper"] = answer.estimate->rate.upper;
+        json["families"] = answer.estimate->families;
+        json["relative_error"] = std::sqrt(answer.estimate->variance);
+        json["counted_gearboxes"] = analysis::number(answer.counted);
+    }
+    return json;
+}
+
+}  // namespace
+
+int rare_command(const RareOptions& options) {
+    const Ranks ranks;
+    const Interruption interruption({});
+    std::optional<PreparedRare> prepared;
+    if (!prepare_together(ranks, options.results, options.json,
+                          [&] { prepared = prepare_rare(options); })) {
+        return kBadInput;
+    }
+    try {
+        Progress progress(rare_gearboxes(prepared->question), options.quiet || !ranks.leads());
+        const RareAnswer answer =
+            rare_rates(*prepared->made.scene, prepared->question, ranks, progress, &interruption);
+        progress.finish();
+        if (!ranks.leads()) {
+            return kDone;
+        }
+        if (!write_answer(rare_text(options, *prepared, answer),
+                          rare_json(options, *prepared, answer), options.json)) {
+            return kBadInput;
+        }
+        return answer.failed == 0 ? kDone : kSomeFailed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;  // nothing is kept
+    }
+}
+
+}  // namespace gearpod::mc

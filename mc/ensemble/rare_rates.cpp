@@ -1,0 +1,204 @@
+#include "mc/ensemble/rare_rates.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "analysis/detection/feature_alarm.hpp"
+#include "mc/ensemble/ensemble.hpp"
+#include "mc/ensemble/missed_faults.hpp"
+
+namespace gearpod::mc {
+namespace {
+
+Group group_of(const RareQuestion& question) {
+    return question.rate ? Group::threshold : Group::graded;
+}
+
+GearboxId id_of(const RareQuestion& question, const analysis::SplitMember& member) {
+    GearboxId id{group_of(question), member.index};
+    id.exchanged = member.exchanged;
+    return id;
+}
+
+// Values of members, computed by all ranks and known to all.
+class SplitRun {
+  public:
+    SplitRun(const Scene& scene, const RareQuestion& question, const Ranks& ranks,
+             Progress& progress, const Interruption* interruption)
+        : scene_(scene),
+          question_(question),
+          ranks_(ranks),
+          progress_(progress),
+          interruption_(interruption),
+          shape_(row_shape(Sampler(scene.study()), scene.study())) {}
+
+    std::vector<double> values(std::span<const analysis::SplitMember> members) {
+        const BatchPlan plan(0, static_cast<std::int64_t>(members.size()));
+        MemoryRows store(ranks_.leads() ? plan.batches() : 0);
+        const EnsembleOutcome outcome = run_batches(
+            scene_.study(), plan,
+            {.ranks = ranks_, .store = store, .progress = progress_, .interruption = interruption_},
+            [&] { return computers(members); });
+        std::vector<double> values(members.size());
+        const std::string problem =
+            ranks_.from_leader(outcome.failure.empty() && !outcome.interruption.empty()
+                                   ? "stopped by " + outcome.interruption
+                                   : outcome.failure);
+        if (!problem.empty()) {
+            throw std::runtime_error(problem);
+        }
+        if (ranks_.leads()) {
+            read(store, plan, values);
+        }
+        std::string bytes(values.size() * sizeof(double), '\0');
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+        bytes = ranks_.from_leader(bytes);
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    }
+    long failed() const { return failed_; }
+
+  private:
+    BatchComputers computers(std::span<const analysis::SplitMember> members) {
+        if (!task_) {
+            task_ = std::make_shared<const BatchTask>(scene_);
+        }
+        return [this, members]() -> BatchComputer {
+            const auto worker = std::make_shared<BatchWorker>(*task_);
+            return [this, members, worker](const Batch& batch, Seconds& seconds) {
+                std::vector<GearboxId> ids;
+                for (std::size_t i = 0; i < batch.gearboxes; ++i) {
+                    ids.push_back(id_of(question_, members[batch.first_index + i]));
+                }
+                return worker->compute(ids, 1, seconds);
+            };
+        };
+    }
+    void read(const RowStore& store, const BatchPlan& plan, std::vector<double>& values) {
+        std::size_t member = 0;
+        for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
+            const BatchRows rows = store.read(batch);
+            for (std::size_t row = 0; row < rows.count(); ++row) {
+                values[member++] = rows.values[row * shape_.values() + shape_.value_of(0, 0)];
+                failed_ += rows.status[row] == static_cast<int>(Status::ok) ? 0 : 1;
+            }
+        }
+    }
+
+    const Scene& scene_;
+    const RareQuestion& question_;
+    const Ranks& ranks_;
+    Progress& progress_;
+    const Interruption* interruption_;
+    const RowShape shape_;
+    std::shared_ptr<const BatchTask> task_;  // once there is a first batch
+    long failed_ = 0;
+};
+
+// Sums of the random inputs of some gearboxes.
+struct InputSums {
+    std::vector<double> sum, squares;
+    double count = 0.0;
+
+    void add(const std::vector<double>& row) {
+        sum.resize(row.size());
+        squares.resize(row.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            sum[i] += row[i];
+            squares[i] += row[i] * row[i];
+        }
+        count += 1.0;
+    }
+    double mean(std::size_t input) const { return sum[input] / count; }
+    double deviation(std::size_t input) const {
+        return std::sqrt(std::max(0.0, squares[input] / count - mean(input) * mean(input)));
+    }
+};
+
+// Means further from those of all than as many gearboxes as there are families scatter by chance.
+std::vector<ShiftedInput> shifted_inputs(const Study& study, const RareQuestion& question,
+                                         const analysis::SplitTail& tail) {
+    constexpr double kBeyondChance = 3.0;
+    const Sampler sampler(study);
+    InputSums all, last;
+    for (long i = 0; i < question.gearboxes; ++i) {
+        all.add(sampler.row({group_of(question), static_cast<std::uint64_t>(i)}));
+    }
+    for (const analysis::SplitMember& member : tail.last()) {
+        last.add(sampler.row(id_of(question, member)));
+    }
+    const double chance = kBeyondChance / std::sqrt(tail.last_families());
+    std::vector<ShiftedInput> shifted;
+    const std::vector<ParameterColumn> columns = sampler.columns();
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {  // the last is the fault's size
+        if (std::abs(last.mean(i) - all.mean(i)) > chance * all.deviation(i)) {
+            shifted.push_back({columns[i].name, columns[i].unit, all.mean(i), last.mean(i)});
+        }
+    }
+    return shifted;
+}
+
+analysis::SplitTail::Settings settings_of(const RareQuestion& question) {
+    return {question.gearboxes, question.towards()};
+}
+
+}  // namespace
+
+analysis::Alarm RareQuestion::towards() const {
+    const bool high = analysis::alarm_of(*features::find_feature(feature)) == analysis::Alarm::high;
+    return high == rate.has_value() ? analysis::Alarm::high : analysis::Alarm::low;
+}
+
+Study study_of_rare(const Study& study, const RareQuestion& question) {
+    Study own = of_feature(study, question.feature, question.noise_level);
+    if (!question.rate) {
+        own = with_fault(own, question.size);
+    }
+    own.ensemble.instances = question.gearboxes;
+    own.ensemble.threshold_records = 1;
+    own.ensemble.threshold_tilt.reset();
+    own.ensemble.sampling = SamplingKind::plain;
+    return own;
+}
+
+long rare_gearboxes(const RareQuestion& question) {
+    return analysis::SplitTail::values_for(settings_of(question),
+                                           question.rate.value_or(kRarestMisses));
+}
+
+RareAnswer rare_rates(const Scene& scene, const RareQuestion& question, const Ranks& ranks,
+                      Progress& progress, const Interruption* interruption) {
+    SplitRun run(scene, question, ranks, progress, interruption);
+    const auto values = [&](std::span<const analysis::SplitMember> members) {
+        return run.values(members);
+    };
+    const analysis::SplitTail tail =
+        question.rate ? analysis::SplitTail::to_rate(settings_of(question), *question.rate, values)
+                      : analysis::SplitTail::to_value(settings_of(question), question.threshold,
+                                                      kRarestMisses, values);
+    const double confidence = scene.study().detection.confidence;
+    RareAnswer answer;
+    answer.estimate = question.rate ? tail.threshold(*question.rate, confidence)
+                                    : tail.at(question.threshold, confidence);
+    answer.threshold = answer.estimate && question.rate
+                           ? tail.threshold_interval(*question.rate, *answer.estimate)
+                           : analysis::Interval{analysis::kNan, analysis::kNan};
+    answer.computed = tail.computed();
+    answer.failed = run.failed();
+    answer.levels = tail.levels();
+    answer.last_rate = tail.last_rate();
+    answer.least_kept = tail.least_kept();
+    answer.counted = answer.estimate && answer.estimate->expected < 1.0
+                         ? (1.0 - answer.estimate->expected) /
+                               (answer.estimate->expected * answer.estimate->variance)
+                         : std::numeric_limits<double>::quiet_NaN();
+    if (ranks.leads() && tail.levels() > 1) {
+        answer.shifted = shifted_inputs(scene.study(), question, tail);
+    }
+    return answer;
+}
+
+}  // namespace gearpod::mc

@@ -1,0 +1,156 @@
+// rare: thresholds and misses that gearboxes make, against counted ones; the same bits by any
+// threads and ranks.
+#include <nlohmann/json.hpp>
+
+#include "mc/results/results_file.hpp"
+#include "tests/mc/program.hpp"
+
+using namespace gearpod;
+using test::program;
+using test::shell;
+
+namespace {
+
+// Seven milliseconds a gearbox.
+std::string study() {
+    return std::string(GEARPOD_SOURCE_DIR) + "/tests/bench/rare_teeth.toml";
+}
+
+std::string run_some(const test::Folder& folder, const std::string& name, const std::string& more) {
+    const std::string results = folder.file(name);
+    const test::Outcome run = program("run " + study() + " --quiet --out " + results + " " + more);
+    INFO(run.output);
+    REQUIRE(run.code == 0);
+    return results;
+}
+std::string run_few(const test::Folder& folder) {
+    return run_some(folder, "few.h5", "--instances 16 --set ensemble.threshold_instances=40");
+}
+
+// Rows of a group beyond a threshold of its first feature at the last of two noise levels, and all.
+std::pair<double, double> count_above(const std::string& results, int group, double threshold,
+                                      const std::string& feature) {
+    const mc::Results rows = mc::read_results(results);
+    std::size_t of = 0;
+    while (rows.features[of].name != feature) {
+        ++of;
+    }
+    double above = 0.0, all = 0.0;
+    for (std::size_t row = 0; row < rows.status.size(); ++row) {
+        if (rows.group[row] == group) {
+            all += 1.0;
+            above += rows.features[of].values[2 * row + 1] > threshold ? 1.0 : 0.0;
+        }
+    }
+    return {above, all};
+}
+
+}  // namespace
+
+TEST_CASE("Thresholds of rare false alarms are those of counted ones") {
+    const test::Folder folder;
+    const test::Outcome asked =
+        program("rare " + run_few(folder) +
+                " --feature window_ratio --rate 0.01 --gearboxes 160 --quiet --json -");
+    INFO(asked.output);
+    REQUIRE(asked.code == 0);
+    const auto answer = nlohmann::json::parse(asked.output);
+    CHECK(answer["kind"] == "rare-false-alarms");
+    CHECK(answer["gearboxes"] == 160 * (1 + 2 * 3));
+    REQUIRE(answer["rate"].is_number());
+    CHECK(answer["rate"] <= 0.01);
+    CHECK(answer["threshold_lower"] < answer["threshold"]);
+    CHECK(answer["threshold_upper"] > answer["threshold"]);
+    CHECK(answer["least_kept"] > 0.05);
+    // Of other healthy gearboxes.
+    const std::string counted = run_some(
+        folder, "counted.h5", "--instances 16 --seed 77 --set ensemble.threshold_instances=1600");
+    const auto [above, all] = count_above(counted, 0, answer["threshold"], "window_ratio");
+    INFO(above << " of " << all << " counted");
+    CHECK(answer["lower"].get<double>() * all < above + 3.0 * std::sqrt(above + 1.0));
+    CHECK(answer["upper"].get<double>() * all > above - 3.0 * std::sqrt(above));
+}
+
+TEST_CASE("Misses that gearboxes make are those of counted ones") {
+    const test::Folder folder;
+    const std::string results =
+        run_some(folder, "found.h5",
+                 "--instances 600 --set ensemble.threshold_instances=100 --set "
+                 "'random.fault.depth_mm={distribution=\"levels\",values=[4]}' --set "
+                 "detection.false_alarm_rate=0.3");
+    const test::Outcome asked = program(
+        "rare " + results + " --feature te_kurtosis --size 4 --gearboxes 100 --quiet --json -");
+    INFO(asked.output);
+    REQUIRE(asked.code == 0);
+    const auto answer = nlohmann::json::parse(asked.output);
+    CHECK(answer["kind"] == "rare-misses");
+    CHECK(answer["size_unit"] == "mm");
+    REQUIRE(answer["rate"].is_number());
+    const auto [found, all] = count_above(results, 1, answer["threshold"], "te_kurtosis");
+    const double misses = all - found;
+    INFO(misses << " of " << all << " counted");
+    CHECK(misses > 5.0);
+    CHECK(answer["lower"].get<double>() * all < misses + 3.0 * std::sqrt(misses));
+    CHECK(answer["upper"].get<double>() * all > misses - 3.0 * std::sqrt(misses));
+}
+
+TEST_CASE("Rare false alarms have the same bits by any threads") {
+    const test::Folder folder;
+    const std::string asked = "rare " + run_few(folder) +
+                              " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
+    const test::Outcome one =
+        shell("OMP_NUM_THREADS=1 " + std::string(GEARPOD_PROGRAM) + " " + asked);
+    REQUIRE(one.code == 0);
+    CHECK(shell("OMP_NUM_THREADS=3 " + std::string(GEARPOD_PROGRAM) + " " + asked).output ==
+          one.output);
+}
+
+TEST_CASE("Rare false alarms have the same bits by any ranks", "[mpi]") {
+    const test::Folder folder;
+    const std::string asked = "rare " + run_few(folder) +
+                              " --feature window_ratio --rate 0.05 --gearboxes 40 --quiet --json -";
+    const test::Outcome one = program(asked);
+    REQUIRE(one.code == 0);
+    CHECK(shell(test::mpirun(2) + GEARPOD_PROGRAM + " " + asked).output == one.output);
+}
+
+TEST_CASE("What rare says tells how many gearboxes it took, and what it does not know") {
+    const test::Folder folder;
+    const std::string results = run_few(folder);
+    const test::Outcome known = program("rare " + results +
+                                        " --feature window_ratio --rate 0.05 --gearboxes 60 "
+                                        "--quiet");
+    INFO(known.output);
+    CHECK(known.code == 0);
+    CHECK(known.mentions("false alarms of window_ratio at noise x 1, 0.05 of healthy gearboxes"));
+    CHECK(known.mentions("gearboxes computed, 60 a level"));
+    const test::Outcome few = program("rare " + results +
+                                      " --feature window_ratio --rate 1e-3 --gearboxes 20 "
+                                      "--quiet");
+    INFO(few.output);
+    CHECK(few.code == 0);
+    CHECK(few.mentions("not known from 20 gearboxes a level"));
+}
+
+TEST_CASE("What rare cannot be asked is refused, every problem at once") {
+    const test::Folder folder;
+    const std::string results = run_few(folder);
+    const auto refused = [&](const std::string& options) {
+        const test::Outcome outcome = program("rare " + results + " " + options);
+        CHECK(outcome.code == 2);
+        return outcome.output;
+    };
+    CHECK(refused("--feature nothing --rate 0.5 --gearboxes 3") ==
+          "--rate: 0.5 is not between 1e-09 and 0.1\n"
+          "--gearboxes: 3 is not between 20 and 1000000\n"
+          "--feature: \"nothing\" is not in " +
+              results + ", which has te_kurtosis, te_fm0, window_ratio, window_z\n");
+    CHECK(refused("--feature window_ratio --noise-level 3")
+              .find("--rate: or --size says what is asked for") == 0);
+    CHECK(refused("--feature window_ratio --size 0 --noise-level 3") ==
+          "--noise-level: 3 is none of the file's levels: 0, 1\n");
+    CHECK(refused("--feature window_ratio --size 0") == "--size: 0 is no fault\n");
+    CHECK(refused("--feature window_ratio --size 900").starts_with("--size: "));
+    CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
+    CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);
+}
