@@ -132,11 +132,25 @@ bool prepare_together(const Ranks& ranks, const std::string& results, const std:
     return true;
 }
 
-bool write_answer(const std::string& text, const nlohmann::json& json, const std::string& path) {
-    if (path != "-") {
-        fmt::print("{}", text);
+int answer_together(const Ranks& ranks, Progress& progress, const std::string& json,
+                    const std::function<Answered()>& compute) {
+    try {
+        const Answered answered = compute();
+        progress.finish();
+        if (!ranks.leads()) {
+            return kDone;
+        }
+        if (json != "-") {
+            fmt::print("{}", answered.text);
+        }
+        if (!json.empty() && !write_text_to(json, json_text(answered.json, 2) + "\n")) {
+            return kBadInput;
+        }
+        return answered.failed == 0 ? kDone : kSomeFailed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", exception_text(error));
+        return kBadInput;  // nothing is kept
     }
-    return path.empty() || write_text_to(path, json_text(json, 2) + "\n");
 }
 
 }  // namespace gearpod::mc

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "analysis/detection/detection_table.hpp"
 #include "features/feature.hpp"
+#include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/results/results_file.hpp"
@@ -53,7 +54,15 @@ StudyScene scene_of_asked(const AskedResults& results, const Study& study);
 bool prepare_together(const Ranks& ranks, const std::string& results, const std::string& json,
                       const std::function<void()>& prepare);
 
-// Prints the text, unless JSON goes to the terminal, and writes JSON where it is asked for.
-bool write_answer(const std::string& text, const nlohmann::json& json, const std::string& path);
+// What rank 0 answers.
+struct Answered {
+    std::string text;
+    nlohmann::json json;
+    long failed = 0;  // gearboxes
+};
+// Calls `compute`, which may throw, in every rank; prints rank 0's text, unless JSON goes to the
+// terminal, and writes JSON where it is asked for. The exit code.
+int answer_together(const Ranks& ranks, Progress& progress, const std::string& json,
+                    const std::function<Answered()>& compute);
 
 }  // namespace gearpod::mc

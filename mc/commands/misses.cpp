@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -13,7 +11,6 @@
 #include "mc/commands/asked_results.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/missed_faults.hpp"
-#include "mc/input/exception_text.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
@@ -189,23 +186,13 @@ int misses_command(const MissesOptions& options) {
                           [&] { prepared = prepare(options); })) {
         return kBadInput;
     }
-    try {
-        Progress progress(options.gearboxes * options.records, options.quiet || !ranks.leads());
+    Progress progress(options.gearboxes * options.records, options.quiet || !ranks.leads());
+    return answer_together(ranks, progress, options.json, [&] {
         const MissAnswer answer = missed_faults(*prepared->made.scene, prepared->question, ranks,
                                                 progress, &interruption);
-        progress.finish();
-        if (!ranks.leads()) {
-            return kDone;
-        }
-        if (!write_answer(answer_text(options, *prepared, answer),
-                          answer_json(options, *prepared, answer), options.json)) {
-            return kBadInput;
-        }
-        return answer.failed == 0 ? kDone : kSomeFailed;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;  // nothing is kept
-    }
+        return Answered{answer_text(options, *prepared, answer),
+                        answer_json(options, *prepared, answer), answer.failed};
+    });
 }
 
 }  // namespace gearpod::mc

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "analysis/report/json_values.hpp"
@@ -11,7 +9,6 @@
 #include "mc/commands/asked_results.hpp"
 #include "mc/commands/commands.hpp"
 #include "mc/ensemble/rare_rates.hpp"
-#include "mc/input/exception_text.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
@@ -236,23 +233,13 @@ int rare_command(const RareOptions& options) {
                           [&] { prepared = prepare_rare(options); })) {
         return kBadInput;
     }
-    try {
-        Progress progress(rare_gearboxes(prepared->question), options.quiet || !ranks.leads());
+    Progress progress(rare_gearboxes(prepared->question), options.quiet || !ranks.leads());
+    return answer_together(ranks, progress, options.json, [&] {
         const RareAnswer answer =
             rare_rates(*prepared->made.scene, prepared->question, ranks, progress, &interruption);
-        progress.finish();
-        if (!ranks.leads()) {
-            return kDone;
-        }
-        if (!write_answer(rare_text(options, *prepared, answer),
-                          rare_json(options, *prepared, answer), options.json)) {
-            return kBadInput;
-        }
-        return answer.failed == 0 ? kDone : kSomeFailed;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;  // nothing is kept
-    }
+        return Answered{rare_text(options, *prepared, answer),
+                        rare_json(options, *prepared, answer), answer.failed};
+    });
 }
 
 }  // namespace gearpod::mc
