@@ -149,8 +149,7 @@ SplitTail::Beyond SplitTail::beyond_rate(double rate) const {
     return {level, count};
 }
 
-double SplitTail::value_at(double rate) const {
-    const Beyond beyond = beyond_rate(rate);
+double SplitTail::value_before(const Beyond& beyond) const {
     return levels_[beyond.level].falling[beyond.count].value;
 }
 
@@ -182,7 +181,7 @@ std::optional<SplitTail::Estimate> SplitTail::estimate(const Beyond& beyond, dou
 
 std::optional<SplitTail::Estimate> SplitTail::threshold(double rate, double confidence) const {
     const Beyond beyond = beyond_rate(rate);
-    const double value = levels_[beyond.level].falling[beyond.count].value;
+    const double value = value_before(beyond);
     return std::isfinite(value) ? estimate(beyond, alarm_sign(settings_.alarm) * value, confidence)
                                 : std::nullopt;
 }
@@ -204,8 +203,8 @@ std::optional<SplitTail::Estimate> SplitTail::at(double threshold, double confid
 Interval SplitTail::threshold_interval(double rate, const Estimate& estimate) const {
     const double factor = estimate.expected / estimate.rate.lower;
     const double sign = alarm_sign(settings_.alarm);
-    const double near = sign * value_at(std::min(1.0, rate * factor));
-    const double far = sign * value_at(rate / factor);
+    const double near = sign * value_before(beyond_rate(std::min(1.0, rate * factor)));
+    const double far = sign * value_before(beyond_rate(rate / factor));
     return {std::min(near, far), std::max(near, far)};
 }
 

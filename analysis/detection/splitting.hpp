@@ -69,9 +69,8 @@ class SplitTail {
     double last_rate() const { return levels_.back().rate; }
     double last_families() const;
     std::span<const SplitMember> last() const { return members_; }
-    double least_kept() const {
-        return least_kept_;
-    }  // share of a level's exchanges; 1 without any
+    // Share of a level's exchanges; 1 without any.
+    double least_kept() const { return least_kept_; }
 
   private:
     struct Place {
@@ -99,7 +98,8 @@ class SplitTail {
 
     static double squared_shares(std::span<const Place> places);
     Beyond beyond_rate(double rate) const;
-    double value_at(double rate) const;
+    // The threshold that so many lie beyond, away from the alarm negated.
+    double value_before(const Beyond& beyond) const;
     std::optional<Estimate> estimate(const Beyond& beyond, double threshold,
                                      double confidence) const;
 

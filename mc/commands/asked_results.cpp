@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <stdexcept>
 
 #include "mc/commands/support.hpp"
@@ -22,15 +23,6 @@ namespace {
 
 [[noreturn]] void fail_with(const std::string& lines) {
     throw std::runtime_error(lines.substr(0, lines.size() - 1));
-}
-
-template <class List, class Name>
-std::string joined(const List& list, Name name) {
-    std::string text;
-    for (const auto& item : list) {
-        text += (text.empty() ? "" : ", ") + name(item);
-    }
-    return text;
 }
 
 }  // namespace
@@ -65,20 +57,17 @@ std::optional<AskedFeature> find_asked(const AskedResults& results, const std::s
     const auto found =
         std::ranges::find(frame.detection, feature, &analysis::FeatureDetection::feature);
     if (found == frame.detection.end()) {
-        complaints.add(
-            "--feature",
-            fmt::format("\"{}\" is not in {}, which has {}", feature, results.path,
-                        joined(frame.features, [](const FeatureResult& f) { return f.name; })));
+        const auto names = frame.features | std::views::transform(&FeatureResult::name);
+        complaints.add("--feature", fmt::format("\"{}\" is not in {}, which has {}", feature,
+                                                results.path, fmt::join(names, ", ")));
         return std::nullopt;
     }
     const double wanted =
         noise_level.value_or(frame.noise_levels[reference_level(frame.noise_levels)]);
     const auto level = std::ranges::find(frame.noise_levels, wanted);
     if (level == frame.noise_levels.end()) {
-        complaints.add("--noise-level", fmt::format("{:g} is none of the file's levels: {}", wanted,
-                                                    joined(frame.noise_levels, [](double one) {
-                                                        return fmt::format("{:g}", one);
-                                                    })));
+        complaints.add("--noise-level", fmt::format("{:g} is none of the file's levels: {:g}",
+                                                    wanted, fmt::join(frame.noise_levels, ", ")));
         return std::nullopt;
     }
     const auto at = static_cast<std::size_t>(level - frame.noise_levels.begin());
@@ -92,6 +81,22 @@ void needs_threshold(const AskedFeature& asked, Complaints& complaints) {
                                    "gearboxes for the false-alarm rate",
                                    asked.feature->name, asked.detection->noise_level));
     }
+}
+
+AskedSize ask_size(const Study& study, double size, Complaints& complaints) {
+    if (!(size > 0.0) || std::isinf(size)) {
+        complaints.add("--size", fmt::format("{:g} is no fault", size));
+    }
+    const Unit& unit = fault_size_key(study).unit;
+    return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
+}
+
+std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
+                         double threshold) {
+    const bool high = features::find_feature(feature)->alarm == features::AlarmSide::high;
+    return fmt::format(
+        "faults of {:g}{}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ", size.given,
+        size.unit.empty() ? "" : " ", size.unit, feature, noise_level, high ? ">" : "<", threshold);
 }
 
 StudyScene scene_of_asked(const AskedResults& results, const Study& study) {

@@ -46,6 +46,17 @@ std::optional<AskedFeature> find_asked(const AskedResults& results, const std::s
 // Complains of what has no threshold.
 void needs_threshold(const AskedFeature& asked, Complaints& complaints);
 
+// A fault's size as it is asked for.
+struct AskedSize {
+    double si = 0.0, given = 0.0;
+    std::string unit;  // of the study's key, "" of a pure number
+};
+// Complains of --size. Of a study with a fault.
+AskedSize ask_size(const Study& study, double size, Complaints& complaints);
+// "faults of 2 mm that fm4 misses at noise x 1 (alarm if > 3.1): "
+std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
+                         double threshold);
+
 // Of a study made from the file's. Throws what is wrong with it: with the fault's size, of the
 // option --size, or with what the file holds.
 StudyScene scene_of_asked(const AskedResults& results, const Study& study);

@@ -62,15 +62,12 @@ void check_numbers(const Study& study, const MissesOptions& options, Complaints&
         complaints.add("--gearboxes", fmt::format("{} is not between 2 and {}", options.gearboxes,
                                                   kMostRows / records));
     }
-    if (!(options.size > 0.0) || std::isinf(options.size)) {
-        complaints.add("--size", fmt::format("{:g} is no fault", options.size));
-    }
 }
 
 struct Prepared {
     MissQuestion question;
     double confidence = 0.0;
-    std::string unit;
+    AskedSize size;
     StudyScene made;
 };
 
@@ -83,12 +80,11 @@ Prepared prepare(const MissesOptions& options) {
     Complaints complaints;
     Prepared prepared;
     check_numbers(study, options, complaints);
+    prepared.size = ask_size(study, options.size, complaints);
     find_threshold(results, options, complaints, prepared.question);
     complaints.end();
-    const Unit& unit = fault_size_key(study).unit;
-    prepared.unit = unit.suffix.empty() ? "" : " " + std::string(unit.name);
     prepared.confidence = study.detection.confidence;
-    prepared.question.size = options.size * unit.to_si;
+    prepared.question.size = prepared.size.si;
     prepared.question.gearboxes = options.gearboxes;
     prepared.question.records = options.records;
     prepared.made = scene_of_asked(results, study_of_misses(study, prepared.question));
@@ -125,17 +121,13 @@ std::string counting_text(const MissAnswer& answer) {
                              "records";
 }
 
-std::string answer_text(const MissesOptions& options, const Prepared& prepared,
-                        const MissAnswer& answer) {
+std::string answer_text(const Prepared& prepared, const MissAnswer& answer) {
     const MissQuestion& q = prepared.question;
-    const bool high = features::find_feature(q.feature)->alarm == features::AlarmSide::high;
     std::string text;
-    analysis::add_wrapped(
-        text,
-        fmt::format("faults of {:g}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): {}",
-                    options.size, prepared.unit, q.feature, q.noise_level, high ? ">" : "<",
-                    q.threshold, rate_text(prepared, answer)),
-        2);
+    analysis::add_wrapped(text,
+                          asked_misses(prepared.size, q.feature, q.noise_level, q.threshold) +
+                              rate_text(prepared, answer),
+                          2);
     if (answer.misses) {
         analysis::add_wrapped(text, counting_text(answer), 2);
     }
@@ -154,7 +146,7 @@ nlohmann::json answer_json(const MissesOptions& options, const Prepared& prepare
                         {"noise_level", q.noise_level},
                         {"threshold", q.threshold},
                         {"size", options.size},
-                        {"size_unit", prepared.unit.empty() ? "" : prepared.unit.substr(1)},
+                        {"size_unit", prepared.size.unit},
                         {"gearboxes", answer.gearboxes},
                         {"failed", answer.failed},
                         {"records", q.records},
@@ -190,8 +182,8 @@ int misses_command(const MissesOptions& options) {
     return answer_together(ranks, progress, options.json, [&] {
         const MissAnswer answer = missed_faults(*prepared->made.scene, prepared->question, ranks,
                                                 progress, &interruption);
-        return Answered{answer_text(options, *prepared, answer),
-                        answer_json(options, *prepared, answer), answer.failed};
+        return Answered{answer_text(*prepared, answer), answer_json(options, *prepared, answer),
+                        answer.failed};
     });
 }
 

@@ -20,7 +20,7 @@ constexpr double kRarestAlarms = 1e-9;
 struct PreparedRare {
     RareQuestion question;
     double confidence = 0.0;
-    std::string unit;  // of the fault's size
+    AskedSize size;  // of misses
     StudyScene made;
 };
 
@@ -30,13 +30,9 @@ void ask_misses(const AskedResults& results, const RareOptions& options, const A
         complaints.add(options.results, "its study has no fault to miss");
         return;
     }
-    if (!(*options.size > 0.0) || std::isinf(*options.size)) {
-        complaints.add("--size", fmt::format("{:g} is no fault", *options.size));
-    }
+    prepared.size = ask_size(results.study, *options.size, complaints);
     needs_threshold(asked, complaints);
-    const Unit& unit = fault_size_key(results.study).unit;
-    prepared.unit = unit.suffix.empty() ? "" : " " + std::string(unit.name);
-    prepared.question.size = *options.size * unit.to_si;
+    prepared.question.size = prepared.size.si;
     prepared.question.threshold = asked.detection->threshold;
 }
 
@@ -104,12 +100,9 @@ std::string alarms_text(const PreparedRare& prepared, const RareAnswer& answer) 
                        100.0 * prepared.confidence);
 }
 
-std::string misses_text(const RareOptions& options, const PreparedRare& prepared,
-                        const RareAnswer& answer) {
+std::string misses_text(const PreparedRare& prepared, const RareAnswer& answer) {
     const RareQuestion& q = prepared.question;
-    const std::string asked = fmt::format(
-        "faults of {:g}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ", *options.size,
-        prepared.unit, q.feature, q.noise_level, alarms_above(q) ? ">" : "<", q.threshold);
+    const std::string asked = asked_misses(prepared.size, q.feature, q.noise_level, q.threshold);
     return answer.estimate
                ? asked + fmt::format("{:.3g} [{:.3g}, {:.3g}] at {:g} %", answer.estimate->expected,
                                      answer.estimate->rate.lower, answer.estimate->rate.upper,
@@ -156,13 +149,11 @@ std::string shift_text(const RareAnswer& answer) {
     return text;
 }
 
-std::string rare_text(const RareOptions& options, const PreparedRare& prepared,
-                      const RareAnswer& answer) {
+std::string rare_text(const PreparedRare& prepared, const RareAnswer& answer) {
     std::string text;
-    analysis::add_wrapped(text,
-                          prepared.question.rate ? alarms_text(prepared, answer)
-                                                 : misses_text(options, prepared, answer),
-                          2);
+    analysis::add_wrapped(
+        text,
+        prepared.question.rate ? alarms_text(prepared, answer) : misses_text(prepared, answer), 2);
     analysis::add_wrapped(text, cost_text(prepared.question, answer), 2);
     if (answer.levels > 1) {
         analysis::add_wrapped(text, shift_text(answer), 2);
@@ -208,7 +199,7 @@ nlohmann::json rare_json(const RareOptions& options, const PreparedRare& prepare
         json["threshold_upper"] = analysis::number(answer.threshold.upper);
     } else {
         json["size"] = *options.size;
-        json["size_unit"] = prepared.unit.empty() ? "" : prepared.unit.substr(1);
+        json["size_unit"] = prepared.size.unit;
         json["threshold"] = q.threshold;
     }
     if (answer.estimate) {
@@ -237,8 +228,8 @@ int rare_command(const RareOptions& options) {
     return answer_together(ranks, progress, options.json, [&] {
         const RareAnswer answer =
             rare_rates(*prepared->made.scene, prepared->question, ranks, progress, &interruption);
-        return Answered{rare_text(options, *prepared, answer),
-                        rare_json(options, *prepared, answer), answer.failed};
+        return Answered{rare_text(*prepared, answer), rare_json(options, *prepared, answer),
+                        answer.failed};
     });
 }
 

@@ -1,7 +1,6 @@
 #include "mc/ensemble/missed_faults.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -63,6 +62,16 @@ Study study_of_misses(const Study& study, const MissQuestion& question) {
     return own;
 }
 
+std::string why_left_off(const EnsembleOutcome& outcome) {
+    return outcome.failure.empty() && !outcome.interruption.empty()
+               ? "stopped by " + outcome.interruption
+               : outcome.failure;
+}
+
+double counted_for(double rate, double variance) {
+    return rate < 1.0 ? (1.0 - rate) / (rate * variance) : analysis::kNan;
+}
+
 MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const Ranks& ranks,
                          Progress& progress, const Interruption* interruption) {
     const auto records = static_cast<std::size_t>(question.records);
@@ -86,9 +95,8 @@ MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const
     if (!ranks.leads()) {
         return answer;
     }
-    if (!outcome.failure.empty() || !outcome.interruption.empty()) {
-        throw std::runtime_error(outcome.failure.empty() ? "stopped by " + outcome.interruption
-                                                         : outcome.failure);
+    if (const std::string why = why_left_off(outcome); !why.empty()) {
+        throw std::runtime_error(why);
     }
     const RowShape shape = row_shape(Sampler(scene.study()), scene.study());
     Records all;
@@ -104,10 +112,8 @@ MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const
     answer.gearboxes = all.gearboxes;
     answer.failed = all.failed;
     answer.records = static_cast<long>(all.values.size());
-    answer.counted =
-        answer.misses && answer.misses->expected < 1.0
-            ? (1.0 - answer.misses->expected) / (answer.misses->expected * answer.misses->variance)
-            : std::numeric_limits<double>::quiet_NaN();
+    answer.counted = answer.misses ? counted_for(answer.misses->expected, answer.misses->variance)
+                                   : analysis::kNan;
     return answer;
 }
 

@@ -38,6 +38,11 @@ struct MissAnswer {
     double counted = 0.0;
 };
 
+// Why a run of batches has no answer, or "".
+std::string why_left_off(const EnsembleOutcome& outcome);
+// How many are counted for a rate with that relative variance; NaN if all are.
+double counted_for(double rate, double variance);
+
 // Every rank calls it with the scene of study_of_misses(); the answer is rank 0's. Throws
 // std::runtime_error where a batch fails or the run is interrupted.
 MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const Ranks& ranks,

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -43,12 +42,8 @@ class SplitRun {
             {.ranks = ranks_, .store = store, .progress = progress_, .interruption = interruption_},
             [&] { return computers(members); });
         std::vector<double> values(members.size());
-        const std::string problem =
-            ranks_.from_leader(outcome.failure.empty() && !outcome.interruption.empty()
-                                   ? "stopped by " + outcome.interruption
-                                   : outcome.failure);
-        if (!problem.empty()) {
-            throw std::runtime_error(problem);
+        if (const std::string why = ranks_.from_leader(why_left_off(outcome)); !why.empty()) {
+            throw std::runtime_error(why);
         }
         if (ranks_.leads()) {
             read(store, plan, values);
@@ -191,10 +186,9 @@ RareAnswer rare_rates(const Scene& scene, const RareQuestion& question, const Ra
     answer.levels = tail.levels();
     answer.last_rate = tail.last_rate();
     answer.least_kept = tail.least_kept();
-    answer.counted = answer.estimate && answer.estimate->expected < 1.0
-                         ? (1.0 - answer.estimate->expected) /
-                               (answer.estimate->expected * answer.estimate->variance)
-                         : std::numeric_limits<double>::quiet_NaN();
+    answer.counted = answer.estimate
+                         ? counted_for(answer.estimate->expected, answer.estimate->variance)
+                         : analysis::kNan;
     if (ranks.leads() && tail.levels() > 1) {
         answer.shifted = shifted_inputs(scene.study(), question, tail);
     }

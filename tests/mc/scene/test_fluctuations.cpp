@@ -39,7 +39,6 @@ std::vector<std::uint64_t> bits(const machine::AlignedVector& values, int lanes,
     return all;
 }
 
-// Liang's gearbox ten times as fast, so that a mesh takes few steps.
 std::vector<std::string> with(std::vector<std::string> list, const std::vector<std::string>& more) {
     list.insert(list.end(), more.begin(), more.end());
     return list;

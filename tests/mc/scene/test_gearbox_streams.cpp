@@ -14,13 +14,6 @@ namespace {
 
 constexpr int kNumbers = 2000;
 
-Study example(const std::vector<std::string>& overrides = {}) {
-    StudyReading reading = read_study_text(tests::kExampleStudy, "study.toml", overrides);
-    INFO(format(reading.problems));
-    REQUIRE(reading.study);
-    return *reading.study;
-}
-
 std::vector<double> numbers(const Study& study, std::uint64_t index,
                             const std::vector<std::uint64_t>& exchanged = {},
                             Group group = Group::graded) {
@@ -46,7 +39,7 @@ double share_of_same(const std::vector<double>& a, const std::vector<double>& b)
 }  // namespace
 
 TEST_CASE("Exchanged numbers are the gearbox's own or the other's, in shares of three kinds") {
-    const Study study = example();
+    const Study study = test::study_of_text(tests::kExampleStudy);
     const std::vector<double> own = numbers(study, 4);
     std::array<int, 3> kinds{};
     for (std::uint64_t other = 100; other < 130; ++other) {
@@ -68,7 +61,7 @@ TEST_CASE("Exchanged numbers are the gearbox's own or the other's, in shares of 
 }
 
 TEST_CASE("A later exchange goes over an earlier one") {
-    const Study study = example();
+    const Study study = test::study_of_text(tests::kExampleStudy);
     const std::vector<double> both = numbers(study, 4, {100, 101});
     const std::vector<double> first = numbers(study, 4, {100}), own = numbers(study, 4);
     const std::vector<double> second = numbers(study, 4, {101});
@@ -81,10 +74,10 @@ TEST_CASE("A later exchange goes over an earlier one") {
 }
 
 TEST_CASE("Random inputs, planets and records are exchanged as a whole") {
-    const Study study =
-        example({"random.sensor.path_exponent={distribution=\"uniform\",low=0,"
-                 "high=1}",
-                 "gearbox.pin_tangential_rms_um=8"});
+    const Study study = test::study_of_text(
+        tests::kExampleStudy, {"random.sensor.path_exponent={distribution=\"uniform\",low=0,"
+                               "high=1}",
+                               "gearbox.pin_tangential_rms_um=8"});
     const Sampler sampler(study);
     std::size_t column = 0;
     while (sampler.columns()[column].name != "path_exponent") {
