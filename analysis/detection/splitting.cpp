@@ -14,6 +14,12 @@ constexpr std::size_t kPart = 4;  // of so many members one goes on
 constexpr int kExchanges = 2;     // of each member, one after another
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
+// That of the next exchange, in steps towards 44 % kept.
+double next_share(double share, double kept) {
+    constexpr double kWanted = 0.44, kStep = 1.4, kLeast = 0.005;
+    return std::clamp(share * std::clamp(kept / kWanted, 1.0 / kStep, kStep), kLeast, 1.0);
+}
+
 double alarm_sign(Alarm alarm) {
     return alarm == Alarm::high ? 1.0 : -1.0;
 }
@@ -98,14 +104,15 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
         members.push_back(members_[parent]);
         own.push_back(values[parent]);
     }
-    std::size_t kept = 0;
+    std::size_t all_kept = 0;
     for (int exchange = 0; exchange < kExchanges; ++exchange) {
         std::vector<SplitMember> tried = members;
         // Every value is one of a gearbox that gives its draws to no other exchange.
         for (std::size_t i = 0; i < tried.size(); ++i) {
-            tried[i].exchanged.push_back(static_cast<std::uint64_t>(computed_) + i);
+            tried[i].exchanged.push_back({static_cast<std::uint64_t>(computed_) + i, share_});
         }
         const std::vector<double> found = signed_values(of, tried);
+        std::size_t kept = 0;
         for (std::size_t i = 0; i < tried.size(); ++i) {
             if (found[i] > limit) {
                 members[i] = std::move(tried[i]);
@@ -113,9 +120,11 @@ std::vector<double> SplitTail::split(double limit, const std::vector<double>& va
                 ++kept;
             }
         }
+        share_ = next_share(share_, static_cast<double>(kept) / static_cast<double>(own.size()));
+        all_kept += kept;
     }
     least_kept_ = std::min(
-        least_kept_, static_cast<double>(kept) / static_cast<double>(kExchanges * own.size()));
+        least_kept_, static_cast<double>(all_kept) / static_cast<double>(kExchanges * own.size()));
     members_ = std::move(members);
     return own;
 }
@@ -172,10 +181,13 @@ std::optional<SplitTail::Estimate> SplitTail::estimate(const Beyond& beyond, dou
     found.variance = std::max(
         0.0, 1.0 - std::pow(members / (members - 1.0), static_cast<double>(beyond.level + 1)) *
                        (1.0 - squares));
+    // The estimate's mean is the rate, so its logarithm's mean is half a variance less.
+    const double variance = std::log1p(found.variance);
+    const double middle = found.expected * std::exp(0.5 * variance);
     const double factor =
         std::exp(student_quantile(0.5 * (found.families - 1.0), 0.5 * (1.0 + confidence)) *
-                 std::sqrt(std::log1p(found.variance)));
-    found.rate = {found.expected / factor, std::min(1.0, found.expected * factor)};
+                 std::sqrt(variance));
+    found.rate = {middle / factor, std::min(1.0, middle * factor)};
     return found;
 }
 
@@ -201,10 +213,12 @@ std::optional<SplitTail::Estimate> SplitTail::at(double threshold, double confid
 }
 
 Interval SplitTail::threshold_interval(double rate, const Estimate& estimate) const {
-    const double factor = estimate.expected / estimate.rate.lower;
     const double sign = alarm_sign(settings_.alarm);
-    const double near = sign * value_before(beyond_rate(std::min(1.0, rate * factor)));
-    const double far = sign * value_before(beyond_rate(rate / factor));
+    const auto value_at = [&](double estimated) {
+        return sign * value_before(beyond_rate(std::min(1.0, estimated)));
+    };
+    const double near = value_at(rate * estimate.expected / estimate.rate.lower);
+    const double far = value_at(rate * estimate.expected / estimate.rate.upper);
     return {std::min(near, far), std::max(near, far)};
 }
 

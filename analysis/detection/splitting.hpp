@@ -1,9 +1,11 @@
 // How rare values are of which gearboxes make the rare ones, not noise: multilevel splitting
 // (H. Kahn, T. E. Harris 1951; F. Cerou, A. Guyader, Stoch. Anal. Appl. 25 (2007), 417-443). Of a
-// sample the quarter nearest to an alarm goes on: each member four times, each time with some of
+// sample the quarter nearest to an alarm goes on: each member four times, each time with a share of
 // its draws exchanged for those of another gearbox, kept where it stays beyond the quarter's limit.
 // That leaves gearboxes as they are beyond the limit, so their share beyond the next is a share of
-// the first one's, and so on.
+// the first one's, and so on. The share exchanged follows what the last exchange kept
+// (I. Papaioannou et al., Probab. Eng. Mech. 41 (2015), 89-103): small ones are kept more often,
+// large ones lead further.
 //
 // Members that come from the same one of the first sample, a family, are not independent. The
 // variance of a rate follows from how it is shared among families (A. Lee, N. Whiteley, Biometrika
@@ -18,16 +20,17 @@
 #include <vector>
 
 #include "analysis/detection/detection_table.hpp"
+#include "analysis/detection/draw_exchange.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
 
 inline constexpr double kLeastFamilies = 5.0;
 
-// A gearbox of its own draws but for those exchanged, in this order.
+// A gearbox of its own draws and those exchanged, in this order.
 struct SplitMember {
     std::uint64_t index = 0;  // also its family
-    std::vector<std::uint64_t> exchanged;
+    std::vector<DrawExchange> exchanged;
 };
 // A value of every member; what is not finite raises no alarm.
 using SplitValues = std::function<std::vector<double>(std::span<const SplitMember>)>;
@@ -73,6 +76,7 @@ class SplitTail {
     double least_kept() const { return least_kept_; }
 
   private:
+    static constexpr double kFirstShare = 0.1;
     struct Place {
         double value;  // away from the alarm negated
         std::uint64_t family;
@@ -107,6 +111,7 @@ class SplitTail {
     std::vector<Level> levels_;
     std::vector<SplitMember> members_;  // of the last level
     long computed_ = 0;
+    double share_ = kFirstShare;  // of draws, in the next exchange
     double least_kept_ = 1.0;
 };
 

@@ -113,7 +113,7 @@ class Simulator {
         signal.has_sensor = true;
         signal.sensor.resize(count);
         if (noise_by_density(scene_.study())) {
-            signal.sensor = low_pass_noise(scene_, inputs, count, engine);
+            low_pass_noise(scene_, inputs).draw(engine, signal.sensor);
         } else {
             signals::draw_normals(engine, std::span(signal.sensor));
         }

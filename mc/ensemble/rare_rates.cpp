@@ -120,7 +120,7 @@ std::vector<ShiftedInput> shifted_inputs(const Study& study, const RareQuestion&
     const Sampler sampler(study);
     InputSums all, last;
     for (long i = 0; i < question.gearboxes; ++i) {
-        all.add(sampler.row({group_of(question), static_cast<std::uint64_t>(i)}));
+        all.add(sampler.row(id_of(question, {static_cast<std::uint64_t>(i), {}})));
     }
     for (const analysis::SplitMember& member : tail.last()) {
         last.add(sampler.row(id_of(question, member)));

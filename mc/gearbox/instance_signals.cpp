@@ -9,7 +9,6 @@
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/noise.hpp"
 #include "signals/noise/encoder_noise.hpp"
-#include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/normals.hpp"
 
 namespace gearpod::mc {
@@ -30,25 +29,24 @@ class Stopwatch {
 
 }  // namespace
 
-std::vector<double> low_pass_noise(const Scene& scene, const InstanceInputs& inputs,
-                                   std::size_t samples, Philox& engine) {
+signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs) {
     const double sample_s =
         dynamics::mesh_period_s(scene.inputs(inputs)) / scene.samples_per_mesh();
-    std::vector<double> unit(samples);
-    signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s).draw(engine, unit);
-    return unit;
+    return signals::LowPassNoise(scene.study().sensor.low_pass_Hz * sample_s);
 }
 
 std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& inputs,
                                  std::span<const double> clean, const signals::NoiseDraw& draw,
                                  const GearboxId& id) {
     if (noise_by_density(scene.study())) {
-        Philox engine = noise_stream(scene.study(), id, "noise.sensor");
-        return low_pass_noise(scene, inputs, clean.size(), engine);
+        Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor");
+        std::vector<double> unit(clean.size());
+        low_pass_noise(scene, inputs).draw(engine, std::span(unit));
+        return unit;
     }
     // A gearbox has a stream for its sensor noise, one for its encoder noise, and this one for the
     // directions that spell a drawn sensor noise out sample by sample.
-    Philox engine = noise_stream(scene.study(), id, "noise.sensor.direction");
+    Normals engine = Normals::of_noise(scene.study(), id, "noise.sensor.direction");
     const std::size_t bins = draw.along.size();
     const std::size_t span = bins * static_cast<std::size_t>(scene.span().ring_teeth);
     std::vector<double> unit = signals::unit_noise(clean.first(span), bins, draw, engine);
@@ -93,7 +91,7 @@ void InstanceSignals::draw_sensor_noise(const LaneSignals& gearbox, const Instan
     const std::size_t bins = gearbox.folded.size();
     const bool by_density = noise_by_density(scene_.study());
     if (!by_density) {
-        Philox engine = noise_stream(scene_.study(), id, "noise.sensor");
+        Normals engine = Normals::of_noise(scene_.study(), id, "noise.sensor");
         sensor_noise_.draw(engine, bins, noise_.sensor);
         if (id.draws != NoiseDraws::plain) {
             tilt_sensor_noise(gearbox, inputs, id);
@@ -149,7 +147,7 @@ void InstanceSignals::draw_noise(const LaneSignals& gearbox, const InstanceInput
     }
     noise_.encoder.assign(gearbox.te_turn.size(), 0.0);
     if (highest_level_ * inputs.encoder_noise_rad > 0.0) {
-        Philox encoder = noise_stream(scene_.study(), id, "noise.encoder");
+        Normals encoder = Normals::of_noise(scene_.study(), id, "noise.encoder");
         signals::draw_encoder_noise(encoder, span_.ring_teeth, noise_.encoder);
     }
 }

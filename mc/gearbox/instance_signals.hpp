@@ -10,6 +10,7 @@
 #include "mc/gearbox/span_analysis.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/scene/scene.hpp"
+#include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/sensor_noise.hpp"
 #include "signals/spectra/order_spectrum.hpp"
 #include "signals/windowing/noise_tilt.hpp"
@@ -25,8 +26,7 @@ std::vector<double> sample_noise(const Scene& scene, const InstanceInputs& input
                                  const GearboxId& id);
 // The unit noise behind the low-pass of a sensor whose noise is given by density. Where the speed
 // fluctuates, samples count as spaced evenly.
-std::vector<double> low_pass_noise(const Scene& scene, const InstanceInputs& inputs,
-                                   std::size_t samples, Philox& engine);
+signals::LowPassNoise low_pass_noise(const Scene& scene, const InstanceInputs& inputs);
 // samples[i] += sigma * unit[i]
 void add_noise(std::span<const double> unit, double sigma, std::span<double> samples);
 

@@ -1,42 +1,48 @@
 #include "mc/scene/gearbox_streams.hpp"
 
-#include <array>
 #include <boost/random/uniform_01.hpp>
+#include <cmath>
 #include <ranges>
 #include <string>
 
+#include "signals/noise/normals.hpp"
+
 namespace gearpod::mc {
 namespace {
-
-// Near an alarm small exchanges are kept more often, large ones lead further.
-constexpr std::array kShares{0.3, 0.1, 0.03};
 
 Philox plain_stream(const Study& study, Group group, std::uint64_t index,
                     std::string_view purpose) {
     return {static_cast<std::uint64_t>(study.ensemble.seed), group, index, parameter_id(purpose)};
 }
 
-double share_of(const Study& study, Group group, std::uint64_t index) {
-    return kShares[plain_stream(study, group, index, "exchange.share")() % kShares.size()];
+std::span<const analysis::DrawExchange> exchanges_of(const GearboxId& id) {
+    return id.exchanged.value_or(std::span<const analysis::DrawExchange>{});
 }
 
-// Which numbers for a purpose another gearbox gives.
-Philox taken_stream(const Study& study, Group group, std::uint64_t index,
-                    std::string_view purpose) {
-    return plain_stream(study, group, index, std::string(purpose).append(".exchange"));
+// Whether another gearbox gives all its numbers for a purpose.
+bool takes(const Study& study, Group group, const analysis::DrawExchange& exchange,
+           std::string_view purpose) {
+    Philox engine =
+        plain_stream(study, group, exchange.index, std::string(purpose).append(".exchange"));
+    return boost::random::uniform_01<double>()(engine) < exchange.share;
 }
 
-bool takes(double share, Philox& taken) {
-    return boost::random::uniform_01<double>()(taken) < share;
+std::string record_purpose(const GearboxId& id, std::string_view purpose) {
+    return std::string(purpose).append(id.record == Record::judged ? "" : ".baseline");
+}
+
+std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
+    const std::string first(purpose);
+    return record_purpose(id,
+                          id.repeat == 0 ? first : first + ".repeat." + std::to_string(id.repeat));
 }
 
 }  // namespace
 
 std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose) {
-    for (const std::uint64_t other : std::views::reverse(id.exchanged)) {
-        Philox taken = taken_stream(study, id.group, other, purpose);
-        if (takes(share_of(study, id.group, other), taken)) {
-            return other;
+    for (const analysis::DrawExchange& exchange : std::views::reverse(exchanges_of(id))) {
+        if (takes(study, id.group, exchange, purpose)) {
+            return exchange.index;
         }
     }
     return id.index;
@@ -47,36 +53,47 @@ Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view 
 }
 
 Philox record_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return id.record == Record::judged
-               ? gearbox_stream(study, id, purpose)
-               : gearbox_stream(study, id, std::string(purpose).append(".baseline"));
+    return gearbox_stream(study, id, record_purpose(id, purpose));
 }
 
 Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
-    return id.repeat == 0
-               ? record_stream(study, id, purpose)
-               : record_stream(study, id,
-                               std::string(purpose) + ".repeat." + std::to_string(id.repeat));
+    return gearbox_stream(study, id, noise_purpose(id, purpose));
 }
 
 Normals::Normals(const Study& study, const GearboxId& id, std::string_view purpose)
     : engine_(plain_stream(study, id.group, id.index, purpose)) {
-    for (const std::uint64_t other : id.exchanged) {
-        exchanges_.push_back({share_of(study, id.group, other),
-                              taken_stream(study, id.group, other, purpose),
-                              plain_stream(study, id.group, other, purpose)});
+    for (const analysis::DrawExchange& exchange : exchanges_of(id)) {
+        const double own = 1.0 - exchange.share;
+        exchanges_.push_back({own, std::sqrt(1.0 - own * own),
+                              plain_stream(study, id.group, exchange.index, purpose)});
     }
+}
+
+Normals Normals::of_record(const Study& study, const GearboxId& id, std::string_view purpose) {
+    return {study, id, record_purpose(id, purpose)};
+}
+
+Normals Normals::of_noise(const Study& study, const GearboxId& id, std::string_view purpose) {
+    return {study, id, noise_purpose(id, purpose)};
 }
 
 double Normals::operator()() {
     double number = unit_(engine_);
     for (Exchange& exchange : exchanges_) {
-        const double other = unit_(exchange.engine);
-        if (takes(exchange.share, exchange.taken)) {
-            number = other;
-        }
+        number = exchange.own * number + exchange.other * unit_(exchange.engine);
     }
     return number;
+}
+
+void Normals::normals(std::span<double> values) {
+    signals::draw_normals(engine_, values);
+    others_.resize(exchanges_.empty() ? 0 : values.size());
+    for (Exchange& exchange : exchanges_) {
+        signals::draw_normals(exchange.engine, others_);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = exchange.own * values[i] + exchange.other * others_[i];
+        }
+    }
 }
 
 }  // namespace gearpod::mc

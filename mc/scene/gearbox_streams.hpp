@@ -3,10 +3,12 @@
 
 #include <boost/random/normal_distribution.hpp>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "analysis/detection/draw_exchange.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -26,10 +28,10 @@ struct GearboxId {
     Record record = Record::judged;
     std::uint64_t repeat = 0;  // of the judged record, with other noise
     NoiseDraws draws = NoiseDraws::plain;
-    // Other gearboxes of the group, by index, whose draws have taken the place of some of its own
-    // in this order (analysis/detection/splitting.hpp): of each 3, 10 or 30 % by its index, drawn
-    // by itself. Elsewhere none. The maker's memory.
-    std::span<const std::uint64_t> exchanged = {};
+    // Of gearboxes that are split (analysis/detection/splitting.hpp): what it has exchanged with
+    // others of the group, in this order; perhaps nothing yet. The maker's memory. All random
+    // inputs that have a quantile are made of normal numbers then.
+    std::optional<std::span<const analysis::DrawExchange>> exchanged = {};
 };
 
 // Whose random numbers for a purpose the gearbox has, where all of them are exchanged as one: its
@@ -43,20 +45,28 @@ Philox record_stream(const Study& study, const GearboxId& id, std::string_view p
 // Those of its noise: every repeat has its own, the first that of the record.
 Philox noise_stream(const Study& study, const GearboxId& id, std::string_view purpose);
 
-// Standard normal numbers for a purpose that belong to the gearbox, each exchanged by itself.
+// Standard normal numbers for a purpose, each exchanged by itself. Of an object either one by one
+// or many at once.
 class Normals {
   public:
+    // That belong to the gearbox, as gearbox_stream().
     Normals(const Study& study, const GearboxId& id, std::string_view purpose);
+    // Of a record and of its noise, as record_stream() and noise_stream().
+    static Normals of_record(const Study& study, const GearboxId& id, std::string_view purpose);
+    static Normals of_noise(const Study& study, const GearboxId& id, std::string_view purpose);
+
     double operator()();
+    void normals(std::span<double> values);  // signals::draw_normals()
 
   private:
     struct Exchange {
-        double share;  // of the numbers
-        Philox taken, engine;
+        double own, other;  // factors
+        Philox engine;
     };
     Philox engine_;
     std::vector<Exchange> exchanges_;
     boost::random::normal_distribution<double> unit_;
+    std::vector<double> others_;
 };
 
 }  // namespace gearpod::mc

@@ -1,7 +1,6 @@
 #include "mc/scene/sampling.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -214,8 +213,7 @@ Study Sampler::draw(const GearboxId& id) const {
         if (plan_.has(input)) {
             return standard_normal(plan_.share(input, id.group, id.index));
         }
-        Philox engine = gearbox_stream(study_, id, study_.random[input].key);
-        return boost::random::normal_distribution<double>()(engine);
+        return Normals(study_, id, study_.random[input].key)();
     });
     for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
         const RandomInput& input = study_.random[i];
@@ -235,9 +233,15 @@ Study Sampler::draw(const GearboxId& id) const {
             rows > 0 ? "random.rows." + std::to_string(rows) : std::string(input.key);
         GearboxId own = id;
         own.record = input.distribution.per_record() ? id.record : Record::judged;
-        Philox engine = record_stream(study_, own, purpose);
-        const std::uint64_t turn = drawn_from(study_, id, purpose) / turn_lengths_[i];
-        const double value = input.distribution.draw(engine, turn);
+        double value = 0.0;
+        if (id.exchanged && input.distribution.has_quantile()) {
+            Normals normal = Normals::of_record(study_, own, purpose);
+            value = input.distribution.quantile(share_below(normal()));
+        } else {
+            Philox engine = record_stream(study_, own, purpose);
+            const std::uint64_t turn = drawn_from(study_, id, purpose) / turn_lengths_[i];
+            value = input.distribution.draw(engine, turn);
+        }
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
     if (id.group == Group::threshold) {
@@ -272,9 +276,8 @@ InstanceInputs Sampler::sample(const GearboxId& id) const {
     InstanceInputs inputs = resolve(draw(id), id);
     if (id.record == Record::baseline) {
         inputs.fault_size = 0.0;
-        Philox engine = record_stream(study_, id, "operation.torque");
-        boost::random::normal_distribution<double> unit;
-        const double share = std::exp(study_.features.baseline_torque_scatter * unit(engine));
+        Normals unit = Normals::of_record(study_, id, "operation.torque");
+        const double share = std::exp(study_.features.baseline_torque_scatter * unit());
         inputs.torque_N_m *= share;
         inputs.fixed_shaft.load_torque_N_m *= share;
     }

@@ -7,6 +7,11 @@
 
 namespace gearpod::mc {
 
+double share_below(double z) {
+    constexpr double kLeast = 0x1p-53;
+    return std::clamp(0.5 * std::erfc(-z / std::numbers::sqrt2), kLeast, 1.0 - kLeast);
+}
+
 Copula::Copula(const Study& study) {
     if (study.correlations.empty()) {
         return;
@@ -48,9 +53,7 @@ std::vector<double> Copula::shares(const std::function<double(std::size_t input)
         for (std::size_t j = 0; j <= i; ++j) {
             z += factor_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * normals[j];
         }
-        constexpr double kLeast = 0x1p-53;
-        shares.push_back(
-            std::clamp(0.5 * std::erfc(-z / std::numbers::sqrt2), kLeast, 1.0 - kLeast));
+        shares.push_back(share_below(z));
     }
     return shares;
 }

@@ -12,6 +12,9 @@
 
 namespace gearpod::mc {
 
+// Of standard normal numbers, that is not above z: inside (0, 1).
+double share_below(double z);
+
 class Copula {
   public:
     explicit Copula(const Study& study);

@@ -22,9 +22,13 @@ inline constexpr std::size_t kNormalBlock = 16;
 void normals_from_words(std::span<const std::uint64_t> words, std::span<double> normals);
 
 // Takes the words of whole blocks from the engine: a 64-bit uniform random bit generator, with
-// fill(std::span<std::uint64_t>) if it is quicker at many.
+// fill(std::span<std::uint64_t>) if it is quicker at many; or what has normals(values) of its own.
 template <typename Engine>
 void draw_normals(Engine& engine, std::span<double> values) {
+    if constexpr (requires { engine.normals(values); }) {
+        engine.normals(values);
+        return;
+    }
     constexpr std::size_t kAtOnce = 32 * kNormalBlock;
     std::array<std::uint64_t, kAtOnce> buffer;
     std::array<double, kNormalBlock> last;

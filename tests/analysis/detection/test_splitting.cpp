@@ -1,6 +1,5 @@
 // Rates of rare values by splitting where they are known: gearboxes of independent normal draws,
 // whose sum is the value.
-#include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
@@ -12,7 +11,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr int kDraws = 40;
+constexpr int kDraws = 20;
 const boost::math::normal kNormal;
 
 std::uint64_t mixed(std::uint64_t word) {
@@ -33,17 +32,23 @@ struct Gearboxes {
         return std::sqrt(-2.0 * std::log(uniform(index, 3 * draw))) *
                std::cos(2.0 * std::numbers::pi * uniform(index, 3 * draw + 1));
     }
-    bool takes(std::uint64_t other, int draw) const {
-        constexpr std::array kShares{0.3, 0.1, 0.03};
-        return uniform(other, 3 * draw + 2) < kShares[other % 3];
+    // Every other draw is exchanged in part, its neighbour as a whole or not at all.
+    double exchanged(double own, const DrawExchange& with, int draw) const {
+        if (draw % 2 == 0) {
+            const double kept = 1.0 - with.share;
+            return kept * own + std::sqrt(1.0 - kept * kept) * normal(with.index, draw);
+        }
+        return uniform(with.index, 3 * draw + 2) < with.share ? normal(with.index, draw) : own;
     }
     // Of the standard normal law.
     double value(const SplitMember& member) const {
         double sum = 0.0;
         for (int draw = 0; draw < kDraws; ++draw) {
-            const auto last = std::find_if(member.exchanged.rbegin(), member.exchanged.rend(),
-                                           [&](std::uint64_t other) { return takes(other, draw); });
-            sum += normal(last == member.exchanged.rend() ? member.index : *last, draw);
+            double number = normal(member.index, draw);
+            for (const DrawExchange& with : member.exchanged) {
+                number = exchanged(number, with, draw);
+            }
+            sum += number;
         }
         return sign * sum / std::sqrt(kDraws);
     }

@@ -1,21 +1,22 @@
-// Draws that gearboxes exchange: those of others in some places, their own elsewhere.
-#include <array>
+// Draws that gearboxes exchange: mixed with those of others, or theirs as a whole.
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "mc/scene/sampling.hpp"
+#include "signals/noise/normals.hpp"
 #include "tests/mc/study_example.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
 using namespace gearpod::mc;
+using analysis::DrawExchange;
 
 namespace {
 
 constexpr int kNumbers = 2000;
 
 std::vector<double> numbers(const Study& study, std::uint64_t index,
-                            const std::vector<std::uint64_t>& exchanged = {},
+                            const std::vector<DrawExchange>& exchanged = {},
                             Group group = Group::graded) {
     GearboxId id{group, index};
     id.exchanged = exchanged;
@@ -27,80 +28,126 @@ std::vector<double> numbers(const Study& study, std::uint64_t index,
     return all;
 }
 
-// Of places.
-double share_of_same(const std::vector<double>& a, const std::vector<double>& b) {
-    double same = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        same += a[i] == b[i] ? 1.0 / static_cast<double>(a.size()) : 0.0;
+std::vector<double> many_numbers(const Study& study, const GearboxId& id) {
+    std::vector<double> all(kNumbers);
+    Normals::of_noise(study, id, "noise.sensor").normals(all);
+    return all;
+}
+
+std::size_t column_of(const Sampler& sampler, const std::string& name) {
+    std::size_t column = 0;
+    while (sampler.columns()[column].name != name) {
+        ++column;
     }
-    return same;
+    return column;
+}
+
+// 1 - s of an exchange in which `mixed` became (1 - s) own + sqrt(1 - (1 - s)^2) other.
+double kept_share(const std::vector<double>& mixed, const std::vector<double>& own,
+                  const std::vector<double>& other) {
+    // Two places give both factors.
+    const double determinant = own[0] * other[1] - own[1] * other[0];
+    const double kept = (mixed[0] * other[1] - mixed[1] * other[0]) / determinant;
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+        const double expected = kept * own[i] + std::sqrt(1.0 - kept * kept) * other[i];
+        REQUIRE(mixed[i] == Approx(expected).margin(1e-12));
+    }
+    return kept;
 }
 
 }  // namespace
 
-TEST_CASE("Exchanged numbers are the gearbox's own or the other's, in shares of three kinds") {
+TEST_CASE("Exchanged numbers are normal mixtures of both, as large as the share says") {
     const Study study = test::study_of_text(tests::kExampleStudy);
     const std::vector<double> own = numbers(study, 4);
-    std::array<int, 3> kinds{};
-    for (std::uint64_t other = 100; other < 130; ++other) {
-        const std::vector<double> exchanged = numbers(study, 4, {other});
-        const double taken = share_of_same(exchanged, numbers(study, other));
-        CHECK(share_of_same(exchanged, own) == Approx(1.0 - taken));
-        constexpr std::array kShares{0.3, 0.1, 0.03};
-        int kind = 0;
-        while (kind < 2 && std::abs(taken - kShares[static_cast<std::size_t>(kind)]) > 0.035) {
-            ++kind;
-        }
-        INFO(other << " gives " << taken);
-        CHECK(taken == Approx(kShares[static_cast<std::size_t>(kind)]).margin(0.035));
-        ++kinds[static_cast<std::size_t>(kind)];
+    for (const double share : {0.0, 0.01, 0.3, 1.0}) {
+        const std::vector<double> mixed = numbers(study, 4, {{100, share}});
+        CHECK(kept_share(mixed, own, numbers(study, 100)) == Approx(1.0 - share).margin(1e-12));
     }
-    for (const int kind : kinds) {
-        CHECK(kind > 2);
-    }
+    CHECK(numbers(study, 4, {{100, 0.0}}) == own);
 }
 
-TEST_CASE("A later exchange goes over an earlier one") {
+TEST_CASE("A later exchange mixes what the earlier ones left") {
     const Study study = test::study_of_text(tests::kExampleStudy);
-    const std::vector<double> both = numbers(study, 4, {100, 101});
-    const std::vector<double> first = numbers(study, 4, {100}), own = numbers(study, 4);
-    const std::vector<double> second = numbers(study, 4, {101});
-    const std::vector<double> of_second = numbers(study, 101);
-    for (std::size_t i = 0; i < both.size(); ++i) {
-        CHECK(both[i] == (second[i] == of_second[i] ? of_second[i] : first[i]));
-    }
-    CHECK(share_of_same(both, own) < 1.0);
-    CHECK(numbers(study, 4, {100}, Group::threshold) != first);
+    const std::vector<double> both = numbers(study, 4, {{100, 0.2}, {101, 0.4}});
+    const std::vector<double> first = numbers(study, 4, {{100, 0.2}});
+    CHECK(kept_share(both, first, numbers(study, 101)) == Approx(0.6));
+    CHECK(numbers(study, 4, {{100, 0.2}}, Group::threshold) != first);
 }
 
-TEST_CASE("Random inputs, planets and records are exchanged as a whole") {
+TEST_CASE("Noise is exchanged number by number, a record's and a repeat's its own") {
+    const Study study = test::study_of_text(tests::kExampleStudy);
+    GearboxId id{Group::graded, 4}, other{Group::graded, 100};
+    const std::vector<DrawExchange> exchanged{{100, 0.1}};
+    for (const Record record : {Record::judged, Record::baseline}) {
+        for (const std::uint64_t repeat : {0, 3}) {
+            id.record = other.record = record;
+            id.repeat = other.repeat = repeat;
+            id.exchanged.reset();
+            const std::vector<double> own = many_numbers(study, id);
+            std::vector<double> plain(kNumbers);
+            Philox engine = noise_stream(study, id, "noise.sensor");
+            signals::draw_normals(engine, std::span(plain));
+            CHECK(own == plain);
+            id.exchanged = exchanged;
+            CHECK(kept_share(many_numbers(study, id), own, many_numbers(study, other)) ==
+                  Approx(0.9));
+        }
+    }
+}
+
+TEST_CASE("Of gearboxes that exchange, random inputs keep their law and move by normal numbers") {
     const Study study = test::study_of_text(
         tests::kExampleStudy, {"random.sensor.path_exponent={distribution=\"uniform\",low=0,"
                                "high=1}",
+                               "random.sensor.gain={distribution=\"discrete\",values=[1,2],"
+                               "weights=[1,3]}",
                                "gearbox.pin_tangential_rms_um=8"});
     const Sampler sampler(study);
-    std::size_t column = 0;
-    while (sampler.columns()[column].name != "path_exponent") {
-        ++column;
-    }
-    int taken = 0;
-    constexpr int kGearboxes = 200;
+    const std::size_t column = column_of(sampler, "path_exponent");
+    constexpr int kGearboxes = 2000;
+    double sum = 0.0, squares = 0.0, twos = 0.0;
     for (std::uint64_t index = 0; index < kGearboxes; ++index) {
-        const std::vector<std::uint64_t> other{1000 + index};
+        const std::vector<DrawExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
+        const auto at = [&](std::uint64_t which, std::span<const DrawExchange> exchanged) {
+            GearboxId id{Group::graded, which};
+            id.exchanged = exchanged;
+            CHECK(sampler.row(id)[column] == sampler.sample(id).path_exponent);
+            return sampler.sample(id);
+        };
+        const InstanceInputs inputs = at(index, others);
+        sum += inputs.path_exponent / kGearboxes;
+        squares += inputs.path_exponent * inputs.path_exponent / kGearboxes;
+        twos += inputs.gain == 2.0 ? 1.0 / kGearboxes : 0.0;
+        CHECK(inputs.gain * (3.0 - inputs.gain) == Approx(2.0));
+        // By the quantile of a normal number that belongs to the input.
         GearboxId id{Group::graded, index};
-        const double own = sampler.sample(id).path_exponent;
-        id.exchanged = other;
-        const InstanceInputs inputs = sampler.sample(id);
-        const double given = sampler.sample(Group::graded, other[0]).path_exponent;
-        CHECK((inputs.path_exponent == own || inputs.path_exponent == given));
-        taken += inputs.path_exponent == given ? 1 : 0;
-        const std::uint64_t from = drawn_from(study, id, "sensor.path_exponent");
-        CHECK(from == (inputs.path_exponent == given ? other[0] : index));
-        CHECK(record_stream(study, id, "sensor.path_exponent")() ==
-              gearbox_stream(study, {Group::graded, from}, "sensor.path_exponent")());
-        CHECK(sampler.row(id)[column] == inputs.path_exponent);
+        id.exchanged = others;
+        const double normal = Normals(study, id, "sensor.path_exponent")();
+        CHECK(inputs.path_exponent == share_below(normal));
+        // Without exchanges as well.
+        id.exchanged = none;
+        CHECK(at(index, none).path_exponent ==
+              share_below(Normals(study, id, "sensor.path_exponent")()));
     }
-    // 14 % on average.
-    CHECK(taken > 14);
-    CHECK(taken < 46);
+    CHECK(sum == Approx(0.5).margin(0.02));
+    CHECK(squares == Approx(1.0 / 3.0).margin(0.02));
+    CHECK(twos == Approx(0.75).margin(0.03));
+}
+
+TEST_CASE("What is not made of normal numbers is exchanged as a whole") {
+    const Study study = test::study_of_text(tests::kExampleStudy);
+    int taken = 0;
+    for (std::uint64_t index = 0; index < 200; ++index) {
+        const std::vector<DrawExchange> other{{1000 + index, 0.2}};
+        GearboxId id{Group::graded, index};
+        id.exchanged = other;
+        const std::uint64_t from = drawn_from(study, id, "sensor.tones.phase");
+        CHECK((from == index || from == 1000 + index));
+        taken += from == 1000 + index ? 1 : 0;
+        CHECK(record_stream(study, id, "sensor.tones.phase")() ==
+              gearbox_stream(study, {Group::graded, from}, "sensor.tones.phase")());
+    }
+    CHECK(taken > 20);
+    CHECK(taken < 60);
 }
