@@ -114,7 +114,7 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& for
 
 std::optional<LeastCost> least_cost(const GradedValues& values, const Costs& costs,
                                     double confidence) {
-    const double sign = values.alarm == Alarm::high ? 1.0 : -1.0;
+    const double sign = alarm_sign(values.alarm);
     const HealthyThresholds all(values.healthy, values.alarm);
     const std::vector<double> healthy =
         largest_values(all.plain(), values.alarm, static_cast<long>(all.plain().size()));

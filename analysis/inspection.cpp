@@ -145,8 +145,7 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
         return;
     }
     for (const double value : without) {
-        result.false_calls +=
-            request.alarm == Alarm::high ? value > result.threshold : value < result.threshold;
+        result.false_calls += is_alarm(value, result.threshold, request.alarm);
     }
     SignalResponseRequest asked;
     asked.threshold = result.threshold;

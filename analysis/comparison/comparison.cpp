@@ -170,7 +170,7 @@ struct Areas {
 };
 
 Areas areas_of(const ComparedSample& own, const ComparedSample& other, bool paired) {
-    const double sign = own.alarm == Alarm::high ? 1.0 : -1.0;
+    const double sign = alarm_sign(own.alarm);
     Areas areas;
     const auto usable = [&](std::span<const double> mine, std::span<const double> others,
                             std::size_t i) {

@@ -47,9 +47,7 @@ std::vector<int> drawn_again(std::size_t count, std::mt19937_64& engine) {
 Resampling::Resampling(Alarm alarm, std::span<const double> healthy,
                        std::span<const double> graded_size, std::span<const double> graded,
                        const std::vector<SizeGroup>& groups, double false_alarm_rate)
-    : sign_(alarm == Alarm::high ? 1.0 : -1.0),
-      false_alarm_rate_(false_alarm_rate),
-      groups_(groups.size()) {
+    : sign_(alarm_sign(alarm)), false_alarm_rate_(false_alarm_rate), groups_(groups.size()) {
     for (std::size_t i = 0; i < healthy.size(); ++i) {
         if (std::isfinite(healthy[i])) {
             healthy_.emplace_back(sign_ * healthy[i], i);

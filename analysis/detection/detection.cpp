@@ -63,7 +63,7 @@ bool tied(const LevelDetection& level, const DetectionRequest& request) {
 // What fewer of the largest values would have said.
 TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
                              const Threshold& threshold, const DetectionRequest& request) {
-    const double sign = alarm == Alarm::high ? 1.0 : -1.0;
+    const double sign = alarm_sign(alarm);
     const auto choice = [&](const TailFit& fit) {
         return TailChoice{fit.exceedances(),
                           sign * fit.above(),

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/detection/alarm.hpp"
 #include "analysis/statistics/interval.hpp"
 
 namespace gearpod::analysis {
-
-// Which side of the threshold raises the alarm.
-enum class Alarm { high, low };
 
 // One group of gearboxes whose fault sizes lie in [low, high], in the request's unit; both are
 // equal for a fixed level.

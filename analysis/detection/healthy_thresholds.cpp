@@ -62,7 +62,7 @@ Interval HealthyThresholds::value_bounds(const Threshold& threshold, double fals
         const double wanted = false_alarm_rate * false_alarm_rate / bound;
         const double rank = std::ceil((static_cast<double>(ascending.size()) + 1.0) *
                                       (1.0 - std::min(1.0, wanted)));
-        const double sign = alarm_ == Alarm::high ? 1.0 : -1.0;
+        const double sign = alarm_sign(alarm_);
         return rank > static_cast<double>(ascending.size())
                    ? sign * std::numeric_limits<double>::infinity()
                    : sign * ascending[static_cast<std::size_t>(std::max(1.0, rank)) - 1];

@@ -20,10 +20,6 @@ double next_share(double share, double kept) {
     return std::clamp(share * std::clamp(kept / kWanted, 1.0 / kStep, kStep), kLeast, 1.0);
 }
 
-double alarm_sign(Alarm alarm) {
-    return alarm == Alarm::high ? 1.0 : -1.0;
-}
-
 }  // namespace
 
 SplitTail SplitTail::to_rate(const Settings& settings, double rate, const SplitValues& values) {

@@ -11,10 +11,6 @@
 namespace gearpod::analysis {
 namespace {
 
-double sign_of(Alarm alarm) {
-    return alarm == Alarm::high ? 1.0 : -1.0;
-}
-
 double order_statistic(std::vector<double>& values, long rank, Alarm alarm) {
     const auto place = values.begin() + (rank - 1);
     if (alarm == Alarm::high) {
@@ -39,7 +35,7 @@ Threshold alarm_threshold(std::vector<double> healthy, Alarm alarm, double false
         TailFit tail(largest_values(healthy, alarm, exceedances_of(threshold.sample)),
                      threshold.sample);
         if (tail.refusal().empty()) {
-            threshold.value = sign_of(alarm) * tail.threshold(false_alarm_rate);
+            threshold.value = alarm_sign(alarm) * tail.threshold(false_alarm_rate);
             threshold.tail = std::move(tail);
         }
     }
@@ -55,7 +51,8 @@ HealthyRate rate_of(const Threshold& threshold, Alarm alarm, double false_alarm_
         return {false_alarm_rate, threshold.tilted->rate};
     }
     return threshold.tail
-               ? threshold.tail->rate(sign_of(alarm) * threshold.value, alarms, tested, confidence)
+               ? threshold.tail->rate(alarm_sign(alarm) * threshold.value, alarms, tested,
+                                      confidence)
                : healthy_rate(threshold.sample, false_alarm_rate, alarms, tested, confidence);
 }
 
@@ -100,7 +97,7 @@ Interval threshold_interval(const std::vector<double>& healthy, Alarm alarm,
 std::vector<double> largest_values(std::vector<double> healthy, Alarm alarm, long exceedances) {
     std::erase_if(healthy, [](double value) { return !std::isfinite(value); });
     for (double& value : healthy) {
-        value *= sign_of(alarm);
+        value *= alarm_sign(alarm);
     }
     const auto kept = std::min(healthy.size(), static_cast<std::size_t>(exceedances) + 1);
     std::partial_sort(healthy.begin(), healthy.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -108,10 +105,6 @@ std::vector<double> largest_values(std::vector<double> healthy, Alarm alarm, lon
     healthy.resize(kept);
     std::reverse(healthy.begin(), healthy.end());
     return healthy;
-}
-
-bool is_alarm(double value, double threshold, Alarm alarm) {
-    return alarm == Alarm::high ? value > threshold : value < threshold;
 }
 
 }  // namespace gearpod::analysis

@@ -43,7 +43,4 @@ Interval threshold_interval(const std::vector<double>& healthy, Alarm alarm,
 // the one that they exceed, ascending. All of them if there are no more.
 std::vector<double> largest_values(std::vector<double> healthy, Alarm alarm, long exceedances);
 
-// Strictly beyond; false if either is NaN.
-bool is_alarm(double value, double threshold, Alarm alarm);
-
 }  // namespace gearpod::analysis

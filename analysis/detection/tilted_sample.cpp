@@ -71,7 +71,7 @@ double exponential_share(const std::vector<double>& scores, double share) {
 
 TiltedSample::TiltedSample(std::span<const double> values, std::span<const double> weights,
                            std::span<const std::size_t> gearbox, Alarm alarm)
-    : sign_(alarm == Alarm::high ? 1.0 : -1.0) {
+    : sign_(alarm_sign(alarm)) {
     for (std::size_t first = 0; first < values.size();) {
         std::size_t end = first;
         long finite = 0;

@@ -60,10 +60,6 @@ Normal learn(std::span<const double> values, std::span<const double> condition,
     return normal;
 }
 
-double sign_of(Alarm alarm) {
-    return alarm == Alarm::high ? 1.0 : -1.0;
-}
-
 // Of all records, those of the baseline too.
 std::vector<double> residuals(std::span<const double> values, std::span<const double> condition,
                               std::size_t baseline, Alarm alarm) {
@@ -73,7 +69,7 @@ std::vector<double> residuals(std::span<const double> values, std::span<const do
         const double at = condition.empty() ? 0.0 : condition[i];
         // Of its own records the scatter about the line, of further ones that of their prediction.
         const double sd = i < baseline ? normal.sd : normal.prediction_sd(at);
-        all[i] = sign_of(alarm) * (values[i] - normal.expected(at)) / sd;
+        all[i] = alarm_sign(alarm) * (values[i] - normal.expected(at)) / sd;
     }
     return all;
 }
@@ -106,7 +102,7 @@ std::vector<double> own_deviations(std::span<const double> values,
     if (baseline == 0) {
         std::vector<double> all(values.begin(), values.end());
         std::transform(all.begin(), all.end(), all.begin(),
-                       [&](double value) { return sign_of(alarm) * value; });
+                       [&](double value) { return alarm_sign(alarm) * value; });
         return all;
     }
     std::vector<double> all = residuals(values, condition, baseline, alarm);

@@ -20,10 +20,6 @@ PodForm form_of(const SignalResponseFit& fit) {
     return form;
 }
 
-double side_of(Alarm alarm) {
-    return alarm == Alarm::high ? 1.0 : -1.0;
-}
-
 // Between a and b, at which `function` has other signs.
 template <typename Function>
 double root(Function function, double a, double b) {
@@ -37,7 +33,7 @@ double root(Function function, double a, double b) {
 class BoundsOfPod : public ResponseBounds {
   public:
     BoundsOfPod(const SignalResponseFit& fit, double threshold, Alarm alarm, double z)
-        : fit_(fit), threshold_(fit.scale.y(threshold)), side_(side_of(alarm)), z_(z) {}
+        : fit_(fit), threshold_(fit.scale.y(threshold)), side_(alarm_sign(alarm)), z_(z) {}
 
     SizeBounds size(double pod, double smallest, double largest) const override {
         // A higher POD at a size means a smaller size for a POD.
@@ -111,7 +107,7 @@ class BoundsOfLikelihood : public ResponseBounds {
           curve_(curve_of(fit, threshold)),
           form_(form_of(fit)),
           threshold_(fit.scale.y(threshold)),
-          side_(side_of(alarm)),
+          side_(alarm_sign(alarm)),
           limit_(limit) {}
 
     SizeBounds size(double pod, double smallest, double largest) const override {

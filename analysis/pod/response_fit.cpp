@@ -167,7 +167,7 @@ SignalResponseFit fit_response(const ResponseRows& rows, const ResponseScale& sc
             points.jacobian - 0.5 * n * (std::log(2.0 * std::numbers::pi * variance) + 1.0);
         fit.aic = 6.0 - 2.0 * fit.log_likelihood;
     }
-    if (!(fit.model.slope * (alarm == Alarm::high ? 1.0 : -1.0) > 0.0)) {
+    if (!(fit.model.slope * alarm_sign(alarm) > 0.0)) {
         fit.refusals.push_back("the feature does not move to the alarm side with the fault size");
     }
     add_checks(fit, checked);

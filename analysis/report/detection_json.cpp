@@ -78,7 +78,7 @@ nlohmann::json detection_json(std::span<const FeatureDetection> features,
             levels.push_back(level_json(level));
         }
         list.push_back({{"name", feature.feature},
-                        {"alarm", feature.alarm == Alarm::high ? "high" : "low"},
+                        {"alarm", alarm_name(feature.alarm)},
                         {"warnings", feature.warnings},
                         {"levels", levels}});
     }

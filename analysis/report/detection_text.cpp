@@ -35,8 +35,7 @@ std::string rate_text(const DetectionCell& cell) {
 std::string threshold_text(const FeatureDetection& feature, const LevelDetection& level) {
     return std::isnan(level.threshold)
                ? std::string("none")
-               : fmt::format("{} {:.5g}", feature.alarm == Alarm::high ? ">" : "<",
-                             level.threshold);
+               : fmt::format("{} {:.5g}", alarm_symbol(feature.alarm), level.threshold);
 }
 
 std::size_t column_width(Features features) {

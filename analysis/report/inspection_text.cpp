@@ -84,9 +84,9 @@ void add_hit_miss(std::string& out, const InspectionRequest& request,
 void add_responses(std::string& out, const InspectionRequest& request,
                    const InspectionResult& result, const InspectionWords& words) {
     const SignalResponsePod& pod = result.signal_response;
-    out += fmt::format("decision threshold: {} {} {:.6g}; censored: {} below, {} above\n",
-                       words.value, request.alarm == Alarm::high ? ">" : "<", result.threshold,
-                       pod.left, pod.right);
+    out +=
+        fmt::format("decision threshold: {} {} {:.6g}; censored: {} below, {} above\n", words.value,
+                    alarm_symbol(request.alarm), result.threshold, pod.left, pod.right);
     if (!pod.refusal.empty()) {
         add_wrapped(out, "no curve: " + pod.refusal, 4);
         if (!pod.candidates.empty()) {

@@ -159,9 +159,8 @@ nlohmann::json reliability_json(const Reliability& reliability, const DetectionR
             at.push_back(to_json(feature.levels[n]));
             at.back()["smallest_fault"] = to_json(smallest_fault(reliability, n, f));
         }
-        features.push_back({{"name", feature.feature},
-                            {"alarm", feature.alarm == Alarm::high ? "high" : "low"},
-                            {"levels", at}});
+        features.push_back(
+            {{"name", feature.feature}, {"alarm", alarm_name(feature.alarm)}, {"levels", at}});
     }
     for (const ConditionDetection& detection : reliability.conditions) {
         conditions.push_back(to_json(detection));

@@ -15,8 +15,7 @@ using analysis::SizeEstimate;
 
 // Whether a value raises the alarm.
 bool alarm(const analysis::FeatureDetection& feature, std::size_t level, double value) {
-    const double threshold = feature.levels[level].threshold;
-    return feature.alarm == analysis::Alarm::high ? value > threshold : value < threshold;
+    return analysis::is_alarm(value, feature.levels[level].threshold, feature.alarm);
 }
 
 double share_of_alarms_changed(const Results& a, const Results& b) {

@@ -9,6 +9,7 @@
 #include <ranges>
 #include <stdexcept>
 
+#include "analysis/detection/feature_alarm.hpp"
 #include "mc/commands/support.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/json_text.hpp"
@@ -91,12 +92,15 @@ AskedSize ask_size(const Study& study, double size, Complaints& complaints) {
     return {size * unit.to_si, size, unit.suffix.empty() ? "" : std::string(unit.name)};
 }
 
+const char* alarm_symbol_of(const std::string& feature) {
+    return analysis::alarm_symbol(analysis::alarm_of(*features::find_feature(feature)));
+}
+
 std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
                          double threshold) {
-    const bool high = features::find_feature(feature)->alarm == features::AlarmSide::high;
-    return fmt::format(
-        "faults of {:g}{}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ", size.given,
-        size.unit.empty() ? "" : " ", size.unit, feature, noise_level, high ? ">" : "<", threshold);
+    return fmt::format("faults of {:g}{}{} that {} misses at noise x {:g} (alarm if {} {:.5g}): ",
+                       size.given, size.unit.empty() ? "" : " ", size.unit, feature, noise_level,
+                       alarm_symbol_of(feature), threshold);
 }
 
 StudyScene scene_of_asked(const AskedResults& results, const Study& study) {

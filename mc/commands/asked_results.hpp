@@ -53,6 +53,8 @@ struct AskedSize {
 };
 // Complains of --size. Of a study with a fault.
 AskedSize ask_size(const Study& study, double size, Complaints& complaints);
+// ">" or "<", as its alarm is.
+const char* alarm_symbol_of(const std::string& feature);
 // "faults of 2 mm that fm4 misses at noise x 1 (alarm if > 3.1): "
 std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
                          double threshold);

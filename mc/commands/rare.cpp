@@ -68,10 +68,6 @@ PreparedRare prepare_rare(const RareOptions& options) {
     return prepared;
 }
 
-bool alarms_above(const RareQuestion& question) {
-    return features::find_feature(question.feature)->alarm == features::AlarmSide::high;
-}
-
 std::string not_known(const RareQuestion& question, const RareAnswer& answer) {
     return !question.rate && answer.last_rate < kRarestMisses
                ? fmt::format("rarer than {:g}", kRarestMisses)
@@ -95,7 +91,7 @@ std::string alarms_text(const PreparedRare& prepared, const RareAnswer& answer) 
                        "threshold {:.5g} [{:.5g}, {:.5g}] (alarm if {}), whose rate is "
                        "{:.3g} [{:.3g}, {:.3g}] at {:g} %",
                        answer.estimate->threshold, answer.threshold.lower, answer.threshold.upper,
-                       alarms_above(q) ? ">" : "<", answer.estimate->expected,
+                       alarm_symbol_of(q.feature), answer.estimate->expected,
                        answer.estimate->rate.lower, answer.estimate->rate.upper,
                        100.0 * prepared.confidence);
 }

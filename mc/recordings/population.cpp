@@ -129,7 +129,7 @@ std::vector<Verdict> judge(const Population& population, const std::vector<doubl
         verdict.population = &known;
         verdict.value = value;
         verdict.alarm = analysis::is_alarm(value, known.threshold, known.alarm);
-        const double side = known.alarm == analysis::Alarm::high ? 1.0 : -1.0;
+        const double side = analysis::alarm_sign(known.alarm);
         verdict.margin = side * (value - known.threshold) / std::abs(known.threshold);
         verdict.less_extreme =
             std::count_if(known.healthy.begin(), known.healthy.end(),

@@ -93,7 +93,7 @@ Json features_json(const Results& frame) {
         const features::Feature* feature = features::find_feature(result.name);
         json.push_back({{"name", result.name},
                         {"unit", result.unit},
-                        {"alarm", alarm_text(result.alarm)},
+                        {"alarm", analysis::alarm_name(result.alarm)},
                         {"doc", feature != nullptr ? std::string(feature->doc) : ""}});
     }
     return json;

@@ -16,10 +16,6 @@ inline const char* columns_name(const Results& frame) {
     return frame.provenance_value("kind") == kLivesKind ? "hours" : "noise_levels";
 }
 
-inline const char* alarm_text(analysis::Alarm alarm) {
-    return alarm == analysis::Alarm::high ? "high" : "low";
-}
-
 // The numbers of one cell and of one level, by dataset name: long and double members in turn.
 struct CellCount {
     const char* name;

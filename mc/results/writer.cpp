@@ -76,7 +76,7 @@ void create_features(hid_t root, const Results& frame, hsize_t rows, Places& pla
             {create_column(group.get(), feature.name, {rows, shape.levels}, ColumnKind::numbers),
              shape.value_of(f, 0), shape.levels});
         write_text(group.get(), feature.name, "unit", feature.unit);
-        write_text(group.get(), feature.name, "alarm", alarm_text(feature.alarm));
+        write_text(group.get(), feature.name, "alarm", analysis::alarm_name(feature.alarm));
     }
 }
 
@@ -122,7 +122,7 @@ void write_feature_detection(hid_t parent, const analysis::FeatureDetection& det
                              const std::vector<analysis::SizeGroup>& sizes) {
     const Hdf5Handle group = create_group(parent, detection.feature);
     const hsize_t levels = detection.levels.size();
-    write_text(group.get(), ".", "alarm", alarm_text(detection.alarm));
+    write_text(group.get(), ".", "alarm", analysis::alarm_name(detection.alarm));
     write_text(group.get(), ".", "warnings", joined(detection.warnings));
     write_sizes(group.get(), sizes);
     for (const LevelNumber& number : kLevelNumbers) {
