@@ -6,6 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "machine/wall_clock.hpp"
 #include "mc/commands/run_agreement.hpp"
@@ -136,6 +138,24 @@ std::unique_ptr<Checkpoint> lives_checkpoint(const RunOptions& run, const Study&
     return nullptr;
 }
 
+// Keys of the study that speak of single records.
+void print_left_out(const RunOptions& run, const Study& study) {
+    std::vector<std::string> keys;
+    if (study.numerics.verify) {
+        keys.emplace_back("numerics.verify");
+    }
+    if (study.ensemble.until.half_width) {
+        keys.emplace_back("ensemble.until");
+    }
+    if (!study.detection.uncertain_inputs.empty()) {
+        keys.emplace_back("detection.uncertain_inputs");
+    }
+    if (!keys.empty()) {
+        fmt::print(stderr, "{}: lives leave out what is for single records (run): {}\n",
+                   run.study.path, fmt::join(keys, ", "));
+    }
+}
+
 }  // namespace
 
 int lives_command(const LivesOptions& options) {
@@ -157,6 +177,9 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
         const bool good_json = can_write(json, {study, results});
         const bool good_page = can_write({"--html", options.html}, {study, results, json});
         const bool good_out = check_output(run), good_progress = check_progress(run);
+        if (made) {
+            print_left_out(run, made.scene->study());
+        }
         if (tiles && good_limit && good_json && good_page && good_out && good_progress) {
             checkpoint = lives_checkpoint(run, made.scene->study());
         }
