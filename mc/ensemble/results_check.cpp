@@ -83,6 +83,10 @@ std::string unlike_study(const Results& frame, const Results& own) {
                         request.size.name != own.request.size.name)) {
         why = "/detection has another false_alarm_rate, confidence or size_name than the study";
     }
+    if (why.empty() && request.threshold_records != own.request.threshold_records) {
+        why = fmt::format("/detection has threshold_records = {}, but of the study {}",
+                          request.threshold_records, own.request.threshold_records);
+    }
     return why;
 }
 

@@ -102,6 +102,9 @@ std::vector<Edit> edits() {
              replace_numbers(root, "instances/path_exponent", {3}, {1, 2, 3});
          },
          "damaged"},
+        {"records of healthy gearboxes that have one each",
+         [](hid_t root) { mc::write_number(root, "detection", "threshold_records", 3.0); },
+         "threshold_records = 3, but of the study 1"},
         {"a confidence of nothing",
          [](hid_t root) {
              mc::check(H5Adelete_by_name(root, "detection", "confidence", H5P_DEFAULT), "");
