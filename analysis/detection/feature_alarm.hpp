@@ -9,5 +9,9 @@ namespace gearpod::analysis {
 constexpr Alarm alarm_of(const features::Feature& feature) {
     return feature.alarm == features::AlarmSide::low ? Alarm::low : Alarm::high;
 }
+// The other one, on which it misses.
+constexpr Alarm miss_of(const features::Feature& feature) {
+    return alarm_of(feature) == Alarm::high ? Alarm::low : Alarm::high;
+}
 
 }  // namespace gearpod::analysis

@@ -30,7 +30,7 @@ std::vector<double> picked(std::span<const double> values, const std::vector<std
                            Alarm alarm) {
     std::vector<double> out;
     for (const std::size_t row : rows) {
-        out.push_back(alarm == Alarm::high ? values[row] : -values[row]);
+        out.push_back(alarm_sign(alarm) * values[row]);
     }
     return out;
 }

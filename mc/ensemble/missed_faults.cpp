@@ -103,11 +103,9 @@ MissAnswer missed_faults(const Scene& scene, const MissQuestion& question, const
     for (std::size_t batch = 0; batch < plan.batches(); ++batch) {
         all.add(store.read(batch), shape, records);
     }
-    const bool high =
-        analysis::alarm_of(*features::find_feature(question.feature)) == analysis::Alarm::high;
-    // A miss lies on the threshold's other side.
-    const analysis::TiltedSample sample(all.values, all.weights, all.gearbox,
-                                        high ? analysis::Alarm::low : analysis::Alarm::high);
+    const analysis::TiltedSample sample(
+        all.values, all.weights, all.gearbox,
+        analysis::miss_of(*features::find_feature(question.feature)));
     answer.misses = sample.at(question.threshold, scene.study().detection.confidence);
     answer.gearboxes = all.gearboxes;
     answer.failed = all.failed;

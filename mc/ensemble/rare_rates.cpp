@@ -143,8 +143,8 @@ analysis::SplitTail::Settings settings_of(const RareQuestion& question) {
 }  // namespace
 
 analysis::Alarm RareQuestion::towards() const {
-    const bool high = analysis::alarm_of(*features::find_feature(feature)) == analysis::Alarm::high;
-    return high == rate.has_value() ? analysis::Alarm::high : analysis::Alarm::low;
+    const features::Feature& asked = *features::find_feature(feature);
+    return rate ? analysis::alarm_of(asked) : analysis::miss_of(asked);
 }
 
 Study study_of_rare(const Study& study, const RareQuestion& question) {

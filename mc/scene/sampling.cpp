@@ -215,33 +215,25 @@ Study Sampler::draw(const GearboxId& id) const {
         }
         return Normals(study_, id, study_.random[input].key)();
     });
-    for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
-        const RandomInput& input = study_.random[i];
-        if (copula_.has(i)) {
-            std::get<NumberAccess>(key_of(input).access)
-                .set(drawn, input.distribution.quantile(shares[correlated++]) * input.to_si);
-            continue;
-        }
-        if (plan_.has(i)) {
-            std::get<NumberAccess>(key_of(input).access)
-                .set(drawn,
-                     input.distribution.quantile(plan_.share(i, id.group, id.index)) * input.to_si);
-            continue;
-        }
+    const auto drawn_alone = [&](const RandomInput& input, std::uint64_t turn_length) {
         const int rows = input.distribution.rows().group;
         const std::string purpose =
             rows > 0 ? "random.rows." + std::to_string(rows) : std::string(input.key);
         GearboxId own = id;
         own.record = input.distribution.per_record() ? id.record : Record::judged;
-        double value = 0.0;
         if (id.exchanged && input.distribution.has_quantile()) {
-            Normals normal = Normals::of_record(study_, own, purpose);
-            value = input.distribution.quantile(share_below(normal()));
-        } else {
-            Philox engine = record_stream(study_, own, purpose);
-            const std::uint64_t turn = drawn_from(study_, id, purpose) / turn_lengths_[i];
-            value = input.distribution.draw(engine, turn);
+            return input.distribution.quantile(
+                share_below(Normals::of_record(study_, own, purpose)()));
         }
+        Philox engine = record_stream(study_, own, purpose);
+        return input.distribution.draw(engine, drawn_from(study_, id, purpose) / turn_length);
+    };
+    for (std::size_t i = 0, correlated = 0; i < study_.random.size(); ++i) {
+        const RandomInput& input = study_.random[i];
+        const double value = copula_.has(i) ? input.distribution.quantile(shares[correlated++])
+                             : plan_.has(i)
+                                 ? input.distribution.quantile(plan_.share(i, id.group, id.index))
+                                 : drawn_alone(input, turn_lengths_[i]);
         std::get<NumberAccess>(key_of(input).access).set(drawn, value * input.to_si);
     }
     if (id.group == Group::threshold) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mc/study/fluctuations.hpp"
 #include "tests/mc/program.hpp"
@@ -38,9 +39,9 @@ std::vector<std::string> small(const std::string& name) {
         study.numerics.horizon == mc::Horizon::march || !mc::why_no_mesh_repeats(study).empty();
     std::vector<std::string> changes{marched ? "ensemble.instances=2" : "ensemble.instances=9",
                                      "ensemble.threshold_instances=1"};
-    const double carrier_Hz = study.operation.carrier_speed_rad_s.value_or(0.0) / 6.283185307;
-    if (marched && carrier_Hz > 0.0 && carrier_Hz < 0.2) {
-        changes.push_back(fmt::format("operation.carrier_speed_rpm={}", 600.0 * carrier_Hz));
+    const double carrier_rpm = study.operation.carrier_speed_rad_s.value_or(0.0) * 30.0 / M_PI;
+    if (marched && carrier_rpm > 0.0 && carrier_rpm < 12.0) {
+        changes.push_back(fmt::format("operation.carrier_speed_rpm={}", 10.0 * carrier_rpm));
     }
     return changes;
 }

@@ -109,26 +109,22 @@ TEST_CASE("Of gearboxes that exchange, random inputs keep their law and move by 
     double sum = 0.0, squares = 0.0, twos = 0.0;
     for (std::uint64_t index = 0; index < kGearboxes; ++index) {
         const std::vector<DrawExchange> none, others{{5000 + index, 0.3}, {9000 + index, 0.6}};
-        const auto at = [&](std::uint64_t which, std::span<const DrawExchange> exchanged) {
-            GearboxId id{Group::graded, which};
+        // By the quantile of a normal number that belongs to the input, without exchanges as well.
+        const auto with = [&](std::span<const DrawExchange> exchanged) {
+            GearboxId id{Group::graded, index};
             id.exchanged = exchanged;
-            CHECK(sampler.row(id)[column] == sampler.sample(id).path_exponent);
-            return sampler.sample(id);
+            const InstanceInputs inputs = sampler.sample(id);
+            CHECK(sampler.row(id)[column] == inputs.path_exponent);
+            CHECK(inputs.path_exponent ==
+                  share_below(Normals(study, id, "sensor.path_exponent")()));
+            return inputs;
         };
-        const InstanceInputs inputs = at(index, others);
+        with(none);
+        const InstanceInputs inputs = with(others);
         sum += inputs.path_exponent / kGearboxes;
         squares += inputs.path_exponent * inputs.path_exponent / kGearboxes;
         twos += inputs.gain == 2.0 ? 1.0 / kGearboxes : 0.0;
         CHECK(inputs.gain * (3.0 - inputs.gain) == Approx(2.0));
-        // By the quantile of a normal number that belongs to the input.
-        GearboxId id{Group::graded, index};
-        id.exchanged = others;
-        const double normal = Normals(study, id, "sensor.path_exponent")();
-        CHECK(inputs.path_exponent == share_below(normal));
-        // Without exchanges as well.
-        id.exchanged = none;
-        CHECK(at(index, none).path_exponent ==
-              share_below(Normals(study, id, "sensor.path_exponent")()));
     }
     CHECK(sum == Approx(0.5).margin(0.02));
     CHECK(squares == Approx(1.0 / 3.0).margin(0.02));
