@@ -25,23 +25,48 @@ struct PacedRungeKutta4 {
         const int size = Model::degrees_of_freedom(lanes) * W;
         double* __restrict q = state.q.data();
         double* __restrict v = state.v.data();
-        const double* const h0 = s.h[0];
-        const double* const hm = s.h[1];
         const double* const h1 = s.h[2];
 
-        load_node<Model>(plan, lanes, overrides, i, 0, s);
-        load_length<Model>(plan, lanes, i, 1, s);
-        load_length<Model>(plan, lanes, i, 2, s);
-        for (int l = 0; l < W; ++l) {
-            s.half[0][l] = 0.5 * h0[l];
-            s.half[1][l] = 0.5 * hm[l];
+        for (int node = 0; node < 3; ++node) {
+            load_length<Model>(plan, lanes, i, node, s);
         }
-        accelerate<Model>(lanes, q, v, s, s.a[0], s.input[0]);
-        move<W>(size, s.half[0], q, v, v, s.a[0], s.q, s.v);
-        load_node<Model>(plan, lanes, overrides, i, 1, s);
-        accelerate<Model>(lanes, s.q, s.v, s, s.a[1], s.input[1]);
-        move<W>(size, s.half[1], q, s.v, v, s.a[1], s.q, s.v);
-        accelerate<Model>(lanes, s.q, s.v, s, s.a[2], s.input[2]);
+        for (int l = 0; l < W; ++l) {
+            s.half[0][l] = 0.5 * s.h[0][l];
+            s.half[1][l] = 0.5 * s.h[1][l];
+        }
+        // A loop, for the compiler to write the accelerations out once.
+        for (int stage = 0; stage < 4; ++stage) {
+            if (stage != 2) {
+                load_node<Model>(plan, lanes, overrides, i, (stage + 1) / 2, s);
+            }
+            const double* const from_q = stage == 0 ? q : s.q;
+            const double* const from_v = stage == 0 ? v : s.v;
+            double* const a = s.a[stage % 3];
+            accelerate<Model>(lanes, from_q, from_v, s, a, s.input[std::min(stage, 2)]);
+            if (stage < 2) {
+                move<W>(size, s.half[stage], q, from_v, v, a, s.q, s.v);
+            } else if (stage == 2) {
+                most_of_step<Model>(size, channels, q, v, s);
+            }
+        }
+        for (int j = 0; j < size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                v[j + l] = std::fma(h1[l] / 6.0, s.a[0][j + l], v[j + l]);
+            }
+        }
+        for (int channel = 0; channel < channels; ++channel) {
+            low_pass<Model>(plan.low_pass_rad_s, channel * W, s,
+                            state.filter.data() + channel * W * kFilterStates);
+        }
+    }
+
+  private:
+    // All but the last stage's share in the velocity; s.q and s.v become that stage's.
+    template <class Model, int W = Model::kWidth>
+    static GEARPOD_INLINE void most_of_step(int size, int channels, double* __restrict q,
+                                            double* __restrict v, Stages<Model>& s) {
+        const double *const h0 = s.h[0], *const hm = s.h[1], *const h1 = s.h[2];
         for (int j = 0; j < channels * W; ++j) {
             s.input[1][j] = 0.5 * (s.input[1][j] + s.input[2][j]);
         }
@@ -64,21 +89,8 @@ struct PacedRungeKutta4 {
                                     std::fma(hm[l] / 3.0, s.a[1][j + l] + s.a[2][j + l], start));
             }
         }
-        load_node<Model>(plan, lanes, overrides, i, 2, s);
-        accelerate<Model>(lanes, s.q, s.v, s, s.a[0], s.input[2]);
-        for (int j = 0; j < size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                v[j + l] = std::fma(h1[l] / 6.0, s.a[0][j + l], v[j + l]);
-            }
-        }
-        for (int channel = 0; channel < channels; ++channel) {
-            low_pass<Model>(plan.low_pass_rad_s, channel * W, s,
-                            state.filter.data() + channel * W * kFilterStates);
-        }
     }
 
-  private:
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void load_length(const MarchPlan& plan,
                                            const typename Model::Lanes& lanes, int i, int node,
@@ -91,14 +103,13 @@ struct PacedRungeKutta4 {
         }
     }
 
-    // Meshes, forces and length of the step at a stage node. Errors change with the phase, so their
-    // rates follow the speed.
+    // Meshes and forces at a stage node. Errors change with the phase, so their rates follow the
+    // speed.
     template <class Model, int W = Model::kWidth>
     static GEARPOD_INLINE void load_node(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                          const MeshOverrides& overrides, int i, int node,
                                          Stages<Model>& s) {
         load_pairs<Model>(plan, lanes, overrides, i, node, s.pairs);
-        load_length<Model>(plan, lanes, i, node, s);
         if constexpr (Model::Mesh::kHasError) {
             const double* speed = lanes.drive.pace(s.pairs.row, pace_speed);
             for (int pair = 0; pair < plan.nodes.pairs; ++pair) {

@@ -31,7 +31,7 @@ struct BogackiShampine {
     }
 
     template <class Model, int W = Model::kWidth>
-    struct alignas(64) Stages : ExplicitStages<Model, 3> {
+    struct alignas(64) Stages : ExplicitStages<Model, 4> {
         RealOf<Model> estimate[kEstimateRows * W] = {};  // see MeshRecord::estimate
     };
 
@@ -48,16 +48,21 @@ struct BogackiShampine {
             sixth[l] = x.h[l] / Real(6);
         }
 
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
-        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
-        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
-        load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
-        move<W>(x.size, most, x.q, s.v, x.v, s.a[1], s.q, s.v);
-        load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
-        if (plan.grid.stage_nodes.size() > kEstimateNode) {
-            estimate<Model>(plan, lanes, overrides, i, x.h, x.q, x.v, s);
+        const bool estimates = plan.grid.stage_nodes.size() > kEstimateNode;
+        // A loop, for the compiler to write the accelerations out once.
+        for (int stage = 0; stage < (estimates ? 4 : 3); ++stage) {
+            const Real* const from_q = stage == 0 ? x.q : s.q;
+            const Real* const from_v = stage == 0 ? x.v : s.v;
+            load_pairs<Model>(plan, lanes, overrides, i, stage, s.pairs);
+            accelerate<Model>(lanes, from_q, from_v, s.pairs, s.a[stage], s.input[stage]);
+            if (stage < 2) {
+                move<W>(x.size, stage == 0 ? x.half : most, x.q, from_v, x.v, s.a[stage], s.q, s.v);
+            } else if (stage == 2 && estimates) {
+                end_of_step<Model>(x, s);
+            }
+        }
+        if (estimates) {
+            estimate<Model>(x, s);
         }
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
@@ -76,41 +81,41 @@ struct BogackiShampine {
     }
 
   private:
-    // From q and v at the step's start and the three stages: how far orders 3 and 2 lie apart. Uses
-    // up s.q and s.v.
-    template <class Model, class Real, int W = Model::kWidth>
-    static GEARPOD_INLINE void estimate(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                        const MeshOverrides& overrides, int i, const Real* h,
-                                        const Real* q, const Real* v, Stages<Model>& s) {
-        const int size = Model::degrees_of_freedom(lanes) * W;
-        Real end_q[Model::kMaxDegrees * W], end_v[Model::kMaxDegrees * W],
-            a4[Model::kMaxDegrees * W];
-        for (int j = 0; j < size; ++j) {
-            const Real t = h[j % W];
-            end_q[j] = q[j] + t * (v[j] + t / Real(6) * (s.a[0][j] + Real(2) * s.a[1][j]));
-            end_v[j] = v[j] + t / Real(9) *
+    // s.q and s.v become those of the fourth stage.
+    template <class Model, class Step, int W = Model::kWidth>
+    static GEARPOD_INLINE void end_of_step(const Step& x, Stages<Model>& s) {
+        using Real = RealOf<Model>;
+        for (int j = 0; j < x.size; ++j) {
+            const Real t = x.h[j % W];
+            s.q[j] = x.q[j] + t * (x.v[j] + t / Real(6) * (s.a[0][j] + Real(2) * s.a[1][j]));
+            s.v[j] = x.v[j] + t / Real(9) *
                                   (Real(2) * s.a[0][j] + Real(3) * s.a[1][j] + Real(4) * s.a[2][j]);
         }
-        load_pairs<Model>(plan, lanes, overrides, i, static_cast<int>(kEstimateNode), s.pairs);
-        Model::accelerations(lanes, end_q, end_v, s.pairs, a4);
+    }
+
+    // From the four stages: how far orders 3 and 2 lie apart.
+    template <class Model, class Step, int W = Model::kWidth>
+    static GEARPOD_INLINE void estimate(const Step& x, Stages<Model>& s) {
+        using Real = RealOf<Model>;
         std::fill_n(s.estimate, kEstimateRows * W, Real(0));
         const auto keep_largest = [&s](int row, int lane, Real value) {
             Real& largest = s.estimate[row * W + lane];
             largest = std::abs(value) > largest ? std::abs(value) : largest;
         };
-        for (int j = 0; j < size; ++j) {
+        for (int j = 0; j < x.size; ++j) {
             const int l = j % W;
-            const Real v2 = v[j] + Real(0.5) * h[l] * s.a[0][j];
-            const Real v3 = v[j] + Real(0.75) * h[l] * s.a[1][j];
-            keep_largest(0, l, end_q[j]);
-            keep_largest(1, l, end_v[j]);
-            keep_largest(2, l,
-                         h[l] / Real(72) *
-                             (Real(6) * v2 + Real(8) * v3 - Real(5) * v[j] - Real(9) * end_v[j]));
+            const Real h = x.h[l], v = x.v[j];
+            const Real v2 = v + Real(0.5) * h * s.a[0][j];
+            const Real v3 = v + Real(0.75) * h * s.a[1][j];
+            keep_largest(0, l, s.q[j]);
+            keep_largest(1, l, s.v[j]);
+            keep_largest(
+                2, l,
+                h / Real(72) * (Real(6) * v2 + Real(8) * v3 - Real(5) * v - Real(9) * s.v[j]));
             keep_largest(3, l,
-                         h[l] / Real(72) *
+                         h / Real(72) *
                              (Real(6) * s.a[1][j] + Real(8) * s.a[2][j] - Real(5) * s.a[0][j] -
-                              Real(9) * a4[j]));
+                              Real(9) * s.a[3][j]));
         }
     }
 };

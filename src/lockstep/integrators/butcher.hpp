@@ -74,10 +74,16 @@ struct Butcher {
                                     const Filter& filter, const MeshOverrides& overrides, int i,
                                     State& state, Stages<Model>& s) {
         const ExplicitStep<Model, State> x(plan, lanes, i, state);
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
-        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
-        later_stages<Model>(plan, lanes, overrides, i, x, s,
-                            std::make_integer_sequence<int, kStages - 1>());
+        // A loop, for the compiler to write the accelerations out once.
+        for (int stage = 0; stage < kStages; ++stage) {
+            const bool first = stage == 0;
+            if (first || kNodeOfStage[stage] != kNodeOfStage[stage - 1]) {
+                load_pairs<Model>(plan, lanes, overrides, i, kNodeOfStage[stage], s.pairs);
+            }
+            accelerate<Model>(lanes, first ? x.q : s.q, first ? x.v : s.v, s.pairs, s.a[stage],
+                              s.input[stage]);
+            move_to<Model>(stage + 1, x, s, std::make_integer_sequence<int, kStages - 1>());
+        }
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -116,19 +122,15 @@ struct Butcher {
         return std::fma(x.h[l], total, Real(kTwice[Row][kStages]) * x.v[at]);
     }
 
+    // s.q and s.v become the stage's, of those after the first.
     template <class Model, class Step, int... Before>
-    static GEARPOD_INLINE void later_stages(const MarchPlan& plan,
-                                            const typename Model::Lanes& lanes,
-                                            const MeshOverrides& overrides, int i, const Step& x,
-                                            Stages<Model>& s,
-                                            std::integer_sequence<int, Before...>) {
-        (stage<Before + 1, Model>(plan, lanes, overrides, i, x, s), ...);
+    static GEARPOD_INLINE void move_to(int stage, const Step& x, Stages<Model>& s,
+                                       std::integer_sequence<int, Before...>) {
+        (void)((stage == Before + 1 && (place<Before + 1, Model>(x, s), true)) || ...);
     }
 
     template <int Stage, class Model, class Step, int W = Model::kWidth>
-    static GEARPOD_INLINE void stage(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                     const MeshOverrides& overrides, int i, const Step& x,
-                                     Stages<Model>& s) {
+    static GEARPOD_INLINE void place(const Step& x, Stages<Model>& s) {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -137,10 +139,6 @@ struct Butcher {
                 s.v[at] = std::fma(x.h[l], rise<Stage>(s, at), x.v[at]);
             }
         }
-        if constexpr (kNodeOfStage[Stage] != kNodeOfStage[Stage - 1]) {
-            load_pairs<Model>(plan, lanes, overrides, i, kNodeOfStage[Stage], s.pairs);
-        }
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[Stage], s.input[Stage]);
     }
 };
 

@@ -47,13 +47,34 @@ struct RungeKutta4 {
             sixth[l] = x.h[l] / Real(6);
         }
 
-        load_pairs<Model>(plan, lanes, overrides, i, 0, s.pairs);
-        accelerate<Model>(lanes, x.q, x.v, s.pairs, s.a[0], s.input[0]);
-        move<W>(x.size, x.half, x.q, x.v, x.v, s.a[0], s.q, s.v);
-        load_pairs<Model>(plan, lanes, overrides, i, 1, s.pairs);
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[1], s.input[1]);
-        move<W>(x.size, x.half, x.q, s.v, x.v, s.a[1], s.q, s.v);
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[2], s.input[2]);
+        // A loop, for the compiler to write the accelerations out once.
+        for (int stage = 0; stage < 4; ++stage) {
+            if (stage != 2) {
+                load_pairs<Model>(plan, lanes, overrides, i, (stage + 1) / 2, s.pairs);
+            }
+            const Real* const from_q = stage == 0 ? x.q : s.q;
+            const Real* const from_v = stage == 0 ? x.v : s.v;
+            Real* const a = s.a[stage % 3];
+            accelerate<Model>(lanes, from_q, from_v, s.pairs, a, s.input[std::min(stage, 2)]);
+            if (stage < 2) {
+                move<W>(x.size, x.half, x.q, from_v, x.v, a, s.q, s.v);
+            } else if (stage == 2) {
+                most_of_step<Model>(x, sixth, s);
+            }
+        }
+        for (int j = 0; j < x.size; j += W) {
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                x.v[j + l] = advance(x.v[j + l], sixth[l], s.a[0][j + l], x.v_rest, j + l);
+            }
+        }
+        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
+    }
+
+  private:
+    // All but the last stage's share in the velocity; s.q and s.v become that stage's.
+    template <class Model, class Step, class Real, int W = Model::kWidth>
+    static GEARPOD_INLINE void most_of_step(const Step& x, const Real* sixth, Stages<Model>& s) {
         for (int j = 0; j < x.channels * W; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
@@ -75,15 +96,6 @@ struct RungeKutta4 {
                     advance(x.v[at], sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v_rest, at);
             }
         }
-        load_pairs<Model>(plan, lanes, overrides, i, 2, s.pairs);
-        accelerate<Model>(lanes, s.q, s.v, s.pairs, s.a[0], s.input[2]);
-        for (int j = 0; j < x.size; j += W) {
-#pragma omp simd
-            for (int l = 0; l < W; ++l) {
-                x.v[j + l] = advance(x.v[j + l], sixth[l], s.a[0][j + l], x.v_rest, j + l);
-            }
-        }
-        step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
     }
 };
 
