@@ -79,6 +79,10 @@ void add_hit_miss(const Inspections& data, const InspectionRequest& request,
     result.hit_miss = hit_miss_pod(result.table, asked);
 }
 
+double threshold_of(const NoiseLaw& noise, double false_call_rate, Alarm alarm) {
+    return noise.exceeded_by(alarm == Alarm::high ? false_call_rate : 1.0 - false_call_rate);
+}
+
 // Thresholds that the noise exceeds with these probabilities, else some over the responses.
 std::vector<double> thresholds(const std::vector<double>& responses, const NoiseLaw* noise,
                                const InspectionRequest& request) {
@@ -87,8 +91,7 @@ std::vector<double> thresholds(const std::vector<double>& responses, const Noise
     for (int i = 0; i < kPoints; ++i) {
         const double share = static_cast<double>(i) / (kPoints - 1);
         if (noise != nullptr) {
-            const double rate = 0.5 * std::pow(2e-4, share);
-            all.push_back(noise->exceeded_by(request.alarm == Alarm::high ? rate : 1.0 - rate));
+            all.push_back(threshold_of(*noise, 0.5 * std::pow(2e-4, share), request.alarm));
         } else {
             const auto at = static_cast<std::size_t>(
                 std::lround((0.02 + 0.78 * share) * static_cast<double>(responses.size() - 1)));
@@ -135,9 +138,8 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
     if (request.threshold) {
         result.threshold = *request.threshold;
     } else if (request.false_call_rate && !result.noise.empty()) {
-        const double rate = *request.false_call_rate;
         result.threshold =
-            result.noise.front().exceeded_by(request.alarm == Alarm::high ? rate : 1.0 - rate);
+            threshold_of(result.noise.front(), *request.false_call_rate, request.alarm);
     } else {
         result.refusal =
             "no threshold: give one, or a false-call rate and lines of size 0 (three at least) "

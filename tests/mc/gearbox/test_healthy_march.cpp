@@ -1,25 +1,14 @@
 // A fault's size marched from the healthy gearbox's states, against all meshes marched with it.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "mc/gearbox/healthy_march.hpp"
+#include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
 using namespace gearpod::mc;
 
 namespace {
-
-// Rms of the difference over that of the second.
-double apart(const std::vector<double>& a, const std::vector<double>& b) {
-    REQUIRE(a.size() == b.size());
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        difference += (a[i] - b[i]) * (a[i] - b[i]);
-        squares += b[i] * b[i];
-    }
-    return std::sqrt(difference / squares);
-}
 
 Study real_teeth(const std::string& settle_tolerance) {
     return test::shipped_study("planet-life.toml",
@@ -43,11 +32,11 @@ TEST_CASE("A fault changes the meshes behind it, and the rest is as without") {
     REQUIRE(march.healthy().status.front() == Status::ok);
     const HealthyMarch::Signals changed = march.with_fault(inputs.fault_size);
     REQUIRE(changed.status.front() == Status::ok);
-    CHECK(apart(changed.lane.front().sensor, expected.sensor) < 1e-6);
-    CHECK(apart(changed.lane.front().te_turn, expected.te_turn) < 1e-6);
+    CHECK(test::relative_difference(changed.lane.front().sensor, expected.sensor) < 1e-6);
+    CHECK(test::relative_difference(changed.lane.front().te_turn, expected.te_turn) < 1e-6);
     // The fault shows in what the two agree on.
-    CHECK(apart(march.healthy().lane.front().sensor, expected.sensor) > 0.01);
-    CHECK(apart(march.healthy().lane.front().te_turn, expected.te_turn) > 1e-3);
+    CHECK(test::relative_difference(march.healthy().lane.front().sensor, expected.sensor) > 0.01);
+    CHECK(test::relative_difference(march.healthy().lane.front().te_turn, expected.te_turn) > 1e-3);
 }
 
 TEST_CASE("Few meshes are marched for a further size of a fault") {

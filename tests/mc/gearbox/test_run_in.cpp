@@ -1,10 +1,10 @@
 // What is marched before the first recorded mesh, against a far longer run-in.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "lockstep/tile/tile.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 #include "mc/gearbox/tooth_draws.hpp"
+#include "tests/mc/gearbox/relative_difference.hpp"
 #include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
@@ -33,16 +33,6 @@ lockstep::MeshRecord first_mesh(const Scene& scene, int run_in) {
     return tile.records.at(static_cast<std::size_t>(tile.content.front()));
 }
 
-double apart(const machine::AlignedVector& a, const machine::AlignedVector& b) {
-    REQUIRE(a.size() == b.size());
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        difference += (a[i] - b[i]) * (a[i] - b[i]);
-        squares += b[i] * b[i];
-    }
-    return std::sqrt(difference / squares);
-}
-
 }  // namespace
 
 TEST_CASE("What sets in with real teeth has decayed when recording begins") {
@@ -51,10 +41,11 @@ TEST_CASE("What sets in with real teeth has decayed when recording begins") {
     const int run_in = run_in_meshes(scene);
     CHECK(run_in <= 10);
     const lockstep::MeshRecord own = first_mesh(scene, run_in), late = first_mesh(scene, 100);
-    CHECK(apart(own.acceleration, late.acceleration) < settle_tolerance(scene.study()));
-    CHECK(apart(own.te, late.te) < settle_tolerance(scene.study()));
+    CHECK(test::relative_difference(own.acceleration, late.acceleration) <
+          settle_tolerance(scene.study()));
+    CHECK(test::relative_difference(own.te, late.te) < settle_tolerance(scene.study()));
     // Not so at once.
-    CHECK(apart(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
+    CHECK(test::relative_difference(first_mesh(scene, 0).acceleration, late.acceleration) > 0.01);
 }
 
 TEST_CASE("The run-in is as long as the slower of gearbox and sensor, and as the tolerance asks") {

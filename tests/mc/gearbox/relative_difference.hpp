@@ -1,0 +1,21 @@
+// How far two signals lie apart.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace gearpod::test {
+
+// Rms of the difference over that of the second.
+template <class Signal>
+double relative_difference(const Signal& a, const Signal& b) {
+    REQUIRE(a.size() == b.size());
+    double difference = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        difference += (a[i] - b[i]) * (a[i] - b[i]);
+        squares += b[i] * b[i];
+    }
+    return std::sqrt(difference / squares);
+}
+
+}  // namespace gearpod::test
