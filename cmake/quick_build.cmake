@@ -50,15 +50,21 @@ function(gearpod_precompile_kernels library)
 endfunction()
 gearpod_precompile_kernels(gearpod_kernels)
 
-# Test programs read Catch2 once; what has a main() of its own sets Catch2 up before it reads it.
+# Test programs read Catch2 once; what has a main() of its own sets Catch2 up before it reads it. One
+# whose files mostly read some further headers reads those once too.
 function(gearpod_precompile_tests program)
   if(NOT GEARPOD_QUICK)
+    return()
+  endif()
+  set(headers <catch2/catch.hpp> <cmath> <numbers> <span>)
+  if(ARGN)
+    target_precompile_headers(${program} PRIVATE ${headers} ${ARGN})
     return()
   endif()
   if(NOT TARGET catch_headers)
     add_library(catch_headers OBJECT ${CMAKE_SOURCE_DIR}/tests/catch_headers.cpp)
     target_link_libraries(catch_headers PRIVATE gearpod_options Threads::Threads)
-    target_precompile_headers(catch_headers PRIVATE <catch2/catch.hpp> <cmath> <numbers> <span>)
+    target_precompile_headers(catch_headers PRIVATE ${headers})
   endif()
   target_precompile_headers(${program} REUSE_FROM catch_headers)
 endfunction()
