@@ -1,25 +1,34 @@
 # What spares the compiler work that it would do again in every file, for those who build once: the
-# files of a folder are compiled together, and headers that most files read and that never change are
-# read once. In an ordinary file of this project reading std, fmt, json or Eigen and writing out
-# their templates is two thirds of the compiler's work. Every file includes what it uses all the
-# same, and compiles alone: the presets for debugging and sanitizers do without. ccache keeps nothing
-# that was compiled with precompiled headers unless its sloppiness is set.
+# files of a folder, or of folders that use the same things, are compiled together, and headers that
+# most files read and that never change are read once. In an ordinary file of this project reading
+# std, fmt, json or Eigen and writing out their templates is two thirds of the compiler's work. Every
+# file includes what it uses all the same, and compiles alone: the presets for debugging and
+# sanitizers do without. ccache keeps nothing that was compiled with precompiled headers unless its
+# sloppiness is set.
 set(gearpod_quick ON)
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
   set(gearpod_quick OFF)
 endif()
-option(GEARPOD_QUICK "files of a folder compiled together, with precompiled headers" ${gearpod_quick})
+option(GEARPOD_QUICK "files of folders compiled together, with precompiled headers" ${gearpod_quick})
 
-# The target's files, by folder; none of those with options of their own (kernels), nor those that
-# are one of a list and name the same things (faults, tables of keys).
+# The target's files, by folder, or by the folders that an argument names. No two of a group name
+# something alike for themselves: move a folder to another group where they do. None of those with
+# options of their own (kernels), nor those that are one of a list and name the same things (faults,
+# tables of keys).
 function(gearpod_unite target)
   get_target_property(folder ${target} SOURCE_DIR)
   get_target_property(files ${target} SOURCES)
   list(FILTER files EXCLUDE REGEX "study/faults/|_keys\\.cpp$")
   foreach(file ${files})
     file(RELATIVE_PATH name ${folder} ${file})
-    get_filename_component(group ${name} DIRECTORY)
-    string(REPLACE "/" "_" group "in_${group}")
+    get_filename_component(group "./${name}" DIRECTORY)
+    foreach(together ${ARGN})
+      string(FIND " ${together} " " ${group} " at)
+      if(at GREATER -1)
+        set(group ${together})
+      endif()
+    endforeach()
+    string(MAKE_C_IDENTIFIER "in_${group}" group)
     set_source_files_properties(${file} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${group}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -32,9 +41,16 @@ if(GEARPOD_QUICK)
   # The flags for threads are part of what must agree.
   target_precompile_headers(gearpod_analysis PRIVATE ${headers} <filesystem>)
   target_precompile_headers(gearpod_mc REUSE_FROM gearpod_analysis)
-  gearpod_unite(gearpod_physics)
-  gearpod_unite(gearpod_analysis)
-  gearpod_unite(gearpod_mc)
+  gearpod_unite(gearpod_physics
+    "./features ./gears ./machine"
+    "./lockstep/driven ./lockstep/integrators ./lockstep/plan ./lockstep/steps ./lockstep/tile"
+    "./signals ./signals/noise ./signals/path ./signals/sensor ./signals/spectra ./signals/windowing"
+    "./stiffness ./stiffness/contact ./stiffness/foundation ./stiffness/growth ./stiffness/teeth")
+  gearpod_unite(gearpod_analysis) # folders together are no faster here
+  gearpod_unite(gearpod_mc
+    "./accuracy ./files ./random ./sweep" "./calibration ./lives ./new_study ./recordings"
+    "./ensemble ./gearbox" "./forecast ./input ./numerics"
+    "./scene ./study ./study/keys ./study/reading ./study/schema")
   set_target_properties(gearpod_command_line PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endif()
 

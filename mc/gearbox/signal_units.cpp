@@ -8,18 +8,18 @@
 namespace gearpod::mc {
 namespace {
 
-struct Unit {
+struct SignalUnit {
     const char* name;
     double factor;
     bool listed = true;  // else another way to write the one before
 };
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr Unit kAccelerations[] = {
+constexpr SignalUnit kAccelerations[] = {
     {"m/s^2", 1.0},         {"m/s2", 1.0, false}, {"m/s²", 1.0, false},
     {"m s^-2", 1.0, false}, {"mm/s^2", 1e-3},     {"mm/s2", 1e-3, false},
     {"mm/s²", 1e-3, false}, {"g", 9.80665},       {"mg", 9.80665e-3}};
-constexpr Unit kAngles[] = {{"rad", 1.0},
+constexpr SignalUnit kAngles[] = {{"rad", 1.0},
                             {"mrad", 1e-3},
                             {"urad", 1e-6},
                             {"µrad", 1e-6, false},
@@ -28,13 +28,13 @@ constexpr Unit kAngles[] = {{"rad", 1.0},
                             {"arcmin", kDegree / 60.0},
                             {"arcsec", kDegree / 3600.0},
                             {"turns", 2.0 * std::numbers::pi}};
-constexpr Unit kTimes[] = {
+constexpr SignalUnit kTimes[] = {
     {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6, false}, {"min", 60.0}};
-constexpr Unit kSpeeds[] = {
+constexpr SignalUnit kSpeeds[] = {
     {"rpm", 1.0}, {"1/min", 1.0, false}, {"Hz", 60.0}, {"rad/s", 30.0 / std::numbers::pi}};
-constexpr Unit kPhases[] = {{"mesh periods", 1.0}, {"1", 1.0, false}};
+constexpr SignalUnit kPhases[] = {{"mesh periods", 1.0}, {"1", 1.0, false}};
 
-std::span<const Unit> units_of(Quantity quantity) {
+std::span<const SignalUnit> units_of(Quantity quantity) {
     switch (quantity) {
         case Quantity::acceleration:
             return kAccelerations;
@@ -56,7 +56,7 @@ std::optional<double> unit_factor(Quantity quantity, const std::string& unit) {
     if (unit.empty()) {
         return 1.0;
     }
-    for (const Unit& known : units_of(quantity)) {
+    for (const SignalUnit& known : units_of(quantity)) {
         if (unit == known.name) {
             return known.factor;
         }
@@ -66,7 +66,7 @@ std::optional<double> unit_factor(Quantity quantity, const std::string& unit) {
 
 std::string known_units(Quantity quantity) {
     std::string text;
-    for (const Unit& known : units_of(quantity)) {
+    for (const SignalUnit& known : units_of(quantity)) {
         if (known.listed) {
             text += fmt::format("{}{}", text.empty() ? "" : ", ", known.name);
         }
