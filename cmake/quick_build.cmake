@@ -21,7 +21,7 @@ function(gearpod_unite target)
   list(FILTER files EXCLUDE REGEX "study/faults/|_keys\\.cpp$")
   foreach(file ${files})
     file(RELATIVE_PATH name ${folder} ${file})
-    get_filename_component(group "./${name}" DIRECTORY)
+    get_filename_component(group ${name} DIRECTORY)
     foreach(together ${ARGN})
       string(FIND " ${together} " " ${group} " at)
       if(at GREATER -1)
@@ -42,15 +42,15 @@ if(GEARPOD_QUICK)
   target_precompile_headers(gearpod_analysis PRIVATE ${headers} <filesystem>)
   target_precompile_headers(gearpod_mc REUSE_FROM gearpod_analysis)
   gearpod_unite(gearpod_physics
-    "./features ./gears ./machine"
-    "./lockstep/driven ./lockstep/integrators ./lockstep/plan ./lockstep/steps ./lockstep/tile"
-    "./signals ./signals/noise ./signals/path ./signals/sensor ./signals/spectra ./signals/windowing"
-    "./stiffness ./stiffness/contact ./stiffness/foundation ./stiffness/growth ./stiffness/teeth")
+    "features gears machine"
+    "lockstep/driven lockstep/integrators lockstep/plan lockstep/steps lockstep/tile"
+    "signals signals/noise signals/path signals/sensor signals/spectra signals/windowing"
+    "stiffness stiffness/contact stiffness/foundation stiffness/growth stiffness/teeth")
   gearpod_unite(gearpod_analysis) # folders together are no faster here
   gearpod_unite(gearpod_mc
-    "./accuracy ./files ./random ./sweep" "./calibration ./lives ./new_study ./recordings"
-    "./ensemble ./gearbox" "./forecast ./input ./numerics"
-    "./scene ./study ./study/keys ./study/reading ./study/schema")
+    "accuracy files random sweep" "calibration lives new_study recordings"
+    "ensemble gearbox" "forecast input numerics"
+    "scene study study/keys study/reading study/schema")
   set_target_properties(gearpod_command_line PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endif()
 

@@ -20,14 +20,14 @@ constexpr SignalUnit kAccelerations[] = {
     {"m s^-2", 1.0, false}, {"mm/s^2", 1e-3},     {"mm/s2", 1e-3, false},
     {"mm/s²", 1e-3, false}, {"g", 9.80665},       {"mg", 9.80665e-3}};
 constexpr SignalUnit kAngles[] = {{"rad", 1.0},
-                            {"mrad", 1e-3},
-                            {"urad", 1e-6},
-                            {"µrad", 1e-6, false},
-                            {"deg", kDegree},
-                            {"°", kDegree, false},
-                            {"arcmin", kDegree / 60.0},
-                            {"arcsec", kDegree / 3600.0},
-                            {"turns", 2.0 * std::numbers::pi}};
+                                  {"mrad", 1e-3},
+                                  {"urad", 1e-6},
+                                  {"µrad", 1e-6, false},
+                                  {"deg", kDegree},
+                                  {"°", kDegree, false},
+                                  {"arcmin", kDegree / 60.0},
+                                  {"arcsec", kDegree / 3600.0},
+                                  {"turns", 2.0 * std::numbers::pi}};
 constexpr SignalUnit kTimes[] = {
     {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6, false}, {"min", 60.0}};
 constexpr SignalUnit kSpeeds[] = {

@@ -4,6 +4,8 @@
 // a filter in time; so it is integrated beside the motion and has no coefficients of its own.
 #pragma once
 
+#include <algorithm>
+
 #include "lockstep/driven/paced_motion.hpp"
 #include "lockstep/integrators/explicit_stage.hpp"
 #include "lockstep/integrators/runge_kutta.hpp"

@@ -2,6 +2,8 @@
 // middle and end. The sensor's low-pass is integrated beside the motion by the same method.
 #pragma once
 
+#include <algorithm>
+
 #include "lockstep/integrators/explicit_stage.hpp"
 
 namespace gearpod::lockstep {
