@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace gearpod::dynamics {
 
@@ -17,6 +18,15 @@ EigenPairs eigen_pairs(const Eigen::MatrixXd& matrix) {
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
     return matrix.inverse();
+}
+
+Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+    return matrix.completeOrthogonalDecomposition().solve(right);
+}
+
+Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+    return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 bool positive_definite(const Eigen::MatrixXd& matrix) {

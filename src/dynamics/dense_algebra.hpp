@@ -11,10 +11,18 @@ struct EigenPairs {
     Eigen::MatrixXcd vectors;  // a column each
 };
 
+struct Modes {
+    Eigen::VectorXd squares;  // (rad/s)^2, the smallest first
+    Eigen::MatrixXd shapes;   // a column each
+};
+
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 EigenPairs eigen_pairs(const Eigen::MatrixXd& matrix);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
-// Of a symmetric matrix.
+// The solution of least norm.
+Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+// Of symmetric matrices.
+Modes modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 bool positive_definite(const Eigen::MatrixXd& matrix);
 
 }  // namespace gearpod::dynamics

@@ -1,8 +1,9 @@
 #include "dynamics/gearbox_matrices.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+
+#include "dynamics/dense_algebra.hpp"
 
 namespace gearpod::dynamics {
 
@@ -20,18 +21,16 @@ void add(GearboxMatrices& matrices, const SpringDamper& spring) {
 }
 
 Eigen::VectorXd static_equilibrium(const GearboxMatrices& matrices) {
-    // The complete orthogonal decomposition gives the least-norm solution, which leaves the rigid
-    // rotation, the null vector of a free gearbox, at zero.
-    const Eigen::MatrixXd k = matrices.stiffness + matrices.centrifugal;
-    return k.completeOrthogonalDecomposition().solve(matrices.force);
+    // The least-norm solution leaves the rigid rotation, the null vector of a free gearbox, at
+    // zero.
+    return solve(matrices.stiffness + matrices.centrifugal, matrices.force);
 }
 
 std::vector<double> natural_frequencies_Hz(const GearboxMatrices& matrices) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-        matrices.stiffness, matrices.mass, Eigen::EigenvaluesOnly);
+    const Eigen::VectorXd squares = modes(matrices.stiffness, matrices.mass).squares;
     std::vector<double> frequencies;
-    const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
-    for (const double value : solver.eigenvalues()) {
+    const double largest = squares.cwiseAbs().maxCoeff();
+    for (const double value : squares) {
         // A rigid rotation comes out as rounding noise of either sign.
         frequencies.push_back(
             std::abs(value) < 1e-10 * largest ? 0.0 : std::sqrt(value) / (2.0 * std::numbers::pi));

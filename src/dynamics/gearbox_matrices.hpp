@@ -2,7 +2,7 @@
 // what follows from them at rest.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 

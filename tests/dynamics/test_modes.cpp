@@ -7,7 +7,7 @@
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/planetary.hpp"
-#include "lin_parker.hpp"
+#include "tests/dynamics/lin_parker.hpp"
 
 using namespace gearpod::dynamics;
 using test_gearbox::lin_parker_inputs;

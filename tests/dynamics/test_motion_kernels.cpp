@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "dynamics/torsional_motion.hpp"
 #include "dynamics/translational_motion.hpp"
@@ -80,8 +81,9 @@ double kernel_error(PlanetaryLayout layout, unsigned seed) {
             ql(static_cast<Eigen::Index>(d)) = q[d * W + l];
             vl(static_cast<Eigen::Index>(d)) = v[d * W + l];
         }
-        const Eigen::VectorXd expected = m.mass.ldlt().solve(
-            m.force - (m.damping + m.gyroscopic) * vl - (m.stiffness + m.centrifugal) * ql);
+        const Eigen::VectorXd expected =
+            inverse(m.mass) *
+            (m.force - (m.damping + m.gyroscopic) * vl - (m.stiffness + m.centrifugal) * ql);
         for (std::size_t d = 0; d < degrees; ++d) {
             const double e = expected(static_cast<Eigen::Index>(d));
             error = std::max(error, std::abs(a[d * W + l] - e));

@@ -1,12 +1,12 @@
 // A start far from equilibrium: a linear train has one orbit, and every start leads to it.
 #include <catch2/catch.hpp>
 
-#include "../lockstep/liang_train.hpp"
-#include "../lockstep/tian_gearbox.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
+#include "tests/lockstep/liang_train.hpp"
+#include "tests/lockstep/tian_gearbox.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

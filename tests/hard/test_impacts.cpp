@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "../lockstep/pair_of_masses.hpp"
+#include "tests/lockstep/pair_of_masses.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

@@ -4,10 +4,10 @@
 #include <complex>
 #include <numbers>
 
-#include "../lockstep/pair_of_masses.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/sdirk3.hpp"
 #include "lockstep/steps/instability.hpp"
+#include "tests/lockstep/pair_of_masses.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;

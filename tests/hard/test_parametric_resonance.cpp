@@ -1,13 +1,13 @@
 // Parametric resonance: the mesh stiffness, steady in the mean, makes a motion grow. Whether it
 // does is decided by Floquet multipliers that are computed here by other means than the march's.
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "../lockstep/liang_train.hpp"
-#include "../lockstep/pair_of_masses.hpp"
+#include "dynamics/dense_algebra.hpp"
 #include "lockstep/steps/instability.hpp"
+#include "tests/lockstep/liang_train.hpp"
+#include "tests/lockstep/pair_of_masses.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -92,7 +92,7 @@ class LiangRotations {
             const double length = cuts[i] - cuts[i - 1], middle = 0.5 * (cuts[i] + cuts[i - 1]);
             over_mesh = ((in_.mesh_period_s * length) * system(middle)).exp() * over_mesh;
         }
-        auto sizes = Eigen::EigenSolver<Eigen::MatrixXd>(over_mesh, false).eigenvalues();
+        auto sizes = dynamics::eigenvalues(over_mesh);
         double largest = 0.0;
         for (const auto multiplier : sizes) {
             if (std::abs(multiplier - 1.0) > 1e-4) {

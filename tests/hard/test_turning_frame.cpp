@@ -1,11 +1,11 @@
 // Speeds at which the turning carrier frame itself loses stability, and those just below.
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "../lockstep/liang_train.hpp"
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/steps/instability.hpp"
+#include "tests/lockstep/liang_train.hpp"
 
 using namespace gearpod;
 using namespace gearpod::lockstep;
@@ -35,14 +35,14 @@ double growth_rate(const MarchPlan& plan, const dynamics::PlanetaryInputs& in) {
     const Eigen::VectorXd weighted = m.mass * turn;
     const Eigen::MatrixXd keep = Eigen::MatrixXd::Identity(kDegrees, kDegrees) -
                                  turn * weighted.transpose() / weighted.dot(turn);
-    const Eigen::MatrixXd inverse = keep * m.mass.inverse();
+    const Eigen::MatrixXd inverse = keep * dynamics::inverse(m.mass);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * kDegrees, 2 * kDegrees);
     constexpr double kUnit_s = 1e-4;
     a.topRightCorner(kDegrees, kDegrees) = keep / kUnit_s;
     a.bottomLeftCorner(kDegrees, kDegrees) =
         -kUnit_s * inverse * (m.stiffness + m.centrifugal) * keep;
     a.bottomRightCorner(kDegrees, kDegrees) = -inverse * (m.damping + m.gyroscopic) * keep;
-    return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues().real().maxCoeff();
+    return dynamics::eigenvalues(a).real().maxCoeff();
 }
 
 // A train of weak bearings: its critical speed is within reach.

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "../mc/program.hpp"
-#include "../mc/scene_examples.hpp"
-#include "../mc/study_file.hpp"
-#include "floating_point_traps.hpp"
+#include "tests/hard/floating_point_traps.hpp"
+#include "tests/mc/program.hpp"
+#include "tests/mc/scene_examples.hpp"
+#include "tests/mc/study_file.hpp"
 
 using namespace gearpod;
 using mc::Status;

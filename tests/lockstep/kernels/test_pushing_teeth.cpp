@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
@@ -96,7 +97,7 @@ class ToothByTooth {
         auto bare = in;
         bare.mesh_damping = 0.0;
         matrices_ = dynamics::assemble(plan.layout, bare, std::vector<double>(8, 0.0));
-        inverse_mass_ = matrices_.mass.inverse();
+        inverse_mass_ = dynamics::inverse(matrices_.mass);
         for (int pair = 0; pair < 8; ++pair) {
             rows_.push_back(dynamics::mesh_row(plan.layout, pair));
         }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/steps/step_limit.hpp"
@@ -39,7 +40,7 @@ namespace {
 double central_growth(const dynamics::GearboxMatrices& m, double h) {
     const Eigen::Index n = m.mass.rows();
     const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
-    const Eigen::MatrixXd inverse = m.mass.inverse();
+    const Eigen::MatrixXd inverse = dynamics::inverse(m.mass);
     const Eigen::MatrixXd k = inverse * (m.stiffness + m.centrifugal);
     const Eigen::MatrixXd c = inverse * (m.damping + m.gyroscopic);
     Eigen::MatrixXd a(n, 3 * n), q(n, 3 * n), v(n, 3 * n);
@@ -54,14 +55,13 @@ double central_growth(const dynamics::GearboxMatrices& m, double h) {
          Eigen::VectorXd::Constant(n, h * h))
             .finished();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * step * scale.cwiseInverse().asDiagonal();
-    return Eigen::EigenSolver<Eigen::MatrixXd>(scaled, false).eigenvalues().cwiseAbs().maxCoeff();
+    return dynamics::eigenvalues(scaled).cwiseAbs().maxCoeff();
 }
 
 // What the gearbox itself grows in that time: linearised, the pull on riding planets turns it.
 double own_growth(const dynamics::GearboxMatrices& m, double h) {
     const Eigen::MatrixXd system = state_matrix(m);
-    return std::exp(
-        h * Eigen::EigenSolver<Eigen::MatrixXd>(system, false).eigenvalues().real().maxCoeff());
+    return std::exp(h * dynamics::eigenvalues(system).real().maxCoeff());
 }
 
 }  // namespace

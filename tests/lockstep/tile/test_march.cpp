@@ -2,6 +2,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <catch2/catch.hpp>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
@@ -41,7 +42,7 @@ std::vector<double> dormand_prince(const MarchPlan& plan, const dynamics::Planet
     std::vector<double> x(from.q.begin(), from.q.end());
     x.insert(x.end(), from.v.begin(), from.v.end());
     const auto at_rest = dynamics::assemble(plan.layout, in, std::vector<double>(8, 0.0));
-    const Eigen::MatrixXd inverse_mass = at_rest.mass.inverse();
+    const Eigen::MatrixXd inverse_mass = dynamics::inverse(at_rest.mass);
 
     double middle = 0.0;  // of the smooth interval: decides which tooth pairs touch
     const auto derivative = [&](const std::vector<double>& s, std::vector<double>& ds, double t) {
@@ -139,15 +140,14 @@ TEST_CASE("An undamped mode of a gearbox with constant stiffness swings as its c
     MarchPlan plan = train.plan(10, 4000, dynamics::Motion::translational_torsional, false);
     std::fill(plan.nodes.stiffness.begin(), plan.nodes.stiffness.end(), 1.5e9);
     const auto matrices = dynamics::assemble(plan.layout, in, std::vector<double>(8, 1.5e9));
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrices.stiffness,
-                                                                          matrices.mass);
+    const dynamics::Modes modes = dynamics::modes(matrices.stiffness, matrices.mass);
     for (const Eigen::Index mode : {1, 8, 20}) {
-        const Eigen::VectorXd shape = 1e-6 * modes.eigenvectors().col(mode);
+        const Eigen::VectorXd shape = 1e-6 * modes.shapes.col(mode);
         TileState state = rest(plan, in);
         std::copy(shape.begin(), shape.end(), state.q.begin());
         MeshRecord record;
         state = march(plan, in, state, record);
-        const double w = std::sqrt(modes.eigenvalues()(mode));
+        const double w = std::sqrt(modes.squares(mode));
         for (std::size_t d = 0; d < state.q.size(); ++d) {
             const double expected = shape(static_cast<Eigen::Index>(d)) * std::cos(w * 1e-3);
             CHECK(state.q[d] == Approx(expected).margin(1e-7 * shape.cwiseAbs().maxCoeff()));

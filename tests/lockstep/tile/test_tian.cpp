@@ -1,8 +1,10 @@
 // Tian's gearbox (2004, chapter 4) with Table 4.1 as printed: published frequencies, a closed form
 // and an independent solution of the printed equations.
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <complex>
 
+#include "dynamics/dense_algebra.hpp"
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/tile/mesh_march.hpp"
@@ -144,9 +146,8 @@ DenseSolution trapezoidal_rule(const TianGearbox& gearbox, int meshes) {
     const Vector inertia = mass.cwiseProduct(turn);
     const Vector speeding_up = turn * (turn.dot(load) / turn.dot(inertia));
     const double k0 = k_at(0);
-    Vector q = (stiffness + k0 * mesh * mesh.transpose())
-                   .completeOrthogonalDecomposition()
-                   .solve(load - mass.cwiseProduct(speeding_up));
+    Vector q = dynamics::solve(stiffness + k0 * mesh * mesh.transpose(),
+                               load - mass.cwiseProduct(speeding_up));
     Vector v = Vector::Zero(), a = speeding_up;
     DenseSolution solution;
     const double h = kPeriod_s / kSteps;
