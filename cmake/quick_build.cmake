@@ -54,12 +54,13 @@ if(GEARPOD_QUICK)
   set_target_properties(gearpod_command_line PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
 endif()
 
-# Files of kernels hold little else than one line for the templates that all of them read.
+# Files of kernels hold little else than one line for the templates that all of them read; those of a
+# library with the options of another read that one's.
 function(gearpod_precompile_kernels library)
-  if(GEARPOD_QUICK AND NOT library STREQUAL "gearpod_kernels")
-    target_precompile_headers(${library} REUSE_FROM gearpod_kernels)
+  if(GEARPOD_QUICK AND ARGN)
+    target_precompile_headers(${library} REUSE_FROM ${ARGN})
   elseif(GEARPOD_QUICK)
-    target_precompile_headers(gearpod_kernels PRIVATE <lockstep/integrators/all_integrators.hpp>
+    target_precompile_headers(${library} PRIVATE <lockstep/integrators/all_integrators.hpp>
       <lockstep/kernels/steady_kernels.hpp> <lockstep/kernels/forced_kernels.hpp>
       <lockstep/kernels/paced_kernels.hpp>)
   endif()
@@ -83,4 +84,30 @@ function(gearpod_precompile_tests program)
     target_precompile_headers(catch_headers PRIVATE ${headers})
   endif()
   target_precompile_headers(${program} REUSE_FROM catch_headers)
+endfunction()
+
+# Files of tests are compiled together by folder, each in a namespace of its own (unite_tests.cmake).
+function(gearpod_unite_tests program)
+  if(NOT GEARPOD_QUICK)
+    return()
+  endif()
+  get_target_property(files ${program} SOURCES)
+  list(FILTER files INCLUDE REGEX "/test_[^/]*\\.cpp$")
+  set_source_files_properties(${files} PROPERTIES HEADER_FILE_ONLY ON)
+  set(folders "")
+  foreach(file ${files})
+    cmake_path(GET file PARENT_PATH folder)
+    list(APPEND folders ${folder})
+    list(APPEND files_of_${folder} ${file})
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/unite_tests.cmake)
+  foreach(folder ${folders})
+    cmake_path(GET folder FILENAME name)
+    set(united ${CMAKE_CURRENT_BINARY_DIR}/united/${program}_${name}.cpp)
+    add_custom_command(OUTPUT ${united}
+      COMMAND ${CMAKE_COMMAND} -DOUTPUT=${united} "-DFILES=${files_of_${folder}}" -P ${script}
+      DEPENDS ${files_of_${folder}} ${script} VERBATIM)
+    target_sources(${program} PRIVATE ${united})
+  endforeach()
 endfunction()

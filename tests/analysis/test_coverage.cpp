@@ -8,7 +8,9 @@
 #include "analysis/pod/pod_bounds.hpp"
 #include "analysis/pod/signal_response_pod.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -159,4 +161,3 @@ TEST_CASE("Bounds of a POD from a line with normal scatter cover the truth", "[.
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -12,7 +12,9 @@
 #include "analysis/statistics/upper_tail.hpp"
 #include "analysis/statistics/wilson.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -166,4 +168,3 @@ TEST_CASE("tails and quantiles have values at the ends of the number line") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -10,7 +10,9 @@
 #include "analysis/detection/threshold.hpp"
 #include "analysis/false_alarm_curve.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const boost::math::normal kNormal;
@@ -163,4 +165,3 @@ TEST_CASE("A threshold of least cost has the bounds of what it was taken from") 
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

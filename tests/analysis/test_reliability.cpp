@@ -12,7 +12,9 @@
 #include "analysis/report/text_lines.hpp"
 #include "analysis/smallest_fault.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -212,4 +214,3 @@ TEST_CASE("Studies without gearboxes of a kind are stated, not computed") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -9,7 +9,9 @@
 #include "analysis/pod/outcomes.hpp"
 #include "analysis/smallest_fault.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Engine = std::mt19937_64;
@@ -211,4 +213,3 @@ TEST_CASE("Sizes beyond the misses: 29 in a row, and the confidence holds") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

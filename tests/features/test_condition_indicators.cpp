@@ -8,7 +8,9 @@
 #include "features/feature.hpp"
 #include "features/standardised_moment.hpp"
 
-namespace gearpod::features {
+using namespace gearpod;
+using namespace gearpod::features;
+
 namespace {
 
 std::vector<double> normal_sample(std::size_t count) {
@@ -153,4 +155,3 @@ TEST_CASE("Windows of the sun and the ring look at their own teeth") {
 }
 
 }  // namespace
-}  // namespace gearpod::features

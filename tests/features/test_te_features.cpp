@@ -6,7 +6,9 @@
 
 #include "features/feature.hpp"
 
-namespace gearpod::features {
+using namespace gearpod;
+using namespace gearpod::features;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -100,4 +102,3 @@ TEST_CASE("Every feature is registered once, with its unit, alarm side and defin
 }
 
 }  // namespace
-}  // namespace gearpod::features

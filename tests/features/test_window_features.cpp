@@ -6,7 +6,9 @@
 #include "features/feature.hpp"
 #include "features/median.hpp"
 
-namespace gearpod::features {
+using namespace gearpod;
+using namespace gearpod::features;
+
 namespace {
 
 FeatureInput teeth(const std::vector<double>& rms) {
@@ -65,4 +67,3 @@ TEST_CASE("The sensor's rms is the root of its mean square") {
 }
 
 }  // namespace
-}  // namespace gearpod::features

@@ -1,4 +1,4 @@
-#include "golden.hpp"
+#include "tests/golden/golden.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "golden.hpp"
+#include "tests/golden/golden.hpp"
 
 int main(int count, char** arguments) {
     using namespace gearpod::golden;

@@ -1,5 +1,5 @@
 // The table of golden curves. A new one is a line here and `make_golden NAME`.
-#include "golden.hpp"
+#include "tests/golden/golden.hpp"
 
 namespace gearpod::golden {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <set>
 
-#include "golden.hpp"
+#include "tests/golden/golden.hpp"
 
 using namespace gearpod::golden;
 

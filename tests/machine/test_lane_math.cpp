@@ -35,8 +35,8 @@ constexpr double kQuarterPi = 0.785398163397448309616;
 TEST_CASE("The lanes' exponential agrees with an extended-precision one") {
     for (const double range : {0.5, 10.0, 700.0}) {
         CHECK(worst_error(
-                  -range, range, lane_exp, [](long double v) { return std::exp(v); }, kRelative) <
-              4e-16);
+                  -range, range, [](double x) { return lane_exp(x); },
+                  [](long double v) { return std::exp(v); }, kRelative) < 4e-16);
     }
     CHECK(lane_exp(0.0) == 1.0);
 }
@@ -50,11 +50,11 @@ TEST_CASE("The lanes' logarithm agrees with an extended-precision one, also wher
 
 TEST_CASE("The lanes' sine and cosine agree with extended-precision ones") {
     CHECK(worst_error(
-              -kQuarterPi, kQuarterPi, lane_sine, [](long double x) { return std::sin(x); },
-              kRelative) < 3e-16);
+              -kQuarterPi, kQuarterPi, [](double x) { return lane_sine(x); },
+              [](long double x) { return std::sin(x); }, kRelative) < 3e-16);
     CHECK(worst_error(
-              -kQuarterPi, kQuarterPi, lane_cosine, [](long double x) { return std::cos(x); },
-              kRelative) < 3e-16);
+              -kQuarterPi, kQuarterPi, [](double x) { return lane_cosine(x); },
+              [](long double x) { return std::cos(x); }, kRelative) < 3e-16);
     const auto of_turns = [](long double z) {
         return std::sin(2 * 3.14159265358979323846264338327950288L * (z - std::round(z)));
     };

@@ -5,7 +5,9 @@
 #include "machine/stop.hpp"
 #include "machine/team.hpp"
 
-namespace gearpod::machine {
+using namespace gearpod;
+using namespace gearpod::machine;
+
 namespace {
 
 struct Switch final : StopWish {
@@ -38,4 +40,3 @@ TEST_CASE("A team leaves off between its tasks") {
 }
 
 }  // namespace
-}  // namespace gearpod::machine

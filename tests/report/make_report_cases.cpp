@@ -5,7 +5,7 @@
 
 #include "mc/report/json.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "report_cases.hpp"
+#include "tests/report/report_cases.hpp"
 
 using namespace gearpod;
 

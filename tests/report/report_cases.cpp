@@ -1,4 +1,4 @@
-#include "report_cases.hpp"
+#include "tests/report/report_cases.hpp"
 
 #include <functional>
 #include <limits>

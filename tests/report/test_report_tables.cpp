@@ -7,8 +7,8 @@
 #include "mc/report/json.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/reliability_of_results.hpp"
-#include "report_cases.hpp"
 #include "tests/mc/program.hpp"
+#include "tests/report/report_cases.hpp"
 
 using namespace gearpod;
 using nlohmann::json;

@@ -6,7 +6,7 @@
 #include "stiffness/faults/broken.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack.hpp"
-#include "yang_gears.hpp"
+#include "tests/stiffness/yang_gears.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

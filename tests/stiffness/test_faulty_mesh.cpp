@@ -2,13 +2,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/broken.hpp"
 #include "stiffness/faults/chip.hpp"
 #include "stiffness/faults/reduction.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/square_wave_mesh.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

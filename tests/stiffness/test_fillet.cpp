@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gear_pairs.hpp"
 #include "stiffness/teeth/crack.hpp"
 #include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
-#include "yang_forms.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
+#include "tests/stiffness/yang_forms.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "finite_element_tables.hpp"
-#include "gear_pairs.hpp"
 #include "gears/working_pair.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
@@ -19,6 +17,8 @@
 #include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/finite_element_tables.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

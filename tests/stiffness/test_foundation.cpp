@@ -6,7 +6,7 @@
 #include "stiffness/foundation/elastic_ring.hpp"
 #include "stiffness/foundation/foundation_models.hpp"
 #include "stiffness/foundation/sainsot.hpp"
-#include "yang_gears.hpp"
+#include "tests/stiffness/yang_gears.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

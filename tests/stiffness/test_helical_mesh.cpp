@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/broken.hpp"
@@ -14,6 +13,7 @@
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gear_pairs.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/pitting.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

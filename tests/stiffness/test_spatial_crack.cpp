@@ -6,7 +6,7 @@
 #include "stiffness/faults/slice_rule.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
-#include "yang_gears.hpp"
+#include "tests/stiffness/yang_gears.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "gear_pairs.hpp"
-#include "printed_forms.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
+#include "tests/stiffness/printed_forms.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

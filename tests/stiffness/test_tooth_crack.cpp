@@ -3,11 +3,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "gear_pairs.hpp"
 #include "machine/dispatch.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;

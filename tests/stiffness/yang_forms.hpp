@@ -8,7 +8,7 @@
 #include <array>
 
 #include "gears/gear.hpp"
-#include "printed_forms.hpp"
+#include "tests/stiffness/printed_forms.hpp"
 
 namespace yang {
 

@@ -3,9 +3,9 @@
 // and is held at about the same share of its root circle, 10 mm.
 #pragma once
 
-#include "gear_pairs.hpp"
 #include "stiffness/coupled_mesh.hpp"
 #include "stiffness/faults/spatial_crack.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
 
 namespace yang_gears {
 

@@ -136,13 +136,13 @@ void add_${name}(KernelTable& table) {${calls}
   set(adders ${adders} add_${name} PARENT_SCOPE)
 endfunction()
 
-# A library of such files. Templates in a precompiled header are optimised as that is compiled, so
-# it has their options.
-function(gearpod_kernel_library name)
+# A library of such files. What is compiled with a precompiled header is optimised as that is, so it
+# has their options.
+function(gearpod_kernel_library name options)
   add_library(${name} OBJECT ${ARGN})
   target_link_libraries(${name} PRIVATE gearpod_options Eigen3::Eigen fmt::fmt Boost::headers)
   target_include_directories(${name} PRIVATE ${GEARPOD_GENERATED_DIR})
-  target_compile_options(${name} PRIVATE ${gearpod_kernel_options})
+  target_compile_options(${name} PRIVATE ${options})
 endfunction()
 
 # All pairs INTEGRATOR:KIND of the table.

@@ -6,7 +6,9 @@
 
 #include "analysis/calibration/regression_abc.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Two parameters, uniform from 0 to 1. The first is the mean of eight normal values of standard
@@ -114,4 +116,3 @@ TEST_CASE("Draws and observations that disagree in shape are refused") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -6,7 +6,9 @@
 #include "analysis/statistics/link.hpp"
 #include "analysis/statistics/wilson.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 constexpr double kNoiseA = 0.7, kNoiseB = 0.35;  // of two sensors; what gearboxes share has 0.5
@@ -183,4 +185,3 @@ TEST_CASE("Intervals of differences over many studies", "[.][coverage]") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

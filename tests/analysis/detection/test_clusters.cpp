@@ -10,7 +10,9 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Normal features of variance 1, of which gearboxes account for a share; so the rate beyond any
@@ -194,4 +196,3 @@ TEST_CASE("Equal records of one gearbox are no constant feature") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -3,7 +3,9 @@
 
 #include "analysis/detection/condition_detection.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // A feature that is torque plus fault, in small steps: no scatter beyond `step`.
@@ -73,4 +75,3 @@ TEST_CASE("Conditions without a threshold do not count, continuous inputs are no
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

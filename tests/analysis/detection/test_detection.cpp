@@ -9,7 +9,9 @@
 #include "analysis/detection/reliable_size.hpp"
 #include "analysis/detection/threshold.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -173,4 +175,3 @@ TEST_CASE("Features keep their alarm side in detection") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -6,7 +6,9 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/detection/threshold.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 TEST_CASE("A threshold's rate interval is that of the order statistic") {
@@ -88,4 +90,3 @@ TEST_CASE("Healthy rates follow the count and the threshold's own law") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

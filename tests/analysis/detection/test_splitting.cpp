@@ -8,7 +8,9 @@
 
 #include "analysis/detection/splitting.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 constexpr int kDraws = 20;
@@ -187,4 +189,3 @@ TEST_CASE("Intervals of split rates cover", "[.rare-coverage][splitting-rates]")
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

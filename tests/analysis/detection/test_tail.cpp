@@ -10,7 +10,9 @@
 #include "analysis/detection/tail.hpp"
 #include "analysis/detection/threshold.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // A law by its upper tail: the value with a probability beyond it, and that probability.
@@ -179,4 +181,3 @@ TEST_CASE("A threshold beyond the sample is the tail's, on either side") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

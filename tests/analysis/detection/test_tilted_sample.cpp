@@ -10,7 +10,9 @@
 #include "analysis/detection/clusters.hpp"
 #include "analysis/detection/healthy_thresholds.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const boost::math::normal kNormal;
@@ -244,4 +246,3 @@ TEST_CASE("Plain records of gearboxes have order statistics and no tail beyond t
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -8,7 +8,9 @@
 #include "analysis/statistics/wilson.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -208,4 +210,3 @@ TEST_CASE("Bounds of the a90 map cover the truth, the test keeps its level", "[.
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -5,7 +5,9 @@
 #include "analysis/inputs/miss_sensitivity.hpp"
 #include "analysis/statistics/link.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Gearboxes detected where size - torque's effect + scatter exceeds 1.
@@ -98,4 +100,3 @@ TEST_CASE("Without misses or hits there is nothing to decide") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -7,7 +7,9 @@
 
 #include "analysis/inputs/sobol_indices.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Inputs = std::vector<std::vector<double>>;
@@ -211,4 +213,3 @@ TEST_CASE("Bounds of both indices cover the truth", "[.coverage]") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -4,7 +4,9 @@
 
 #include "analysis/inputs/uncertain_inputs.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // logit POD = -6 + 3 a + effect . z of independent standard normal z; a90 is then normal, with
@@ -75,5 +77,3 @@ TEST_CASE("Without an input that varies, or without a curve, there is no band") 
     CHECK(refused.band().refusal == "no curve");
     CHECK(refused.band().band.empty());
 }
-
-}  // namespace gearpod::analysis

@@ -7,7 +7,9 @@
 #include "analysis/monitoring/false_alarms.hpp"
 #include "analysis/monitoring/own_baseline.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Engine = std::mt19937_64;
@@ -140,4 +142,3 @@ TEST_CASE("Intervals of false alarms hold in 95 of 100 campaigns", "[.rare-cover
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

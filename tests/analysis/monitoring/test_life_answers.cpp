@@ -6,7 +6,9 @@
 
 #include "analysis/monitoring/life_answers.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Values 0 and, of the healthy lives, one of `peak` each: thresholds fall on it.
@@ -106,4 +108,3 @@ TEST_CASE("A quantile's bound holds as often as it says") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -6,7 +6,9 @@
 
 #include "analysis/monitoring/own_baseline.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Share of deviations of one further healthy record beyond the upper 5 % point of Student's t.
@@ -91,4 +93,3 @@ TEST_CASE("Fused features have unit variance, and see what moves all of them soo
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -8,7 +8,9 @@
 
 #include "analysis/monitoring/detector.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 double phi(double x) {
@@ -245,4 +247,3 @@ TEST_CASE("A missing value leaves a detector as it was, and an alarm starts it a
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -9,7 +9,9 @@
 #include "analysis/inspection.hpp"
 #include "analysis/pod/pod_bounds.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // Columns by number of a file; empty after a message where the folder is not there.
@@ -122,4 +124,3 @@ TEST_CASE("Example 4, hit/miss by the complementary log-log", "[handbook]") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -5,7 +5,9 @@
 #include "analysis/pod/pod_bounds.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -309,4 +311,3 @@ TEST_CASE("Hosmer-Lemeshow keeps its level for a true curve and rejects a wrong 
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

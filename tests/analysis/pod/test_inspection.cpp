@@ -8,7 +8,9 @@
 #include "analysis/inspection.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -292,4 +294,3 @@ TEST_CASE("Flaws of no size give the floor of hit/miss curves") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

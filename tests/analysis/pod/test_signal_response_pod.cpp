@@ -6,7 +6,9 @@
 #include "analysis/statistics/link.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 using Where = SizeEstimate::Where;
@@ -146,4 +148,3 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -7,7 +7,9 @@
 #include "analysis/pod/pod_likelihood.hpp"
 #include "analysis/pod/standardised_sizes.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 // As many sizes as gearboxes, found as a curve with this slope at its middle says.
@@ -99,4 +101,3 @@ TEST_CASE("log likelihoods over nodes are those over all gearboxes, for flat and
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

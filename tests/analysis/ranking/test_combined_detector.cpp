@@ -6,7 +6,9 @@
 #include "analysis/ranking/combined_detector.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -173,4 +175,3 @@ TEST_CASE("Complete separation keeps finite weights") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

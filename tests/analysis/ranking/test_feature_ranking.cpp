@@ -7,7 +7,9 @@
 #include "analysis/statistics/holm.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -104,4 +106,3 @@ TEST_CASE("Features and samples that cannot be ranked are named, not guessed") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -7,7 +7,9 @@
 #include "analysis/report/detection_json.hpp"
 #include "analysis/report/detection_text.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 FeatureDetection example(const std::string& name, double scale) {
@@ -130,4 +132,3 @@ TEST_CASE("The JSON holds every number of the detection and null where there is 
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

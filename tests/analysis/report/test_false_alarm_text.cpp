@@ -6,7 +6,9 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/reliability_text.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 FeatureDetection with_samples(const DetectionRequest& request, const std::vector<long>& samples) {
@@ -141,4 +143,3 @@ TEST_CASE("A report names the noise levels without a threshold") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

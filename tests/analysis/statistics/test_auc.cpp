@@ -6,7 +6,9 @@
 #include "analysis/statistics/auc.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 struct Sample {
@@ -111,4 +113,3 @@ TEST_CASE("Areas of separated, constant, empty and broken samples are stated as 
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

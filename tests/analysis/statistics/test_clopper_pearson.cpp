@@ -4,7 +4,9 @@
 
 #include "analysis/statistics/clopper_pearson.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 TEST_CASE("Clopper-Pearson intervals agree with the published examples") {
@@ -43,4 +45,3 @@ TEST_CASE("Clopper-Pearson bounds leave half the error in each tail") {
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -10,7 +10,9 @@
 #include "analysis/statistics/noncentral_f.hpp"
 #include "tests/analysis/reference_data.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 TEST_CASE("the noncentral F law agrees with its integral up to a noncentrality of 1e10") {
@@ -71,4 +73,3 @@ TEST_CASE("bounds of a share stand at any sample, for inputs that explain nothin
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

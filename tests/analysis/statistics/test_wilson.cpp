@@ -3,7 +3,9 @@
 
 #include "analysis/statistics/wilson.hpp"
 
-namespace gearpod::analysis {
+using namespace gearpod;
+using namespace gearpod::analysis;
+
 namespace {
 
 TEST_CASE("Wilson intervals agree with the published examples") {
@@ -44,4 +46,3 @@ TEST_CASE("Wilson intervals mirror, end exactly at 0 and 1, and need a sample") 
 }
 
 }  // namespace
-}  // namespace gearpod::analysis

@@ -13,7 +13,9 @@
 #include "mc/numerics/study_scene.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 using namespace mc;
@@ -290,4 +292,3 @@ TEST_CASE("Bad input to calibrate ends in one message each and exit code 2") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

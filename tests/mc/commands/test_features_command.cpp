@@ -17,7 +17,9 @@
 #include "tests/mc/compared_program.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 const std::string kReference = std::string(GEARPOD_SOURCE_DIR) + "/tests/features/reference/";
@@ -375,4 +377,3 @@ TEST_CASE("What files are named and titled tells a terminal nothing") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

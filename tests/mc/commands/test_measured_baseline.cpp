@@ -8,7 +8,9 @@
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 // Planets and ring with tooth errors: all repeats after 385 mesh periods of eight samples.
@@ -130,4 +132,3 @@ TEST_CASE("Many recordings are compared with one baseline") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

@@ -7,7 +7,9 @@
 
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 const std::string kTables = std::string(GEARPOD_SOURCE_DIR) + "/tests/analysis/reference/";
@@ -99,4 +101,3 @@ TEST_CASE("pod says what no curve can be drawn from") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

@@ -9,7 +9,9 @@
 #include "mc/files/hdf5_data.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
@@ -307,4 +309,3 @@ TEST_CASE("Ten million rows are answered in bounded time and memory") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

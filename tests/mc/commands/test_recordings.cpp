@@ -13,7 +13,9 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 const std::string kSmall = std::string(GEARPOD_SOURCE_DIR) +
@@ -353,4 +355,3 @@ TEST_CASE("A gearbox whose planet cracks alarms on its last days", "[hums]") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

@@ -11,7 +11,9 @@
 #include "mc/files/isolated_signal.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 // A file that does what it is told to when it is read.
@@ -78,4 +80,3 @@ TEST_CASE("No process is left behind") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

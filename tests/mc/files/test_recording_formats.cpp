@@ -12,7 +12,9 @@
 #include "tests/mc/program.hpp"
 #include "tests/mc/recording_bytes.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 std::vector<double> sines(std::size_t count, double size) {
@@ -217,4 +219,3 @@ TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened")
 }
 
 }  // namespace
-}  // namespace gearpod::test

@@ -7,7 +7,8 @@
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
 
 TEST_CASE("The forecast of lives counts the records that they will have") {
     const mc::Scene scene(life_study());
@@ -36,5 +37,3 @@ TEST_CASE("What is forecast of lives grows with their loads, depths and lives") 
     CHECK(lives.records == plain.records + 396 * 40);
     CHECK(lives.file_bytes > 20.0 * plain.file_bytes);
 }
-
-}  // namespace gearpod::test

@@ -12,7 +12,9 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 TEST_CASE("A record is what its gearbox gives when it is marched at that depth and torque") {
@@ -259,4 +261,3 @@ TEST_CASE("What cannot live on is refused with the key") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

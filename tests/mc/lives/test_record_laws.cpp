@@ -10,7 +10,9 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 const std::string kTorque =
@@ -172,4 +174,3 @@ TEST_CASE("describe shows the law that records draw from") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

@@ -6,7 +6,9 @@
 #include "tests/mc/lives/life_example.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 // Without noise, of features that short records have.
@@ -213,4 +215,3 @@ TEST_CASE("describe says what is drawn for a gearbox and what for a record") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

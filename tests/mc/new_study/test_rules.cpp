@@ -4,7 +4,9 @@
 
 #include "mc/new_study/rules.hpp"
 
-namespace gearpod::mc {
+using namespace gearpod;
+using namespace gearpod::mc;
+
 namespace {
 
 using std::numbers::pi;
@@ -76,5 +78,3 @@ TEST_CASE("Masses and inertias are those of steel rings") {
     const Annulus disc{0.1, 0.0, 0.01};
     CHECK(disc.inertia_kg_m2() == Approx(0.5 * disc.mass_kg() * 0.01));
 }
-
-}  // namespace gearpod::mc

@@ -4,7 +4,9 @@
 
 #include "tests/mc/study_file.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 // Noise-free value for a 2 mm crack, less the 1 of teeth that are alike.
@@ -48,4 +50,3 @@ TEST_CASE("The signal lasts until every sun tooth has met the whole path") {
 }
 
 }  // namespace
-}  // namespace gearpod::test

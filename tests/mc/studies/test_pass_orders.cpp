@@ -8,7 +8,9 @@
 #include "signals/spectra/fourier_transform.hpp"
 #include "tests/mc/program.hpp"
 
-namespace gearpod::test {
+using namespace gearpod;
+using namespace gearpod::test;
+
 namespace {
 
 // 13/11/35 teeth, 8 samples a mesh period.
@@ -67,5 +69,3 @@ TEST_CASE("Identical teeth leave nothing between the carrier's orders, teeth wit
     const auto ring = amplitudes(11 * 35, " --set gearbox.ring_quality=6");
     CHECK(rms(ring, 11, false) < 1e-6 * rms(ring, 11, true));
 }
-
-}  // namespace gearpod::test

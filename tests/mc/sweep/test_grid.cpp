@@ -3,7 +3,8 @@
 
 #include "mc/sweep/grid.hpp"
 
-namespace gearpod::mc {
+using namespace gearpod;
+using namespace gearpod::mc;
 
 TEST_CASE("A grid has every combination once, the last key's values fastest") {
     Problems problems;
@@ -69,5 +70,3 @@ TEST_CASE("What is no list of values is refused with its key") {
     keys.push_back({"a.c", keys[0].values});
     CHECK(grid_of(keys).empty());  // 101 x 101
 }
-
-}  // namespace gearpod::mc

@@ -7,7 +7,9 @@
 #include "signals/noise/low_pass_noise.hpp"
 #include "signals/noise/sensor_noise.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 using std::numbers::pi;
@@ -108,4 +110,3 @@ TEST_CASE("The draw of a noise of any colour folds as the noisy signal does, at 
 }
 
 }  // namespace
-}  // namespace gearpod::signals

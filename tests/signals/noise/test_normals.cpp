@@ -9,7 +9,9 @@
 #include "signals/noise/normals.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 // Random words, and in both places of the pairs those at the ends.
@@ -149,4 +151,3 @@ TEST_CASE("Normal values have the moments, the distribution and the tails of the
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -7,7 +7,9 @@
 #include "signals/noise/sensor_noise.hpp"
 #include "tests/signals/noise/kolmogorov.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 struct Moments {
@@ -162,4 +164,3 @@ TEST_CASE("A reconstructed noisy signal folds to the noisy bins and its noise is
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -8,7 +8,9 @@
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
@@ -196,5 +198,3 @@ TEST_CASE("Tones of another shape than the tile are refused") {
     CHECK_THROWS_AS(fold_squares(tile.signals, plan, path, kExponents, tones, folded),
                     std::invalid_argument);
 }
-
-}  // namespace gearpod::signals

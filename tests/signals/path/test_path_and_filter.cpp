@@ -5,7 +5,9 @@
 
 #include "signals/path/path_window.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -90,4 +92,3 @@ TEST_CASE("The low-pass may act before the path: they commute to the ratio of th
 }
 
 }  // namespace
-}  // namespace gearpod::signals

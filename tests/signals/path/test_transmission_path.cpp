@@ -4,7 +4,9 @@
 
 #include "signals/path/transmission_path.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 double farthest(double alpha) {
@@ -115,4 +117,3 @@ TEST_CASE("An unknown path window is refused by naming the known ones") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

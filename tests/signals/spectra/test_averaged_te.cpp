@@ -6,7 +6,9 @@
 #include "signals/spectra/averaged_te.hpp"
 #include "tests/signals/random_tile.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 // The average over turns of the whole signal, sample by sample, its mean removed.
@@ -87,4 +89,3 @@ TEST_CASE("Encoder noise falls with the root of the number of averaged turns") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

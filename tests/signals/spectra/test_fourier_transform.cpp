@@ -6,7 +6,9 @@
 #include "machine/dispatch.hpp"
 #include "signals/spectra/fourier_transform.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -92,4 +94,3 @@ TEST_CASE("A Fourier transform refuses other lengths than its own") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -7,7 +7,9 @@
 
 #include "signals/spectra/lost_samples.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr int kPerMesh = 12, kTurnMeshes = 20, kTurns = 10;
@@ -77,4 +79,3 @@ TEST_CASE("Nothing is said of few turns, of noise alone and of silence") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -5,7 +5,9 @@
 
 #include "signals/spectra/mesh_separation.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -90,4 +92,3 @@ TEST_CASE("The parts of any turn add up to it") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -8,7 +8,9 @@
 
 #include "signals/spectra/mesh_speed.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr int kPerMesh = 24;
@@ -90,4 +92,3 @@ TEST_CASE("Noise, a single tone and short records say nothing of the speed") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -5,7 +5,9 @@
 
 #include "signals/spectra/order_spectrum.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -99,4 +101,3 @@ TEST_CASE("A spectrum refuses signals that are not one turn") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -4,7 +4,9 @@
 
 #include "signals/spectra/order_tracking.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -82,4 +84,3 @@ TEST_CASE("Phases that do not rise and recordings that are too short are refused
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -8,7 +8,9 @@
 #include "tests/signals/direct_signal.hpp"
 #include "tests/signals/random_tile.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 const std::vector<double> kExponents{0.1, 0.0, -0.1, 0.25, 0.9, -1.0, 0.13, 0.07};
@@ -181,4 +183,3 @@ TEST_CASE("Tile, plan and path of different shapes are refused") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -7,7 +7,9 @@
 #include "signals/windowing/noise_tilt.hpp"
 #include "signals/windowing/windowing.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr SpanLayout kLayout{5, 9, 1};
@@ -159,4 +161,3 @@ TEST_CASE("Without noise nothing is tilted, and bins must be those of the layout
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -7,7 +7,9 @@
 #include "signals/windowing/tooth_signals.hpp"
 #include "signals/windowing/windowing.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -133,4 +135,3 @@ TEST_CASE("The average over turns keeps what repeats, the rest is what it leaves
 }
 
 }  // namespace
-}  // namespace gearpod::signals

@@ -6,7 +6,9 @@
 #include "machine/dispatch.hpp"
 #include "signals/windowing/windowing.hpp"
 
-namespace gearpod::signals {
+using namespace gearpod;
+using namespace gearpod::signals;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -275,4 +277,3 @@ TEST_CASE("The window search gives the same bits on every instruction set") {
 }
 
 }  // namespace
-}  // namespace gearpod::signals

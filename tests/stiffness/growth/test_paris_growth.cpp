@@ -5,7 +5,9 @@
 
 #include "stiffness/growth/paris_growth.hpp"
 
-namespace gearpod::stiffness {
+using namespace gearpod;
+using namespace gearpod::stiffness;
+
 namespace {
 
 // A crack with the same factor at all depths: K = Y sigma sqrt(pi a), load sigma.
@@ -71,4 +73,3 @@ TEST_CASE("Growth needs depths and a load that opens the crack", "[growth]") {
 }
 
 }  // namespace
-}  // namespace gearpod::stiffness

@@ -7,7 +7,9 @@
 #include "stiffness/growth/root_crack.hpp"
 #include "tests/stiffness/gear_pairs.hpp"
 
-namespace gearpod::stiffness {
+using namespace gearpod;
+using namespace gearpod::stiffness;
+
 namespace {
 
 using std::numbers::pi;
@@ -106,4 +108,3 @@ TEST_CASE("The largest intensity is where one pair bears all, and grows with dep
 }
 
 }  // namespace
-}  // namespace gearpod::stiffness
