@@ -14,15 +14,17 @@ import tempfile
 import unittest
 
 CASES, PROGRAM, SOURCES = (pathlib.Path(argument) for argument in sys.argv[1:4])
+sys.path.insert(0, str(SOURCES / "analysis" / "report"))
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 try:
+    import build_page
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys
 except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-selenium)")
+    print(f"skipped: {error} (Debian: python3-matplotlib python3-selenium)")
     sys.exit(77)
 for missing in (name for name in ("chromium", "chromedriver") if shutil.which(name) is None):
     print(f"skipped: no {missing} (Debian: chromium chromium-driver)")
@@ -48,7 +50,6 @@ def make_page(arguments):
     done = subprocess.run(arguments, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"{arguments}: {done.stderr}")
-    return done.stdout
 
 
 class InBrowser(unittest.TestCase):
@@ -73,15 +74,11 @@ class InBrowser(unittest.TestCase):
         cls.pages["inspection"] = os.path.join(cls.folder.name, "inspection.html")
         make_page([PROGRAM, "pod", tables / "inspections_hits.csv", "--html",
                    cls.pages["inspection"]])
-        made = {name: CASES / f"{name}.json" for name in SHOWN}
-        for name, sweep in made_sweeps.all_of().items():
-            made[name] = pathlib.Path(cls.folder.name, name + ".json")
-            made[name].write_text(json.dumps(sweep))
-        for name, file in made.items():
+        made = {name: json.loads((CASES / f"{name}.json").read_text()) for name in SHOWN}
+        made.update(made_sweeps.all_of())
+        for name, data in made.items():
             cls.pages[name] = os.path.join(cls.folder.name, name + ".html")
-            text = make_page(["/usr/bin/python3", "-Bs",
-                              SOURCES / "analysis" / "report" / "build_page.py", file])
-            pathlib.Path(cls.pages[name]).write_text(text)
+            pathlib.Path(cls.pages[name]).write_text(build_page.page_html(data))
         options = webdriver.ChromeOptions()
         for argument in ("--headless=new", "--no-sandbox", "--disable-gpu",
                          "--disable-dev-shm-usage", "--window-size=1280,800",
@@ -107,67 +104,66 @@ class InBrowser(unittest.TestCase):
     def script(self, text, *arguments):
         return self.browser.execute_script(text, *arguments)
 
-    def on_each(self, check):
-        """Calls check(name) with every page open, on every screen and on paper."""
+    def test_every_page_on_every_screen_and_on_paper(self):
+        # The last one opens what is folded away.
+        checks = (self.nothing_is_logged_and_nothing_is_loaded,
+                  self.the_answer_is_on_the_first_screen,
+                  self.every_chart_is_drawn_and_its_text_stays_on_it,
+                  self.the_page_is_as_wide_as_the_screen)
         for name in self.pages:
             for screen in (PHONE, TABLET, DESKTOP, PAPER):
-                with self.subTest(page=name, width=screen[0]):
-                    self.open(name, screen, media="print" if screen == PAPER else "screen")
-                    check(name)
+                self.open(name, screen, media="print" if screen == PAPER else "screen")
+                for check in checks:
+                    with self.subTest(page=name, width=screen[0], check=check.__name__):
+                        check(name)
 
-    def test_nothing_is_logged_and_nothing_is_loaded(self):
-        def check(_):
-            self.assertEqual(self.browser.get_log("browser"), [])
-            self.assertEqual(self.script(
-                "return performance.getEntriesByType('resource').map(e => e.name)"
-                ".filter(n => !n.startsWith('data:'))"), [])
-        self.on_each(check)
+    def nothing_is_logged_and_nothing_is_loaded(self, _):
+        self.assertEqual(self.browser.get_log("browser"), [])
+        self.assertEqual(self.script(
+            "return performance.getEntriesByType('resource').map(e => e.name)"
+            ".filter(n => !n.startsWith('data:'))"), [])
 
-    def test_the_page_is_as_wide_as_the_screen(self):
-        def check(_):
-            self.script("document.querySelectorAll('details').forEach(d => d.open = true)")
-            self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
-                                 self.script("return document.documentElement.clientWidth"))
-            outside = self.script("""
-                const width = document.documentElement.clientWidth;
-                return [...document.querySelectorAll('main > section > *, figure, svg, .answer')]
-                    .filter(e => e.getBoundingClientRect().right > width + 0.5
-                                 || e.getBoundingClientRect().left < -0.5)
-                    .map(e => e.outerHTML.slice(0, 80));""")
-            self.assertEqual(outside, [])
-        self.on_each(check)
+    def the_answer_is_on_the_first_screen(self, _):
+        bottom = self.script("return document.querySelector('.answer')"
+                             ".getBoundingClientRect().bottom")
+        self.assertLess(bottom, self.script("return innerHeight"))
 
-    def test_every_chart_is_drawn_and_its_text_stays_on_it(self):
-        def check(name):
-            charts = self.script(OVERLAPS + """
-                return [...document.querySelectorAll('figure svg')].map(svg => {
-                    const box = svg.getBoundingClientRect();
-                    const out = [...svg.querySelectorAll('text')].filter(text => {
-                        const t = text.getBoundingClientRect();
-                        return t.width > 0 && (t.left < box.left - 4 || t.right > box.right + 4
-                            || t.top < box.top - 4 || t.bottom > box.bottom + 4);
-                    }).map(text => text.textContent);
-                    return {width: box.width, height: box.height, out: out, over: over(svg),
-                            marks: svg.querySelectorAll('path, use').length};});""")
-            for chart in charts:
-                self.assertGreater(chart["width"], 250)
-                self.assertGreater(chart["height"], 80)
-                self.assertEqual(chart["over"], [])
-                self.assertGreater(chart["marks"], 3)
-                self.assertEqual(chart["out"], [])
-            figures = self.script("return [...document.querySelectorAll('figure')]"
-                                  ".map(f => f.querySelectorAll('svg').length)")
-            self.assertTrue(all(figures))
-            if name in ("planet", "usual"):
-                self.assertGreaterEqual(len(figures), {"planet": 11, "usual": 6}[name])
-        self.on_each(check)
+    def every_chart_is_drawn_and_its_text_stays_on_it(self, name):
+        charts = self.script(OVERLAPS + """
+            return [...document.querySelectorAll('figure svg')].map(svg => {
+                const box = svg.getBoundingClientRect();
+                const out = [...svg.querySelectorAll('text')].filter(text => {
+                    const t = text.getBoundingClientRect();
+                    return t.width > 0 && (t.left < box.left - 4 || t.right > box.right + 4
+                        || t.top < box.top - 4 || t.bottom > box.bottom + 4);
+                }).map(text => text.textContent);
+                return {width: box.width, height: box.height, out: out, over: over(svg),
+                        marks: svg.querySelectorAll('path, use').length};});""")
+        for chart in charts:
+            self.assertGreater(chart["width"], 250)
+            self.assertGreater(chart["height"], 80)
+            self.assertEqual(chart["over"], [])
+            self.assertGreater(chart["marks"], 3)
+            self.assertEqual(chart["out"], [])
+        figures = self.script("return [...document.querySelectorAll('figure')]"
+                              ".map(f => f.querySelectorAll('svg').length)")
+        self.assertTrue(all(figures))
+        if name in ("planet", "usual"):
+            self.assertGreaterEqual(len(figures), {"planet": 11, "usual": 6}[name])
 
-    def test_the_answer_is_on_the_first_screen(self):
-        def check(_):
-            bottom = self.script("return document.querySelector('.answer')"
-                                 ".getBoundingClientRect().bottom")
-            self.assertLess(bottom, self.script("return innerHeight"))
-        self.on_each(check)
+    def the_page_is_as_wide_as_the_screen(self, _):
+        self.script("document.querySelectorAll('details').forEach(d => d.open = true)")
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"),
+                             self.script("return document.documentElement.clientWidth"))
+        outside = self.script("""
+            const width = document.documentElement.clientWidth;
+            return [...document.querySelectorAll('main > section > *, figure, svg, .answer')]
+                .filter(e => e.getBoundingClientRect().right > width + 0.5
+                             || e.getBoundingClientRect().left < -0.5)
+                .map(e => e.outerHTML.slice(0, 80));""")
+        self.assertEqual(outside, [])
+
+    def test_the_table_and_what_is_left_out_are_on_the_first_screen(self):
         for screen in (PHONE, DESKTOP):
             self.open("planet", screen)
             for part in (".answer", "#answer table", "#limits + ul li"):

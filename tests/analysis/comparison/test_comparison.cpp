@@ -179,7 +179,7 @@ TEST_CASE("Intervals hold the true difference as often as they say") {
     check_coverage(false, 300, 100);
 }
 
-TEST_CASE("Intervals of differences over many studies", "[.][coverage]") {
+TEST_CASE("Intervals of differences over many studies", "[.rare-coverage]") {
     check_coverage(true, 2000, 400);
     check_coverage(false, 2000, 400);
 }
