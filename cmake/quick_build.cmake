@@ -17,6 +17,12 @@ option(GEARPOD_QUICK "files of folders compiled together, with precompiled heade
 # tables of keys).
 function(gearpod_unite target)
   get_target_property(folder ${target} SOURCE_DIR)
+  string(REPLACE " " ";" named "${ARGN}")
+  foreach(name ${named})
+    if(NOT IS_DIRECTORY ${folder}/${name})
+      message(FATAL_ERROR "gearpod_unite(${target}) names ${name}, which is no folder of ${folder}")
+    endif()
+  endforeach()
   get_target_property(files ${target} SOURCES)
   list(FILTER files EXCLUDE REGEX "study/faults/|_keys\\.cpp$")
   foreach(file ${files})

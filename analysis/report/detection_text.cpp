@@ -77,11 +77,12 @@ void add_level(std::string& out, Features features, std::size_t n, const Detecti
             features, [](const FeatureDetection& f) { return f.feature; });
     add_row(out, "alarm if", features,
             [n](const FeatureDetection& f) { return threshold_text(f, f.levels[n]); });
-    add_row(out, boxes ? "healthy sample: alarms/boxes" : "healthy: alarms/recordings", features,
-            [n](const FeatureDetection& f) {
-                return fmt::format("{}/{}", f.levels[n].threshold_alarms,
-                                   f.levels[n].threshold_sample);
-            });
+    const char* healthy = !boxes                          ? "healthy: alarms/recordings"
+                          : request.threshold_records > 1 ? "healthy sample: alarms/records"
+                                                          : "healthy sample: alarms/boxes";
+    add_row(out, healthy, features, [n](const FeatureDetection& f) {
+        return fmt::format("{}/{}", f.levels[n].threshold_alarms, f.levels[n].threshold_sample);
+    });
     add_row(out, "its false-alarm rate", features, [n](const FeatureDetection& f) {
         const Interval& rate = f.levels[n].threshold_rate;
         return std::isnan(rate.lower)    ? std::string("-")

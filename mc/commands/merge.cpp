@@ -131,8 +131,8 @@ class Merge {
             }
             if (file.batches < file.plan.batches()) {
                 problems += fmt::format(
-                    "{}: holds {} of its {} gearboxes ({}); continue it with `run --resume`\n",
-                    file.path, file.plan.rows_before(file.batches), file.plan.rows(),
+                    "{}: holds {} of its {} {} ({}); continue it with `run --resume`\n", file.path,
+                    file.plan.rows_before(file.batches), file.plan.rows(), file.plan.counted(),
                     printable(file.frame.provenance_value("state")));
             }
         }

@@ -131,7 +131,8 @@ int recordings_command(const FeaturesOptions& options) {
         const auto features = measurable(earlier);
         const int threads = thread_count(scene->study());
         Progress progress(static_cast<long>(list.recordings.size()),
-                          options.quiet || options.csv == "-");
+                          options.quiet || options.csv == "-", 0, Progress::Form::text,
+                          "recordings");
         const auto measured = measure_recordings(list, options.columns, *scene, healthy, earlier,
                                                  threads, [&] { progress.advance(1); });
         progress.finish();

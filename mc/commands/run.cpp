@@ -75,9 +75,9 @@ class Run {
                            choice_->text());
             }
         }
-        Progress progress(
-            static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
-            options_.progress == "json" ? Progress::Form::json : Progress::Form::text);
+        Progress progress(static_cast<long>(plan_.rows()), options_.quiet, checkpoint_->rows_done(),
+                          options_.progress == "json" ? Progress::Form::json : Progress::Form::text,
+                          plan_.counted());
         const EnsembleOutcome outcome = run_batches(scene_, plan_,
                                                     {.ranks = ranks_,
                                                      .store = *checkpoint_,

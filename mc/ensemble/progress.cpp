@@ -23,8 +23,9 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(long total, bool quiet, long done, Form form)
+Progress::Progress(long total, bool quiet, long done, Form form, const char* counted)
     : total_(total),
+      counted_(counted),
       form_(form),
       quiet_(quiet && form == Form::text),
       terminal_(form == Form::text && isatty(STDERR_FILENO) == 1),
@@ -59,8 +60,8 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
     std::string numbers = fmt::format(
-        "{} of {}{} gearboxes, {} a second, {} left", done_, left < missing ? "at most " : "",
-        total_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
+        "{} of {}{} {}, {} a second, {} left", done_, left < missing ? "at most " : "", total_,
+        counted_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
         duration_text(static_cast<double>(left) / rate));
     if (!rate_.empty()) {
         numbers += ", " + rate_;
@@ -80,6 +81,7 @@ void Progress::show_json(double elapsed, double rate, long left, bool finished) 
     const nlohmann::json line{
         {"done", done_},
         {"of", total_},
+        {"counted", counted_},
         {"seconds", elapsed},
         {"per_second", rate},
         {"left_s", rate > 0.0 ? nlohmann::json(static_cast<double>(left) / rate) : nullptr},

@@ -79,6 +79,8 @@ class BatchPlan {
     std::size_t threshold_gearboxes() const { return threshold_rows() / records_; }
     // Of a gearbox of the threshold group.
     std::size_t threshold_records() const { return records_; }
+    // What a row is: gearboxes have one each, but for those with several records.
+    const char* counted() const { return records_ > 1 ? "records" : "gearboxes"; }
     // Of the whole ensemble.
     std::size_t graded_instances() const { return graded_; }
     std::size_t batches() const { return own_of(all_threshold_batches() + batches_of(graded_)); }

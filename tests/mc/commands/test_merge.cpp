@@ -135,6 +135,13 @@ TEST_CASE("An interrupted part is continued before it is merged; progress is JSO
     CHECK(run.mentions("\"finished\":true"));
     CHECK(run.mentions("\"done\":48,"));
     CHECK(run.mentions("\"of\":48,"));
+    CHECK(run.mentions("\"counted\":\"gearboxes\""));
+    const Outcome records = program(kRun +
+                                    " --part 2/2 --progress json --set "
+                                    "ensemble.threshold_records=2 --out " +
+                                    folder.file("records.h5"));
+    CHECK(records.mentions("\"counted\":\"records\""));
+    CHECK(program("report " + folder.file("records.h5")).mentions("alarms/records"));
     CHECK(program(kRun + " --progress xml --out " + folder.file("c.h5")).code == 2);
     // The first rows of a part, as a snapshot has them.
     mc::Results some = mc::read_results(first);
