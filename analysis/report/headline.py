@@ -17,8 +17,8 @@ def promise(report):
 
 
 def fault(report):
-    kinds = {"fault_depth_m": "crack"}
-    return kinds.get(report.data["detection"]["size"]["name"], "fault")
+    """With its article, if it has one: "a crack", "pitting"."""
+    return report.data.get("fault") or "a fault"
 
 
 def _best_rate(report, level):
@@ -40,7 +40,8 @@ def sentence(report):
     found = report.smallest_fault(level)
     at = noise(report.levels[level])
     if found:
-        return (f"A {fault(report)} of {report.sizes.text(found['size'])} is found with "
+        kind = fault(report)
+        return (f"{kind[0].upper()}{kind[1:]} of {report.sizes.text(found['size'])} is found with "
                 f"{promise(report)} by {found['feature']} at {at}.")
     best = _best_rate(report, level)
     if best is None:
@@ -51,8 +52,8 @@ def sentence(report):
     silent = sum(f["levels"][level]["threshold"] is None for f in report.detection)
     others = (f" {silent} of the {len(report.detection)} features "
               f"{'has' if silent == 1 else 'have'} no threshold." if silent else "")
-    return (f"No tested {fault(report)} is found with {promise(report)} at {at}. The best is "
-            f"{name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
+    return (f"No tested {fault(report).removeprefix('a ')} is found with {promise(report)} at {at}. "
+            f"The best is {name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
             f"{whom}.{others}")
 
 

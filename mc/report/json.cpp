@@ -14,6 +14,7 @@
 #include "mc/results/layout.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
+#include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/noise.hpp"
 #include "mc/study/study.hpp"
 
@@ -122,6 +123,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     json["title"] = study ? study->title : "";
     json["assumptions"] = study ? assumptions(*study) : "";
+    json["fault"] = study && study->fault.kind ? Json(study->fault.kind->words()) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);

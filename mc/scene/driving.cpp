@@ -60,18 +60,18 @@ void check_kernels(const Study& study, const lockstep::MarchPlan& plan) {
         throw SceneError("numerics.precision", what + " is marched in doubles",
                          "use precision = \"double\"");
     }
-    const bool rk4 = plan.integrator == lockstep::Integrator::rk4;
-    if (rk4) {
+    const auto able = excitation.speed ? &lockstep::IntegratorFacts::marches_paced
+                                       : &lockstep::IntegratorFacts::marches_forced;
+    if (lockstep::facts(plan.integrator).*able) {
         throw SceneError("numerics.grid", what + " is marched by steps that end on every sample",
                          "use grid = \"uniform\"");
     }
     throw SceneError(
         "numerics.integrator",
-        fmt::format("{} is marched by rk4{}, not by {}", what,
-                    speed_fluctuates(study) ? ", since time does not run evenly along the phase"
-                                            : " and sdirk3",
+        fmt::format("{} is marched by {}{}, not by {}", what, lockstep::names_of(able),
+                    excitation.speed ? ", since time does not run evenly along the phase" : "",
                     lockstep::name(plan.integrator)),
-        speed_fluctuates(study)
+        excitation.speed
             ? "use integrator = \"rk4\"; a gearbox that is too stiff for it needs a steady speed"
             : "use integrator = \"auto\"");
 }

@@ -36,7 +36,7 @@ PairVector rigid(const Eigen::Vector3d& t, const Eigen::Vector3d& w, double a, b
     centre << t, w;
     planet << t + w.cross(arm), w;
     PairVector q;
-    planet_first ? q << planet, centre : q << centre, planet;
+    q << (planet_first ? planet : centre), (planet_first ? centre : planet);
     return q;
 }
 

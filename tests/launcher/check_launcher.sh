@@ -23,10 +23,11 @@ fake() {
     printf '#!/bin/sh\n%s\n' "$2" >"$bin/$1"
     chmod +x "$bin/$1"
 }
-# expect CODE WORD...: the launcher's exit code, and what it says.
+# expect CODE WORD...: the launcher's exit code, and what it says, asked for $asked.
+asked=--version
 expect() {
     code=0
-    PATH=$bin "$tree/gearpod" --version >"$work/said" 2>&1 || code=$?
+    PATH=$bin "$tree/gearpod" $asked >"$work/said" 2>&1 || code=$?
     [ "$code" -eq "$1" ] || fail "exit code $code instead of $1"
     shift
     for word in "$@"; do
@@ -49,6 +50,12 @@ grep -q eigen3-devel "$work/said" && fail "it names what is there"
 # It fails for another reason: that is shown.
 fake cmake 'echo "CMake Error: of another kind"; exit 1'
 expect 1 "of another kind" "the build failed"
+
+# Without Catch2 there is a program, but no tests.
+fake cmake 'echo "-- without Catch2 2 no tests are built"'
+asked=test
+expect 2 "missing: Catch2" catch2-devel
+asked=--version
 
 # All is there: the program is started.
 fake cmake "mkdir -p '$tree/build'; printf '#!/bin/sh\necho started\n' >'$tree/build/gearpod'; chmod +x '$tree/build/gearpod'"

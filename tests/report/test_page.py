@@ -90,8 +90,17 @@ class Answers(unittest.TestCase):
         found = data["reliability"]["levels"][n]["smallest_fault"]
         self.assertEqual(
             answer("usual"),
-            f"A crack of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
+            f"A fault of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
             f"95 % confidence by {found['feature']} at noise × 1.")
+
+    def test_the_fault_is_named_as_the_study_names_it(self):
+        for fault, found, missed in (("a chip", "A chip of", "No tested chip is"),
+                                     ("pitting", "Pitting of", "No tested pitting is")):
+            data = case("usual")
+            data["fault"] = fault
+            self.assertIn(found, page(data).text())
+            data["reliability"]["levels"][data["noise"]["reference"]]["smallest_fault"] = None
+            self.assertIn(missed, page(data).text())
 
     def test_nothing_is_made_up(self):
         for name, said in (("no_rows", "nothing can be said"), ("no_features", "computes no feature"),
@@ -99,7 +108,7 @@ class Answers(unittest.TestCase):
                            ("no_fault", "No gearbox of this study has a fault"),
                            ("no_graded", "No gearbox of this study"), ("only_faulty", "no alarm threshold"),
                            ("few", "Too few healthy gearboxes for a false-alarm rate of 0.05: 5 give"),
-                           ("none_detected", "No tested crack is found")):
+                           ("none_detected", "No tested fault is found")):
             with self.subTest(name):
                 self.assertIn(said, answer(name))
                 self.assertNotRegex(answer(name), r"\d mm is found")
@@ -112,7 +121,7 @@ class Answers(unittest.TestCase):
         self.assertIn(f"1 of the {len(features)} features has no threshold.", page(data).text())
 
     def test_all_detected_is_a_tested_size(self):
-        self.assertIn("A crack of 0.5 mm is found", answer("all_detected"))
+        self.assertIn("A fault of 0.5 mm is found", answer("all_detected"))
         self.assertIn("no detection curve vouches for it (te_fm0: every faulty gearbox was",
                       said("all_detected"))
 

@@ -210,8 +210,8 @@ void check_precision(StudyDraft& draft) {
         draft.all_usable({"numerics.precision", "numerics.integrator"})) {
         draft.reject(
             "numerics.precision",
-            fmt::format("\"single\" is for the integrators rk4 and central-difference, but "
-                        "numerics.integrator is \"{}\"",
+            fmt::format("\"single\" is for the integrators {}, but numerics.integrator is \"{}\"",
+                        lockstep::names_of(&lockstep::IntegratorFacts::marches_singles),
                         choice_text(draft.study, "numerics", "integrator")),
             "use precision = \"double\", or integrator = \"rk4\"");
     }

@@ -55,4 +55,18 @@ std::span<const Integrator> all_integrators() {
     return kIntegrators;
 }
 
+std::string names_of(bool IntegratorFacts::*fact) {
+    std::vector<const char*> names;
+    for (const Integrator integrator : kIntegrators) {
+        if (facts(integrator).*fact) {
+            names.push_back(name(integrator));
+        }
+    }
+    std::string text = names.empty() ? "none" : names.front();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        text += std::string(i + 1 < names.size() ? ", " : " and ") + names[i];
+    }
+    return text;
+}
+
 }  // namespace gearpod::lockstep

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lockstep/integrators/method.hpp"
@@ -30,6 +31,9 @@ const IntegratorFacts& facts(Integrator integrator);
 
 // In the order in which they are shown.
 std::span<const Integrator> all_integrators();
+
+// Those of which a fact is true: "rk4 and central-difference".
+std::string names_of(bool IntegratorFacts::*fact);
 
 inline const char* name(Integrator integrator) {
     return facts(integrator).name;

@@ -1,11 +1,14 @@
 #include "lockstep/tile/driven_march.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
 
 #include "lockstep/driven/excitation_rows.hpp"
 #include "lockstep/driven/forced_motion.hpp"
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
 #include "machine/stop.hpp"
@@ -63,9 +66,10 @@ std::unique_ptr<DrivenMarch<W>> make_driven_march(const MarchPlan& plan,
                                                   std::span<const dynamics::GearboxInputs> inputs) {
     assert(inputs.size() == W);
     if (!can_be_driven(plan, excitation)) {
-        throw std::invalid_argument(
-            "only rk4 and sdirk3 march doubles under varying forces, and only rk4 on a grid with a "
-            "node on every sample at a varying speed");
+        throw std::invalid_argument(fmt::format(
+            "only {} march doubles under varying forces, and at a varying speed only {} "
+            "on a grid with a node on every sample",
+            names_of(&IntegratorFacts::marches_forced), names_of(&IntegratorFacts::marches_paced)));
     }
     const Drive drive = excitation.speed ? Drive::paced : Drive::forced;
     return with_lanes<W, double>(

@@ -1,8 +1,11 @@
 #include "lockstep/tile/mesh_march.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <stdexcept>
 
+#include "lockstep/integrators/facts.hpp"
 #include "lockstep/integrators/filter_coefficients.hpp"
 #include "lockstep/tile/kernel_choice.hpp"
 #include "machine/stop.hpp"
@@ -60,7 +63,8 @@ std::unique_ptr<const MeshMarch<W>> make_mesh_march(
         return make_march<W, double>(plan, inputs);
     }
     throw std::invalid_argument(
-        "only rk4 and central differences march singles, and doubles march at most eight abreast");
+        fmt::format("only {} march singles, and doubles march at most eight abreast",
+                    names_of(&IntegratorFacts::marches_singles)));
 }
 
 #define GEARPOD_MESH_MARCH(W)                                        \

@@ -60,7 +60,8 @@ TEST_CASE("What OMP_NUM_THREADS does not say well counts as not said, and OpenMP
               .mentions("OMP_NUM_THREADS"));
 }
 
-TEST_CASE("Ranks share a machine's processors, but not what OMP_NUM_THREADS gives to each") {
+TEST_CASE("Ranks share a machine's processors, but not what OMP_NUM_THREADS gives to each",
+          "[mpi]") {
     const auto in_all = [](const std::string& environment) {
         const Folder folder;
         const test::Outcome run = test::shell(with(environment) + test::mpirun(2) +
