@@ -10,6 +10,9 @@
 namespace gearpod::analysis {
 namespace {
 
+// Numbers that differ by less differ by rounding.
+constexpr double kAlike = 1e-12;
+
 // The mean, and a line where a condition is given.
 struct Normal {
     double count = 0.0, mean = 0.0, slope = 0.0;
@@ -17,10 +20,16 @@ struct Normal {
     double sd = kNan;               // about the line
 
     double expected(double condition) const { return mean + slope * (condition - at); }
+    // NaN where no line says what to expect: the baseline knows one condition, and this is another.
     double prediction_sd(double condition) const {
         const double away = condition - at;
-        return sd * std::sqrt(1.0 + 1.0 / count + (spread > 0.0 ? away * away / spread : 0.0));
+        if (spread == 0.0) {
+            return same(condition) ? sd * std::sqrt(1.0 + 1.0 / count) : kNan;
+        }
+        return sd * std::sqrt(1.0 + 1.0 / count + away * away / spread);
     }
+    // As the mean, but for what rounding leaves.
+    bool same(double condition) const { return std::abs(condition - at) <= kAlike * std::abs(at); }
 };
 
 // Learns from the first `baseline` records with a value.
@@ -44,7 +53,8 @@ Normal learn(std::span<const double> values, std::span<const double> condition,
     }
     double together = 0.0, squares = 0.0;
     for (const std::size_t i : good) {
-        const double away = condition.empty() ? 0.0 : condition[i] - normal.at;
+        const double away =
+            condition.empty() || normal.same(condition[i]) ? 0.0 : condition[i] - normal.at;
         normal.spread += away * away;
         together += away * (values[i] - normal.mean);
     }
@@ -54,7 +64,7 @@ Normal learn(std::span<const double> values, std::span<const double> condition,
         squares += rest * rest;
     }
     // What rounding leaves of values that are all alike is no scatter.
-    const double least = 1e-12 * std::abs(normal.mean);
+    const double least = kAlike * std::abs(normal.mean);
     const double sd = std::sqrt(squares / freedom);
     normal.sd = sd > least ? sd : kNan;
     return normal;

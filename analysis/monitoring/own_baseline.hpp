@@ -14,7 +14,8 @@ namespace gearpod::analysis {
 // that of a further value's prediction, so that its own share of s (1 + 1/n + ...)^(1/2) is in it:
 // of healthy normal values each result is Student's t with n - 1 (with a condition n - 2) degrees
 // of freedom. `condition`: one a value, or empty. All NaN if fewer than 3 (4) of the first values
-// are finite, or all are alike. With `baseline` 0 nothing is learnt: the values themselves, with
+// are finite, or all are alike; and where the first ones' conditions are all alike, those of values
+// taken at another one. With `baseline` 0 nothing is learnt: the values themselves, with
 // their sign turned for a low alarm.
 std::vector<double> own_deviations(std::span<const double> values,
                                    std::span<const double> condition, std::size_t baseline,

@@ -374,9 +374,17 @@ def over_time(report, page, groups):
     n = report.reference
     order = report.order(n)[:3]
     middle = [0.5 * (group["first"] + group["last"]) for group in groups]
+    def alarms(group, f):
+        """None without a threshold or values."""
+        return group["alarms"][report.names[f]]
+
+    def values(group, f):
+        return group["values"][report.names[f]]
+
     figure, axes = panel(3.4)
     for position, f in enumerate(order):
-        share = [group["alarms"][report.names[f]] / group["recordings"] for group in groups]
+        share = [math.nan if alarms(group, f) is None else alarms(group, f) / values(group, f)
+                 for group in groups]
         axes.plot(middle, share, color=colour(position), linestyle=dash(position),
                   marker=marker(position), markersize=4.5, markeredgewidth=0, label=report.names[f])
     axes.set_ylim(-0.03, 1.03)
@@ -384,15 +392,16 @@ def over_time(report, page, groups):
     axes.set_ylabel("Share of recordings that alarm")
     legend_below(axes, 1)
     last = groups[-1]
-    about = "; ".join(f"{report.names[f]}: {last['alarms'][report.names[f]]} of "
-                      f"{last['recordings']} at the end" for f in order)
+    about = "; ".join(f"{report.names[f]}: {alarms(last, f)} of {values(last, f)} at the end"
+                      for f in order if alarms(last, f) is not None)
     svg = to_svg(figure, "Alarms over time", about, page.names)
     rows = [[number(group["first"]) if group["first"] == group["last"]
              else f"{number(group['first'])} to {number(group['last'])}",
              str(group["recordings"])]
-            + [f"{group['alarms'][report.names[f]]} ({number(group['medians'][report.names[f]])})"
-               for f in order] for group in groups]
-    return page.figure("Alarms over time", [svg], "All recordings, whatever is known of them, "
-                       "against the thresholds that the healthy ones set.",
+            + [("-" if alarms(group, f) is None else f"{alarms(group, f)} of {values(group, f)}")
+               + f" ({number(group['medians'][report.names[f]])})" for f in order]
+            for group in groups]
+    return page.figure("Alarms over time", [svg], "All recordings that have the feature, whatever "
+                       "is known of them, against the thresholds that the healthy ones set.",
                        table("Alarms, and the feature's median", ["time", "recordings"]
                              + [report.names[f] for f in order], rows))

@@ -218,7 +218,8 @@ def _watched(report):
                              if first else "none"])
     return (paragraph("One after another, against each gearbox's first "
                       f"{data['baseline_records']} recordings; thresholds at a false-alarm rate of "
-                      f"{number(data['false_alarm_rate'])}; every alarm starts the detector anew.")
+                      f"{number(data['false_alarm_rate'])}; every alarm starts the detector anew."
+                      + (f" Here {data['note']}." if data["note"] else ""))
             + table("Watched one after another",
                     ["feature", "detector", "threshold", "healthy alarms", "later alarms",
                      "first alarm"], rows))

@@ -1,6 +1,8 @@
 #include "mc/files/hdf5_data.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 
 namespace gearpod::mc {
@@ -82,13 +84,14 @@ Shape shape_of(const Hdf5Handle& dataset, const std::string& name, std::size_t m
 }
 
 Hdf5Handle open_scalar(hid_t parent, const std::string& object, const std::string& name,
-                       H5T_class_t kind) {
+                       std::initializer_list<H5T_class_t> kinds) {
     Hdf5Handle attribute(
         H5Aopen_by_name(parent, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
         name);
     const Hdf5Handle space(H5Aget_space(attribute.get()), H5Sclose, name);
     const Hdf5Handle type(H5Aget_type(attribute.get()), H5Tclose, name);
-    if (H5Sget_simple_extent_npoints(space.get()) != 1 || H5Tget_class(type.get()) != kind) {
+    if (H5Sget_simple_extent_npoints(space.get()) != 1 ||
+        std::ranges::count(kinds, H5Tget_class(type.get())) == 0) {
         throw Hdf5Error(name);
     }
     return attribute;
@@ -269,7 +272,7 @@ void read_rows(hid_t parent, const std::string& name, const Shape& shape, RowRan
 }
 
 std::string read_text(hid_t parent, const std::string& object, const std::string& name) {
-    const Hdf5Handle attribute = open_scalar(parent, object, name, H5T_STRING);
+    const Hdf5Handle attribute = open_scalar(parent, object, name, {H5T_STRING});
     const Hdf5Handle stored(H5Aget_type(attribute.get()), H5Tclose, name);
     if (H5Tis_variable_str(stored.get()) <= 0) {
         throw Hdf5Error(name);
@@ -282,7 +285,7 @@ std::string read_text(hid_t parent, const std::string& object, const std::string
 }
 
 double read_number(hid_t parent, const std::string& object, const std::string& name) {
-    const Hdf5Handle attribute = open_scalar(parent, object, name, H5T_FLOAT);
+    const Hdf5Handle attribute = open_scalar(parent, object, name, {H5T_FLOAT, H5T_INTEGER});
     double value = 0.0;
     check(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value), name);
     return value;

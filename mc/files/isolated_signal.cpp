@@ -86,13 +86,17 @@ bool receive_message(int fd, char& kind, std::string& bytes, int patience_ms) {
 
 std::string bytes_of_doubles(std::span<const double> values) {
     std::string bytes(values.size() * sizeof(double), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) {
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+    }
     return bytes;
 }
 
 std::vector<double> doubles_in(const std::string& bytes) {
     std::vector<double> values(bytes.size() / sizeof(double));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+    if (!values.empty()) {
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+    }
     return values;
 }
 

@@ -3,7 +3,9 @@
 #include <matio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <fstream>
 
 #include "mc/files/hdf5_handle.hpp"
 #include "mc/files/signal_file.hpp"
@@ -53,6 +55,41 @@ bool is_real_vector(const matvar_t& matrix) {
            (matrix.dims[0] == 1 || matrix.dims[1] == 1);
 }
 
+// MAT files of version 5 (and 7) are elements one after another: type and length of 4 bytes each,
+// then as many bytes. matio takes what is missing of a cut one for zeros. Of MathWorks' description
+// of the format ("MAT-File Level 5").
+bool is_cut(const std::string& path) {
+    constexpr std::uint64_t kHeader = 128, kTag = 8;
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file.tellg()));
+    std::array<unsigned char, kHeader> header{};
+    const auto read = [&](std::uint64_t at, unsigned char* to, std::streamsize count) {
+        file.seekg(static_cast<std::streamoff>(at));
+        return static_cast<bool>(file.read(reinterpret_cast<char*>(to), count));
+    };
+    if (size < kHeader || !read(0, header.data(), kHeader)) {
+        return false;
+    }
+    const bool little = header[126] == 'I' && header[127] == 'M';
+    const bool big = header[126] == 'M' && header[127] == 'I';
+    if ((!little && !big) || header[little ? 125 : 124] != 1) {
+        return false;  // of another version
+    }
+    std::array<unsigned char, kTag> tag{};
+    std::uint64_t at = kHeader;
+    while (size - at >= kTag && read(at, tag.data(), kTag)) {
+        std::uint64_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            length = 256 * length + tag[little ? 7 - i : 4 + i];
+        }
+        if (length > size - at - kTag) {
+            return true;
+        }
+        at += kTag + length;
+    }
+    return false;
+}
+
 // One struct, not an array of them.
 bool is_struct(const matvar_t& matrix) {
     return matrix.class_type == MAT_C_STRUCT && matrix.rank == 2 && matrix.dims[0] == 1 &&
@@ -65,6 +102,9 @@ class SignalMat : public SignalFile {
         : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
         if (!file_) {
             throw SignalError(path + ": is no MAT file, or damaged");
+        }
+        if (is_cut(path)) {
+            throw SignalError(path + ": is cut off before its end");
         }
         for (;;) {
             const Matrix matrix(Mat_VarReadNextInfo(file_.get()), Mat_VarFree);

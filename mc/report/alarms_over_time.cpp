@@ -99,8 +99,12 @@ std::vector<TimeGroup> alarms_over_time(const Results& frame, const RowSource& r
                 }
             }
         }
-        for (const std::vector<double>& of_feature : here) {
-            group.medians.push_back(features::median(of_feature));
+        for (std::size_t f = 0; f < shape.features; ++f) {
+            group.values.push_back(static_cast<long>(here[f].size()));
+            group.medians.push_back(features::median(here[f]));
+            if (here[f].empty() || std::isnan(threshold_of(frame, f))) {
+                group.alarms[f] = -1;
+            }
         }
         groups.push_back(std::move(group));
         before = end;
@@ -133,8 +137,11 @@ std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& grou
         out += fmt::format("{:<16}{:>10}", when, group.recordings);
         for (const std::size_t f : order) {
             const double share =
-                static_cast<double>(group.alarms[f]) / static_cast<double>(group.recordings);
-            out += fmt::format("{:>7.0f} %{:>9.3g}", 100.0 * share, group.medians[f]);
+                static_cast<double>(group.alarms[f]) / static_cast<double>(group.values[f]);
+            out += group.alarms[f] < 0 ? fmt::format("{:>9}", "-")
+                                       : fmt::format("{:>7.0f} %", 100.0 * share);
+            out += group.values[f] == 0 ? fmt::format("{:>9}", "-")
+                                        : fmt::format("{:>9.3g}", group.medians[f]);
         }
         out += "\n";
     }
@@ -144,9 +151,11 @@ std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& grou
 nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups) {
     nlohmann::json json = nlohmann::json::array();
     for (const TimeGroup& group : groups) {
-        nlohmann::json alarms = nlohmann::json::object(), medians = nlohmann::json::object();
+        nlohmann::json values = nlohmann::json::object(), alarms = values, medians = values;
         for (std::size_t f = 0; f < frame.features.size(); ++f) {
-            alarms[frame.features[f].name] = group.alarms[f];
+            values[frame.features[f].name] = group.values[f];
+            alarms[frame.features[f].name] =
+                group.alarms[f] < 0 ? nlohmann::json(nullptr) : nlohmann::json(group.alarms[f]);
             medians[frame.features[f].name] = std::isfinite(group.medians[f])
                                                   ? nlohmann::json(group.medians[f])
                                                   : nlohmann::json(nullptr);
@@ -154,6 +163,7 @@ nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& g
         json.push_back({{"first", group.first},
                         {"last", group.last},
                         {"recordings", group.recordings},
+                        {"values", values},
                         {"alarms", alarms},
                         {"medians", medians}});
     }

@@ -15,7 +15,8 @@ namespace gearpod::mc {
 struct TimeGroup {
     double first = 0.0, last = 0.0;  // times
     long recordings = 0;
-    std::vector<long> alarms;     // by feature
+    std::vector<long> values;     // by feature: recordings that have it
+    std::vector<long> alarms;     // by feature; -1: no threshold, or no values
     std::vector<double> medians;  // by feature; NaN: no values
 };
 
@@ -31,7 +32,8 @@ std::vector<std::size_t> ranked_features(const Results& frame,
 std::string alarms_text(const Results& frame, const std::vector<TimeGroup>& groups,
                         const std::optional<analysis::Reliability>& reliability);
 
-// [{"first", "last", "recordings", "alarms": {feature: count}, "medians": {feature: number}}]
+// [{"first", "last", "recordings", "values": {feature: count}, "alarms": {feature: count or null},
+// "medians": {feature: number or null}}]
 nlohmann::json alarms_json(const Results& frame, const std::vector<TimeGroup>& groups);
 
 }  // namespace gearpod::mc

@@ -71,10 +71,14 @@ Columns columns_of(const Results& frame, const RowSource& rows, std::size_t time
     return columns;
 }
 
+// Recordings without a name are those of one gearbox if none has a name; else they are left out.
 std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std::string>& names) {
     std::map<std::string, std::vector<std::size_t>> rows_of;
     for (std::size_t row = 0; row < columns.time.size(); ++row) {
         rows_of[row < names.size() ? names[row] : ""].push_back(row);
+    }
+    if (rows_of.size() > 1) {
+        rows_of.erase("");
     }
     std::vector<Records> gearboxes;
     for (auto& [name, rows] : rows_of) {
@@ -259,6 +263,10 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     }
     auto gearboxes = gearboxes_of(columns_of(frame, rows, *time, torque),
                                   lines_of(frame.provenance_value("recorded_gearboxes")));
+    if (gearboxes.size() == 1 && gearboxes.front().name.empty()) {
+        monitoring.note =
+            "no recording has a gearbox's name (column gearbox): all are taken for one machine's";
+    }
     std::erase_if(gearboxes, [&](const Records& one) {
         return !one.has_baseline(static_cast<std::size_t>(asked.baseline_records));
     });
@@ -288,6 +296,9 @@ std::string monitoring_text(const MonitoringOverTime& monitoring,
                   "Watched over time (thresholds: {:g} of the healthy recordings alarm; an "
                   "alarm starts the detector anew)\n",
                   monitoring.false_alarm_rate);
+    if (!monitoring.note.empty()) {
+        out += monitoring.note + "\n";
+    }
     out += fmt::format("{:<20}{:<20}{:>10}{:>11}{:>11}  {}\n", "feature", "detector", "threshold",
                        "healthy", "later", "first alarm");
     for (const WatchedFeature& one : monitoring.watched) {
@@ -341,6 +352,7 @@ nlohmann::json monitoring_json(const MonitoringOverTime& monitoring) {
     return {{"baseline_records", monitoring.baseline_records},
             {"false_alarm_rate", monitoring.false_alarm_rate},
             {"torque_regression", monitoring.torque_regression},
+            {"note", monitoring.note},
             {"refusal", monitoring.refusal},
             {"watched", watched}};
 }

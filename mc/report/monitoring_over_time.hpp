@@ -36,6 +36,7 @@ struct MonitoringOverTime {
     std::vector<WatchedFeature> watched;  // the frame's features, then fused; by detector
     std::vector<std::string> names;       // of the recordings, by row
     std::string time_unit;                // "" without
+    std::string note;                     // what is taken for granted; else empty
     std::string refusal;                  // why nothing is watched; else empty
 };
 
@@ -46,7 +47,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, con
 std::string monitoring_text(const MonitoringOverTime& monitoring,
                             const std::vector<std::string>& features);
 
-// {"baseline_records", "false_alarm_rate", "torque_regression", "refusal", "watched": [{"feature",
+// {"baseline_records", "false_alarm_rate", "torque_regression", "note", "refusal", "watched": [{"feature",
 // "detector", "threshold", "healthy": {"recordings", "alarms"}, "gearboxes": [{"name",
 // "recordings", "alarms", "first": {"row", "time", "recording"} or null}]}]}
 nlohmann::json monitoring_json(const MonitoringOverTime& monitoring);

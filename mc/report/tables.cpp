@@ -258,10 +258,12 @@ void add_facts(Tables& tables, const TableJson& report) {
         tables.row({share["feature"], share["noise_level"], share["rms"], share["healthy_spread"],
                     share["pd"], share["pd_half_width"], share["a90"], share["larger"]});
     }
-    tables.begin("over_time", {"first", "last", "recordings", "feature", "alarms", "median"});
+    tables.begin("over_time",
+                 {"first", "last", "recordings", "feature", "values", "alarms", "median"});
     for (const TableJson& group : report["over_time"]) {
         for (const auto& [feature, alarms] : group["alarms"].items()) {
-            tables.row({group["first"], group["last"], group["recordings"], feature, alarms,
+            tables.row({group["first"], group["last"], group["recordings"], feature,
+                        group["values"][feature], alarms,
                         group["medians"].value(feature, TableJson(nullptr))});
         }
     }

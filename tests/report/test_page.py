@@ -93,15 +93,6 @@ class Answers(unittest.TestCase):
             f"A fault of {words.number(1e3 * found['size'])} mm is found with 90 % probability at "
             f"95 % confidence by {found['feature']} at noise × 1.")
 
-    def test_the_fault_is_named_as_the_study_names_it(self):
-        for fault, found, missed in (("a chip", "A chip of", "No tested chip is"),
-                                     ("pitting", "Pitting of", "No tested pitting is")):
-            data = case("usual")
-            data["fault"] = fault
-            self.assertIn(found, page(data).text())
-            data["reliability"]["levels"][data["noise"]["reference"]]["smallest_fault"] = None
-            self.assertIn(missed, page(data).text())
-
     def test_nothing_is_made_up(self):
         for name, said in (("no_rows", "nothing can be said"), ("no_features", "computes no feature"),
                            ("all_failed", "nothing can be said"),

@@ -59,6 +59,22 @@ TEST_CASE("Without scatter, values or records there is no baseline") {
     CHECK(own_deviations(gaps, {}, 0, Alarm::low)[3] == -3.0);
 }
 
+// The mean of equal numbers is not always that number: 1.1 five times over is not 1.1.
+TEST_CASE("A baseline at one torque knows that one alone, however many records it has") {
+    for (std::size_t baseline = 4; baseline <= 25; ++baseline) {
+        std::vector<double> values, torque(baseline + 2, 1.1);
+        for (std::size_t i = 0; i < baseline; ++i) {
+            values.push_back(i % 2 == 0 ? 9.0 : 11.0);
+        }
+        values.insert(values.end(), {30.0, 30.0});
+        torque.back() = 1.2;
+        INFO(baseline);
+        const auto seen = own_deviations(values, torque, baseline, Alarm::high);
+        CHECK(seen[baseline] > 10.0);
+        CHECK(std::isnan(seen[baseline + 1]));
+    }
+}
+
 TEST_CASE("Fused features have unit variance, and see what moves all of them sooner") {
     constexpr std::size_t kBaseline = 2000, kRecords = 40'000;
     const double shared = 0.6;  // correlation 0.36

@@ -36,10 +36,11 @@ std::vector<double> turn(double worse, unsigned seed) {
     return samples;
 }
 
-void write_record(const std::string& path, const std::vector<double>& samples) {
+void write_record(const std::string& path, const std::vector<double>& samples,
+                  const std::string& column = "sensor [m/s^2]") {
     std::ofstream stream(path);
     stream.precision(17);
-    stream << "sensor [m/s^2]\n";
+    stream << column << "\n";
     for (const double sample : samples) {
         stream << sample << "\n";
     }
@@ -209,6 +210,34 @@ TEST_CASE("The report watches a gearbox's recordings one after another") {
     CHECK(wrong.code == 2);
     CHECK(wrong.mentions("\"cusum\" is no detector"));
     CHECK(wrong.mentions("names \"single\" twice"));
+}
+
+TEST_CASE("Alarms over time count what has a value, and nothing without a threshold") {
+    const Folder folder;
+    std::string table = "file,gearbox,time,label\n";
+    for (int i = 0; i < 30; ++i) {
+        const bool te_alone = i >= 20 && i % 2 == 1;
+        const std::string name = "r" + std::to_string(i) + ".csv";
+        write_record(folder.file(name), turn(i < 20 ? 1.0 : 50.0, static_cast<unsigned>(i)),
+                     te_alone ? "te [rad]" : "sensor [m/s^2]");
+        table += name + (i < 20 ? ",,1,healthy\n" : ",,2,faulty\n");
+    }
+    write_bytes(folder.file("m.csv"), table);
+    const std::string results = folder.file("f.h5");
+    program("features --manifest " + folder.file("m.csv") + " --study " + kSmall +
+            " --samples-per-mesh 8 --set monitoring.baseline_records=5 --out " + results);
+    const auto json = nlohmann::json::parse(program("report " + results + " --json -").output);
+    const auto& last = json["over_time"].back();
+    CHECK(last["recordings"] == 10);
+    CHECK(last["values"]["sensor_rms"] == 5);
+    CHECK(last["alarms"]["sensor_rms"] == 5);
+    CHECK(last["values"]["te_rms"] == 5);
+    CHECK(last["alarms"]["te_rms"].is_null());  // no healthy recording has it
+    // Without names they are watched as one machine's, and that is said.
+    CHECK(json["monitoring"]["note"].get<std::string>().find("one machine's") != std::string::npos);
+    const Outcome text = program("report " + results);
+    CHECK(text.mentions("are taken for one machine's"));
+    CHECK(text.mentions("100 %"));
 }
 
 TEST_CASE("On the terminal recordings are recordings, and have a size only where one is known") {

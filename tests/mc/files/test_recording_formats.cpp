@@ -151,6 +151,31 @@ TEST_CASE("the numeric fields of a MATLAB struct are columns") {
     }
 }
 
+TEST_CASE("a MATLAB file that is cut off is refused, compressed or not") {
+    const Folder folder;
+    std::vector<double> values = sines(4000, 2.0);
+    std::size_t size[2] = {values.size(), 1};
+    for (const matio_compression form : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+        const std::string path = folder.file("whole.mat");
+        mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+        for (const char* name : {"sensor", "te"}) {
+            matvar_t* vector = Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size,
+                                             values.data(), MAT_F_DONT_COPY_DATA);
+            REQUIRE(Mat_VarWrite(file, vector, form) == 0);
+            Mat_VarFree(vector);
+        }
+        Mat_Close(file);
+        CHECK(mc::open_signal_file(path)->read("te") == values);
+        const std::string bytes = bytes_of(path);
+        for (const double share : {0.3, 0.6, 0.9, 0.999}) {
+            const auto kept = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
+            INFO(form << " " << share);
+            CHECK(refusal(written(folder, "cut.mat", bytes.substr(0, kept))).find("is cut off") !=
+                  std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("a MATLAB table is refused with what to do") {
     const Folder folder;
     const std::string path = folder.file("t.mat");
@@ -216,6 +241,30 @@ TEST_CASE("what lies outside of an HDF5 file is refused by name and not opened")
     });
     CHECK(refusal(soft).empty());
     CHECK(mc::open_signal_file(soft)->read("sensor") == std::vector<double>{0.0, 1.0, 2.0});
+}
+
+TEST_CASE("rate and scale of an HDF5 file may be whole numbers") {
+    const Folder folder;
+    const std::string path = folder.file("whole.h5");
+    {
+        const mc::Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                                  H5Fclose, path);
+        mc::write_numbers(file.get(), "sensor", {3}, {0.0, 1.0, 2.0});
+        const mc::Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "scalar");
+        const std::pair<const char*, std::int64_t> numbers[] = {{"sampling_Hz", 5000},
+                                                                {"scale", 2}};
+        for (const auto& [name, value] : numbers) {
+            const std::string of = std::string(name) == "scale" ? "sensor" : "/";
+            const mc::Hdf5Handle attribute(
+                H5Acreate_by_name(file.get(), of.c_str(), name, H5T_STD_I64LE, scalar.get(),
+                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                H5Aclose, name);
+            H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value);
+        }
+    }
+    const auto file = mc::open_signal_file(path);
+    CHECK(file->sampling_Hz() == 5000.0);
+    CHECK(file->read("sensor") == std::vector<double>{0.0, 2.0, 4.0});
 }
 
 }  // namespace
