@@ -80,9 +80,8 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
         }
     }
     // Thresholds are set by the threshold sample alone.
-    HealthyValues sample{values.thresholds};
+    HealthyValues sample{values.thresholds, data.record_gearbox};
     if (!feature.records.empty()) {
-        sample.gearbox = data.record_gearbox;
         sample.weights = feature.weights;
     }
     const GradedValues graded{feature.alarm, sample, data.graded_size, values.graded};

@@ -79,7 +79,8 @@ struct ReliabilityData {
     std::vector<InputColumn> uncertain;      // those of them that are (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
-    std::vector<std::size_t> record_gearbox = {};  // of the features' records
+    // Of the features' records, or of the threshold sample where several of it are of one gearbox.
+    std::vector<std::size_t> record_gearbox = {};
 };
 
 // `detections` as detect() gave them, in the order of data.features. Healthy gearboxes are the

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "analysis/detection/false_alarm_rate.hpp"
+#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/detection/size_groups.hpp"
-#include "analysis/detection/threshold.hpp"
 
 namespace gearpod::analysis {
 namespace {
@@ -20,15 +20,18 @@ ConditionThreshold threshold_of(double condition, const FeatureSample& healthy,
                                 const ConditionColumn& column, std::size_t level, Alarm alarm,
                                 const DetectionRequest& request) {
     std::vector<double> values;
+    std::vector<std::size_t> gearbox;
     const std::size_t levels = request.noise_levels.size();
     for (std::size_t i = 0; i < column.healthy.size(); ++i) {
         if (column.healthy[i] == condition) {
             values.push_back(healthy.values[i * levels + level]);
+            gearbox.push_back(column.gearbox.empty() ? i : column.gearbox[i]);
         }
     }
-    const Threshold threshold = alarm_threshold(values, alarm, request.false_alarm_rate);
+    const HealthyThresholds sample({values, gearbox}, alarm);
+    const Threshold threshold = sample.at(request.false_alarm_rate, request.confidence);
     return {condition, threshold.value, threshold.sample, threshold.alarms,
-            rate_of(threshold, alarm, request.false_alarm_rate, 0, 0, request.confidence).bounds};
+            sample.rate_bounds(threshold, request.false_alarm_rate, request.confidence)};
 }
 
 void warn(const ConditionLevel& level, const ConditionColumn& column,

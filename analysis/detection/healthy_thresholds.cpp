@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "analysis/detection/clustered_rate.hpp"
 
 namespace gearpod::analysis {
 
 bool HealthyValues::clustered() const {
-    return std::adjacent_find(gearbox.begin(), gearbox.end()) != gearbox.end();
+    return std::set<std::size_t>(gearbox.begin(), gearbox.end()).size() < gearbox.size();
 }
 
 HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) : alarm_(alarm) {

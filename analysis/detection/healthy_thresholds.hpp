@@ -12,7 +12,7 @@ namespace gearpod::analysis {
 // The values of a healthy sample. Without gearboxes each value is of one of its own.
 struct HealthyValues {
     std::span<const double> values;
-    std::span<const std::size_t> gearbox = {};  // records of one follow one another
+    std::span<const std::size_t> gearbox = {};  // tilted records of one follow one another
     std::span<const double> weights = {};       // of tilted records (tilted_sample.hpp)
 
     bool clustered() const;

@@ -371,37 +371,30 @@ def pod(report, page):
 
 def over_time(report, page, groups):
     """Share of recordings with an alarm, by time, of the three best features."""
-    n = report.reference
-    order = report.order(n)[:3]
+    names = [report.names[f] for f in report.order(report.reference)[:3]]
     middle = [0.5 * (group["first"] + group["last"]) for group in groups]
-    def alarms(group, f):
-        """None without a threshold or values."""
-        return group["alarms"][report.names[f]]
 
-    def values(group, f):
-        return group["values"][report.names[f]]
+    def said(group, name):
+        alarms = group["alarms"][name]
+        return "-" if alarms is None else f"{alarms} of {group['values'][name]}"
 
     figure, axes = panel(3.4)
-    for position, f in enumerate(order):
-        share = [math.nan if alarms(group, f) is None else alarms(group, f) / values(group, f)
-                 for group in groups]
+    for position, name in enumerate(names):
+        share = [math.nan if group["alarms"][name] is None else
+                 group["alarms"][name] / group["values"][name] for group in groups]
         axes.plot(middle, share, color=colour(position), linestyle=dash(position),
-                  marker=marker(position), markersize=4.5, markeredgewidth=0, label=report.names[f])
+                  marker=marker(position), markersize=4.5, markeredgewidth=0, label=name)
     axes.set_ylim(-0.03, 1.03)
     axes.set_xlabel("Time")
     axes.set_ylabel("Share of recordings that alarm")
     legend_below(axes, 1)
-    last = groups[-1]
-    about = "; ".join(f"{report.names[f]}: {alarms(last, f)} of {values(last, f)} at the end"
-                      for f in order if alarms(last, f) is not None)
+    about = "; ".join(f"{name}: {said(groups[-1], name)} at the end" for name in names)
     svg = to_svg(figure, "Alarms over time", about, page.names)
     rows = [[number(group["first"]) if group["first"] == group["last"]
-             else f"{number(group['first'])} to {number(group['last'])}",
-             str(group["recordings"])]
-            + [("-" if alarms(group, f) is None else f"{alarms(group, f)} of {values(group, f)}")
-               + f" ({number(group['medians'][report.names[f]])})" for f in order]
+             else f"{number(group['first'])} to {number(group['last'])}", str(group["recordings"])]
+            + [f"{said(group, name)} ({number(group['medians'][name])})" for name in names]
             for group in groups]
     return page.figure("Alarms over time", [svg], "All recordings that have the feature, whatever "
                        "is known of them, against the thresholds that the healthy ones set.",
-                       table("Alarms, and the feature's median", ["time", "recordings"]
-                             + [report.names[f] for f in order], rows))
+                       table("Alarms, and the feature's median", ["time", "recordings"] + names,
+                             rows))

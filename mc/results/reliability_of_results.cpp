@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/report/reliability_text.hpp"
 
 namespace gearpod::mc {
@@ -64,7 +65,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     // Thresholds on all of them, so long as there is room for these.
     const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
     Columns healthy(shape), graded(shape), repeats(shape);
-    std::vector<std::size_t> gearbox;
+    std::vector<std::size_t> repeated_rows, healthy_rows;
     rows.visit([&](const RowBlock& block) {
         for (std::size_t row = 0; row < block.count(); ++row) {
             const bool sets_threshold = block.group[row] == static_cast<int>(Group::threshold);
@@ -74,17 +75,26 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
             }
             if (sets_threshold && repeated) {
                 repeats.add(values, shape);
-                gearbox.push_back((block.first + row) / records);
+                repeated_rows.push_back(block.first + row);
             }
             if (!sets_threshold || (block.first + row) % records == 0) {
                 (sets_threshold ? healthy : graded).add(values, shape);
+                if (sets_threshold) {
+                    healthy_rows.push_back(block.first + row);
+                }
             }
         }
     });
     const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
     analysis::ReliabilityData data;
     data.costs = costs;
-    data.record_gearbox = std::move(gearbox);
+    // Of recordings several may be of one gearbox, too.
+    const auto gearbox = gearboxes_of(frame, healthy_rows);
+    const std::span<const std::size_t> recorded = analysis::HealthyValues{{}, gearbox}.clustered()
+                                                      ? std::span(gearbox)
+                                                      : std::span<const std::size_t>();
+    data.record_gearbox = repeated ? gearboxes_of(frame, repeated_rows)
+                                   : std::vector<std::size_t>(recorded.begin(), recorded.end());
     std::span<const double> weights;
     data.healthy_size = {no_fault.data(), healthy.rows};
     data.graded_size = {no_fault.data(), graded.rows};
@@ -104,8 +114,8 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
             data.uncertain.push_back(data.inputs.back());
         }
         if (parameter.name == condition) {
-            data.condition.push_back(
-                {parameter.name, parameter.unit, healthy.parameters[p], graded.parameters[p]});
+            data.condition.push_back({parameter.name, parameter.unit, healthy.parameters[p],
+                                      graded.parameters[p], recorded});
         }
     }
     for (std::size_t f = 0; f < shape.features; ++f) {

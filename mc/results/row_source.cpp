@@ -22,30 +22,6 @@ struct Sample {
 
 // Whose records the rows are, by number: as many as a run's gearbox has, one after another, or the
 // recordings of one name; those without a name are each of a gearbox of its own.
-class Gearboxes {
-  public:
-    explicit Gearboxes(const Results& frame) : records_(frame.request.threshold_records) {
-        std::istringstream names(frame.provenance_value("recorded_gearboxes"));
-        std::map<std::string, std::size_t> numbers;
-        for (std::string name; std::getline(names, name);) {
-            const std::size_t row = of_row_.size();
-            of_row_.push_back(name.empty() ? row : numbers.emplace(name, row).first->second);
-        }
-    }
-
-    std::vector<std::size_t> of(const std::vector<std::size_t>& rows) const {
-        std::vector<std::size_t> numbers;
-        for (const std::size_t row : rows) {
-            numbers.push_back(row < of_row_.size() ? of_row_[row] : row / records_);
-        }
-        return numbers;
-    }
-
-  private:
-    std::size_t records_;
-    std::vector<std::size_t> of_row_;  // the first row of the same one
-};
-
 // Where a row has a parameter, or nowhere.
 std::size_t column_of(const Results& frame, const std::string& name) {
     const auto found = std::find_if(frame.parameters.begin(), frame.parameters.end(),
@@ -105,6 +81,22 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
     }
 }
 
+std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<std::size_t>& rows) {
+    std::vector<std::size_t> first;  // by row: the first row of the same one
+    std::istringstream names(frame.provenance_value("recorded_gearboxes"));
+    std::map<std::string, std::size_t> numbers;
+    for (std::string name; std::getline(names, name);) {
+        const std::size_t row = first.size();
+        first.push_back(name.empty() ? row : numbers.emplace(name, row).first->second);
+    }
+    std::vector<std::size_t> gearboxes;
+    for (const std::size_t row : rows) {
+        gearboxes.push_back(row < first.size() ? first[row]
+                                               : row / frame.request.threshold_records);
+    }
+    return gearboxes;
+}
+
 bool sees_tilt(const std::string& feature) {
     const features::Feature* found = features::find_feature(feature);
     return found != nullptr && found->from_sensor;
@@ -140,7 +132,6 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
     const std::size_t at_once = std::max<std::size_t>(1, kBytes / each);
     const std::size_t size_at = column_of(frame, frame.request.size.name);
     const std::size_t weight_at = column_of(frame, kNoiseWeight);
-    const Gearboxes gearboxes(frame);
     std::vector<analysis::FeatureDetection> all;
     for (std::size_t first = 0; first < shape.features; first += at_once) {
         const std::size_t count = std::min(at_once, shape.features - first);
@@ -152,7 +143,7 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         });
         for (std::size_t f = 0; f < count; ++f) {
             const FeatureResult& feature = frame.features[first + f];
-            const std::vector<std::size_t> numbers = gearboxes.of(healthy.row);
+            const std::vector<std::size_t> numbers = gearboxes_of(frame, healthy.row);
             analysis::FeatureSample sample{healthy.size, healthy.values[f]};
             if (sees_tilt(feature.name)) {
                 sample.gearbox = numbers;

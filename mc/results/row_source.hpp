@@ -53,6 +53,10 @@ class ColumnRows final : public RowSource {
 
 RowShape row_shape(const Results& results);
 
+// A number for the gearbox of each row: rows are records of each of the ensemble, or recordings, of
+// which those without a gearbox's name are each of one of its own.
+std::vector<std::size_t> gearboxes_of(const Results& frame, const std::vector<std::size_t>& rows);
+
 // Whether a feature looks at the noise that tilted records tilt, so that their weights are for it:
 // for others all records are plain.
 bool sees_tilt(const std::string& feature);

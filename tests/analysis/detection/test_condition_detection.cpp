@@ -52,6 +52,26 @@ TEST_CASE("Thresholds by condition find what hides behind the torque") {
     CHECK(own.levels[0].cells[0].tested == 90);
 }
 
+// Seventy recordings of ten gearboxes, one after another by turns, the last one's on top: ten say
+// no more than that at most 0.31 of gearboxes are like it (Clopper-Pearson: 1 - 0.025^(1/10)).
+TEST_CASE("Recordings of few gearboxes at one condition fix its rate no better than gearboxes do") {
+    std::vector<double> values;
+    std::vector<std::size_t> gearbox;
+    for (std::size_t i = 0; i < 70; ++i) {
+        gearbox.push_back(i % 10);
+        values.push_back(static_cast<double>(i % 10) + 1e-3 * static_cast<double>(i));
+    }
+    const std::vector<double> no_fault(70, 0.0), load(70, 1.0), fault{1e-3}, value{20.0}, at{1.0};
+    const auto upper = [&](std::span<const std::size_t> of) {
+        const ConditionDetection found =
+            detect_by_condition("f", Alarm::high, {no_fault, values}, {fault, value},
+                                {"load", "1", load, at, of}, request());
+        return found.levels[0].thresholds[0].rate.upper;
+    };
+    CHECK(upper({}) < 0.11);
+    CHECK(upper(gearbox) >= 0.308);
+}
+
 TEST_CASE("Conditions without a threshold do not count, continuous inputs are no conditions") {
     const Sample healthy = sample(60, 0.0);
     Sample faulty = sample(9, 5.0);
