@@ -46,6 +46,10 @@ std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, c
                        one_sided_bound(confidence));
 }
 
+bool nearer(const SizeEstimate& a, const SizeEstimate& b) {
+    return place_of(a) < place_of(b);
+}
+
 // How many times rarer than one in the sample, or in the gearboxes whose records are tilted; 0 if
 // it is not.
 double extrapolation_of(const Threshold& threshold, double rate) {
@@ -68,6 +72,19 @@ RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshol
     return point;
 }
 
+// A threshold that is farther away finds no smaller fault.
+void make_monotone(std::vector<RatePoint>& points) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        SizeBounds &before = points[i - 1].a90, &here = points[i].a90;
+        here.estimate = std::max(before.estimate, here.estimate, nearer);
+        here.upper = std::max(before.upper, here.upper, nearer);
+    }
+    for (std::size_t i = points.size(); i-- > 1;) {
+        SizeBounds &here = points[i - 1].a90, &after = points[i].a90;
+        here.lower = std::min(here.lower, after.lower, nearer);
+    }
+}
+
 double share_beyond(std::span<const double> ascending, double threshold) {
     const auto beyond =
         ascending.end() - std::upper_bound(ascending.begin(), ascending.end(), threshold);
@@ -76,7 +93,7 @@ double share_beyond(std::span<const double> ascending, double threshold) {
 
 }  // namespace
 
-FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& form,
+FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const PodForm> forms,
                                   double confidence) {
     FalseAlarmCurve curve;
     const HealthyThresholds healthy(values.healthy, values.alarm);
@@ -88,27 +105,35 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& for
             break;
         }
         RatePoint point = point_of(healthy, rate, threshold, two_sided);
-        PodForm at = form;
-        at.floor = form.floor > 0.0 ? rate : 0.0;
         // The side towards the healthy ones finds more.
         const bool high = values.alarm == Alarm::high;
         const Interval& bounds = point.threshold_bounds;
         const double near = high ? bounds.lower : bounds.upper,
                      far = high ? bounds.upper : bounds.lower;
-        const auto middle = a90_at(values, threshold.value, at, half),
-                   least = a90_at(values, near, at, half), most = a90_at(values, far, at, half);
-        if (!middle || !least || !most) {
-            curve.refusal = "the curve does not fit at all of the rates";
-            continue;
+        bool fitted = false;
+        for (const PodForm& form : forms) {
+            PodForm at = form;
+            at.floor = form.floor > 0.0 ? rate : 0.0;
+            const auto middle = a90_at(values, threshold.value, at, half),
+                       least = a90_at(values, near, at, half), most = a90_at(values, far, at, half);
+            if (middle && least && most) {
+                const SizeBounds own{middle->estimate, least->lower, most->upper};
+                point.a90 = fitted ? widest(point.a90, own) : own;
+                fitted = true;
+            }
         }
-        point.a90 = {middle->estimate, least->lower, most->upper};
-        curve.points.push_back(point);
+        if (fitted) {
+            curve.points.push_back(point);
+        } else {
+            curve.unfitted.push_back(rate);
+        }
     }
-    if (!curve.points.empty()) {
-        curve.refusal.clear();
-    } else if (curve.refusal.empty()) {
-        curve.refusal = "too few healthy ones for a threshold";
+    if (curve.points.empty()) {
+        curve.refusal = curve.unfitted.empty() ? "too few healthy ones for a threshold"
+                                               : "the curve fits at none of the rates";
+        curve.unfitted.clear();
     }
+    make_monotone(curve.points);
     return curve;
 }
 

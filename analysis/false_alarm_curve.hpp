@@ -33,6 +33,7 @@ struct RatePoint {
 
 struct FalseAlarmCurve {
     std::vector<RatePoint> points;  // falling rates, the last the rarest that the sample carries
+    std::vector<double> unfitted;   // rates between them at which no curve fits
     std::string refusal;            // why there are none, or ""
 };
 
@@ -43,8 +44,12 @@ struct GradedValues {
     std::span<const double> size, value;
 };
 
-// With the form of the curve that fits at the request's own rate; its floor follows the rates.
-FalseAlarmCurve false_alarm_curve(const GradedValues& values, const PodForm& form,
+// With the forms of the curves that the data support at the request's own rate, the one taken there
+// first: estimates are its own, bounds the widest, as in a POD (hit_miss_pod.hpp); floors follow
+// the rates. A rarer alarm finds no smaller fault, so neither a90 nor its bounds fall with the
+// rate: estimate and upper bound are at least those of any higher rate, the lower bound at most
+// that of any lower one.
+FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const PodForm> forms,
                                   double confidence);
 
 // In any unit of money, the same for both; the share of records of machines with a fault.

@@ -86,8 +86,8 @@ LevelReliability assess_level(const ReliabilityData& data, const FeatureColumns&
     }
     const GradedValues graded{feature.alarm, sample, data.graded_size, values.graded};
     level.by_rate = level.hit_miss.refusal.empty()
-                        ? false_alarm_curve(graded, level.hit_miss.chosen.curve.form, confidence)
-                        : FalseAlarmCurve{{}, level.hit_miss.refusal};
+                        ? false_alarm_curve(graded, level.hit_miss.supported, confidence)
+                        : FalseAlarmCurve{{}, {}, level.hit_miss.refusal};
     if (data.costs) {
         level.least_cost = least_cost(graded, *data.costs, confidence);
     }

@@ -31,7 +31,7 @@ std::string outcome_refusal(const HitMissTable& table,
         return fmt::format("no {} was detected: not reached at any tested size", tested);
     }
     if (hits == total_tests(table)) {
-        return fmt::format("every {} was detected: a90 lies below the smallest tested size",
+        return fmt::format("every {} was detected: the tested sizes do not show where a90 lies",
                            tested);
     }
     if (table.size() < 2) {
@@ -195,7 +195,8 @@ void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, cons
         a90 = size_bounds(table, likelihood, fitted.maximum, kPod, pod.rule);
         band = pod_band(likelihood, fitted.maximum, sizes, pod.rule);
     }
-    if (pod.supported++ == 0) {
+    pod.supported.push_back(fitted.fit.curve.form);
+    if (pod.supported.size() == 1) {
         pod.a50 = a50;
         pod.a90 = a90;
         pod.band = band;

@@ -37,10 +37,10 @@ struct HitMissPod {
     std::string refusal;                   // why there is no curve, empty if there is one
     HitMissFit chosen;
     std::vector<HitMissFit> candidates;
-    int supported = 0;           // curves that the bounds span
-    SizeBounds a50, a90;         // a90.upper is a90/95 at a confidence of 95 %
-    std::vector<PodPoint> band;  // over the tested sizes
-    bool doubtful = false;       // the goodness of fit rejects the curve at 5 %
+    std::vector<PodForm> supported;  // of the curves that the bounds span, the chosen one's first
+    SizeBounds a50, a90;             // a90.upper is a90/95 at a confidence of 95 %
+    std::vector<PodPoint> band;      // over the tested sizes
+    bool doubtful = false;           // the goodness of fit rejects the curve at 5 %
     BoundRule rule;
     // Of the chosen curve's location and scale (location_scale.hpp); NaN with a fitted ceiling or
     // without the outcomes one by one.

@@ -198,17 +198,11 @@ double specimens_for_bound(const PodLikelihood& likelihood, const PodLikelihood:
 }
 
 SizeBounds widest(const SizeBounds& a, const SizeBounds& b) {
-    // Below the tested sizes < reached < not reached.
-    const auto place = [](const SizeEstimate& estimate) {
-        return estimate.where == Where::below_tested ? -std::numeric_limits<double>::infinity()
-               : estimate.where == Where::reached    ? estimate.size
-                                                     : std::numeric_limits<double>::infinity();
-    };
     SizeBounds wide = a;
-    if (place(b.lower) < place(a.lower)) {
+    if (place_of(b.lower) < place_of(a.lower)) {
         wide.lower = b.lower;
     }
-    if (place(b.upper) > place(a.upper)) {
+    if (place_of(b.upper) > place_of(a.upper)) {
         wide.upper = b.upper;
     }
     return wide;

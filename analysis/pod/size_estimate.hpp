@@ -12,6 +12,14 @@ struct SizeEstimate {
     double size = 0.0;  // if reached; else NaN
 };
 
+// Below the tested sizes < reached < not reached.
+inline double place_of(const SizeEstimate& estimate) {
+    using Where = SizeEstimate::Where;
+    return estimate.where == Where::below_tested ? -std::numeric_limits<double>::infinity()
+           : estimate.where == Where::reached    ? estimate.size
+                                                 : std::numeric_limits<double>::infinity();
+}
+
 inline SizeEstimate estimate_within(double size, double smallest, double largest) {
     if (!(size <= largest)) {
         return {SizeEstimate::Where::not_reached, std::numeric_limits<double>::quiet_NaN()};

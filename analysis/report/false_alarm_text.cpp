@@ -276,7 +276,7 @@ bool without_threshold(std::span<const FeatureDetection> features, std::size_t l
 std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
                              const SizeGroup& tested, const SizeUnit& unit, double confidence) {
     if (!curve.refusal.empty()) {
-        return "";
+        return fmt::format("a90 of {} by false-alarm rate: none, {}", feature, curve.refusal);
     }
     const std::string shown = unit.shown_unit();
     std::string text = fmt::format(
@@ -291,9 +291,14 @@ std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& 
                             beyond_text(point.extrapolation, point.tilted),
                             size(point.a90.estimate), size(point.a90.lower), size(point.a90.upper));
     }
-    return curve.points.back().false_alarm_rate > kCurveRates.back()
-               ? text + " rarer ones: too few healthy ones"
-               : text.substr(0, text.size() - 1);
+    if (!curve.unfitted.empty()) {
+        text += fmt::format(" {:g}: no curve fits;", fmt::join(curve.unfitted, ", "));
+    }
+    const double rarest =
+        std::min(curve.points.back().false_alarm_rate,
+                 curve.unfitted.empty() ? kCurveRates.front() : curve.unfitted.back());
+    return rarest > kCurveRates.back() ? text + " rarer ones: too few healthy ones"
+                                       : text.substr(0, text.size() - 1);
 }
 
 std::string least_cost_text(const std::string& feature, const LeastCost& least, double confidence) {
@@ -320,7 +325,8 @@ nlohmann::json false_alarm_json(const FalseAlarmCurve& curve) {
              {"threshold_bounds", pair_json(point.threshold_bounds)},
              {"a90", to_json(point.a90)}});
     }
-    return {{"refusal", text_or_null(curve.refusal)}, {"points", points}};
+    return {
+        {"refusal", text_or_null(curve.refusal)}, {"points", points}, {"unfitted", curve.unfitted}};
 }
 
 nlohmann::json least_cost_json(const LeastCost& least) {

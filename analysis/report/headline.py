@@ -16,9 +16,13 @@ def promise(report):
     return f"90\u00a0% probability at {percent(report.confidence)} confidence"
 
 
-def fault(report):
+def a_fault(report):
     """With its article, if it has one: "a crack", "pitting"."""
     return report.data.get("fault") or "a fault"
+
+
+def fault(report):
+    return a_fault(report).removeprefix("a ")
 
 
 def _best_rate(report, level):
@@ -40,7 +44,7 @@ def sentence(report):
     found = report.smallest_fault(level)
     at = noise(report.levels[level])
     if found:
-        kind = fault(report)
+        kind = a_fault(report)
         return (f"{kind[0].upper()}{kind[1:]} of {report.sizes.text(found['size'])} is found with "
                 f"{promise(report)} by {found['feature']} at {at}.")
     best = _best_rate(report, level)
@@ -52,7 +56,7 @@ def sentence(report):
     silent = sum(f["levels"][level]["threshold"] is None for f in report.detection)
     others = (f" {silent} of the {len(report.detection)} features "
               f"{'has' if silent == 1 else 'have'} no threshold." if silent else "")
-    return (f"No tested {fault(report).removeprefix('a ')} is found with {promise(report)} at {at}. "
+    return (f"No tested {fault(report)} is found with {promise(report)} at {at}. "
             f"The best is {name}, which finds {rate_with_bounds(cell['pd'], cell['lower'], cell['upper'])} of "
             f"{whom}.{others}")
 
@@ -160,7 +164,8 @@ def threshold(report, name, n):
     unit = report.unit(name)
     text = (f"{side} {quantity(level['threshold'], unit, 4)}" if level["threshold"] is not None
             else "none")
-    return text, rate_with_bounds(level["healthy_rate"], *level["healthy_rate_bounds"])
+    return text, rate_with_bounds(report.data["detection"]["false_alarm_rate"],
+                                  *level["threshold_rate"])
 
 
 def narrow_note(report):

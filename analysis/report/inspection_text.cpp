@@ -68,7 +68,7 @@ void add_hit_miss(std::string& out, const InspectionRequest& request,
         out,
         fmt::format("curve: {}{}; {}{}; {} curve(s) of {} within the bounds", form_text(curve.form),
                     curve.form.free_ceiling ? fmt::format(" at {:.3g}", curve.ceiling) : "",
-                    fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "", pod.supported,
+                    fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "", pod.supported.size(),
                     pod.candidates.size()),
         4);
     add_curve(out, -curve.intercept / curve.slope, 1.0 / curve.slope, pod.covariance,

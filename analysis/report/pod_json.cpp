@@ -73,7 +73,7 @@ nlohmann::json hit_miss_json(const HitMissPod& pod) {
     json["largest"] = pod.largest;
     json["refusal"] = text_or_null(pod.refusal);
     json["doubtful"] = pod.doubtful;
-    json["supported"] = pod.supported;
+    json["supported"] = pod.supported.size();
     json["a50"] = pod.refusal.empty() ? to_json(pod.a50) : Json(nullptr);
     json["a90"] = pod.refusal.empty() ? to_json(pod.a90) : Json(nullptr);
     json["band"] = to_json(pod.band);

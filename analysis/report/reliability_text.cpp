@@ -139,18 +139,17 @@ void add_ranking(std::string& out, const FeatureRanking& ranking) {
     }
 }
 
-// Of the best ranked feature that has one, and of the feature whose alarms cost least.
+// Of the best ranked feature, and of the feature whose alarms cost least.
 void add_false_alarms(std::string& out, const std::vector<const FeatureReliability*>& features,
                       std::size_t n, const DetectionRequest& request) {
-    for (const FeatureReliability* feature : features) {
-        const LevelReliability& level = feature->levels[n];
-        const std::string text = false_alarm_text(feature->feature, level.by_rate,
-                                                  {level.hit_miss.smallest, level.hit_miss.largest},
-                                                  request.size, request.confidence);
-        if (!text.empty()) {
-            add_wrapped(out, text, 4);
-            break;
-        }
+    if (!features.empty()) {
+        const FeatureReliability& best = *features.front();
+        const LevelReliability& level = best.levels[n];
+        add_wrapped(out,
+                    false_alarm_text(best.feature, level.by_rate,
+                                     {level.hit_miss.smallest, level.hit_miss.largest},
+                                     request.size, request.confidence),
+                    4);
     }
     const FeatureReliability* cheapest = nullptr;
     for (const FeatureReliability* feature : features) {
@@ -210,10 +209,10 @@ std::string silent_text(const Reliability& reliability, std::size_t n) {
         reliability.features,
         [&](const FeatureReliability& feature) { return !feature.levels[n].has_threshold; });
     return silent == 0 ? ""
-                       : fmt::format("; {} of the {} features {} no threshold, which says nothing "
-                                     "of them",
-                                     silent, reliability.features.size(),
-                                     silent == 1 ? "has" : "have");
+                       : fmt::format(
+                             "; {} of the {} features {} no threshold, which says nothing "
+                             "of them",
+                             silent, reliability.features.size(), silent == 1 ? "has" : "have");
 }
 
 void add_unsized_level(std::string& out, const Reliability& reliability, std::size_t n) {

@@ -11,7 +11,8 @@ std::unique_ptr<SignalFile> open_signal_file(const std::string& path,
                                              std::optional<std::size_t> row) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
-        throw SignalError(path + ": no such file");
+        throw SignalError(path + (std::filesystem::is_directory(path, error) ? ": is a folder"
+                                                                             : ": no such file"));
     }
     std::string kind = std::filesystem::path(path).extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) {

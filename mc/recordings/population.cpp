@@ -74,6 +74,7 @@ PopulationFeature feature_of(const Results& results, std::size_t f, std::size_t 
                       .auc;
     const analysis::LevelDetection& detection = results.detection[f].levels[level];
     feature.threshold = detection.threshold;
+    feature.sample = detection.threshold_sample;
     return feature;
 }
 
@@ -140,9 +141,10 @@ std::vector<Verdict> judge(const Population& population, const std::vector<doubl
         return feature.empty() || one.population->name == feature;
     });
     if (named == verdicts.end()) {
-        refuse(population.file, feature.empty()
-                                    ? "has none of the recording's features"
-                                    : fmt::format("or the recording has no feature {}", feature));
+        refuse(population.file,
+               feature.empty()
+                   ? "has none of the recording's features"
+                   : fmt::format("has no feature {}, or the recording has not", feature));
     }
     std::rotate(verdicts.begin(), named, named + 1);
     return verdicts;
@@ -162,11 +164,12 @@ std::string verdict_sentence(const std::string& recording, const Population& pop
     const char* whom = population.recordings ? "healthy recordings" : "simulated healthy gearboxes";
     std::string text = fmt::format(
         "{}: {}: {} is {:.4g}, {:.3g} % {} the threshold of {:.4g} that {} {} set at {:.3g} % "
-        "false alarms, and {} than {} of them ({:.4g} %)",
+        "false alarms, and {} than {} of {} healthy ones ({:.4g} %)",
         recording, verdict.alarm ? "ALARM" : "no alarm", known.name, verdict.value,
         100.0 * std::abs(verdict.margin), verdict.alarm ? "beyond" : "short of", known.threshold,
-        known.healthy.size(), whom, 100.0 * population.false_alarm_rate,
+        known.sample, whom, 100.0 * population.false_alarm_rate,
         known.alarm == analysis::Alarm::high ? "larger" : "smaller", verdict.less_extreme,
+        known.healthy.size(),
         100.0 * static_cast<double>(verdict.less_extreme) /
             static_cast<double>(known.healthy.size()));
     for (const WorstTooth& tooth : teeth) {

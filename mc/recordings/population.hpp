@@ -14,7 +14,8 @@ struct PopulationFeature {
     std::string name;
     analysis::Alarm alarm = analysis::Alarm::high;
     double threshold = 0.0;
-    std::vector<double> healthy;  // ascending
+    long sample = 0;              // healthy ones that set it
+    std::vector<double> healthy;  // ascending; these, and graded ones without a fault
     double auc = 0.0;             // NaN without faulty ones
 };
 

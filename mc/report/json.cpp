@@ -122,7 +122,7 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     Json json = examples_json(frame, rows);
     const auto study = read_study_text(frame.provenance_value("study"), "").study;
     json["title"] = study ? study->title : "";
-    json["assumptions"] = study ? assumptions(*study) : "";
+    json["assumptions"] = study ? assumptions(*study, false) : "";
     json["fault"] = study && study->fault.kind ? Json(study->fault.kind->words()) : Json(nullptr);
     json["detection"] = analysis::detection_json(frame.detection, frame.request, subject_of(frame));
     json["reliability"] =

@@ -201,7 +201,7 @@ std::string lives_text(const LifeMonitor& monitor) {
         campaign.cracked.size(), 1e3 * crack_begin_m(study.life), 1e3 * *study.life.last_depth_m,
         *study.life.interval_h, ended, study.life.records, campaign.setting.size(),
         study.monitoring.false_alarms_per_1000_h, campaign.healthy.size());
-    if (const std::string holds = assumptions(study); !holds.empty()) {
+    if (const std::string holds = assumptions(study, true); !holds.empty()) {
         analysis::add_wrapped(out, holds, 2);
     }
     out += "a record: " + printable(campaign.record) + "\n";
@@ -270,7 +270,7 @@ nlohmann::json lives_json(const LifeMonitor& monitor) {
     }
     return {{"kind", "lives"},
             {"title", study.title},
-            {"assumptions", assumptions(study)},
+            {"assumptions", assumptions(study, true)},
             {"interval_h", *study.life.interval_h},
             {"record", printable(campaign.record)},
             {"baseline_records", study.monitoring.baseline_records},

@@ -85,7 +85,7 @@ std::string results_text(const Results& frame, const RowSource& rows,
         !shortage.empty()) {
         analysis::add_wrapped(text, shortage, 2);
     }
-    if (const std::string holds = study ? assumptions(*study) : ""; !holds.empty()) {
+    if (const std::string holds = study ? assumptions(*study, false) : ""; !holds.empty()) {
         analysis::add_wrapped(text, holds, 2);
         text += "\n";
     }

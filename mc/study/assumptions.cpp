@@ -26,7 +26,7 @@ std::string teeth(const Study& study) {
 
 }  // namespace
 
-std::string assumptions(const Study& study) {
+std::string assumptions(const Study& study, bool lives) {
     if (!has_gears(study)) {
         return "";
     }
@@ -37,7 +37,6 @@ std::string assumptions(const Study& study) {
     if (study.effects.foundation == Foundation::none && !stiffness_given(study)) {
         all.push_back("rigid gear bodies");
     }
-    const bool lives = study.life.interval_h.has_value();
     if (!torque_fluctuates(study) && !speed_fluctuates(study)) {
         all.push_back(lives ? "torque and speed steady in a record" : "steady torque and speed");
     }

@@ -8,7 +8,8 @@
 namespace gearpod::mc {
 
 // "Holds for identical teeth, ...": what the gearboxes have that no real one has, what is not
-// scattered, and what that does to the answer. Empty for a study without gears.
-std::string assumptions(const Study& study);
+// scattered, and what that does to the answer. Of its `lives`, or of a run, in which no crack grows.
+// Empty for a study without gears.
+std::string assumptions(const Study& study, bool lives);
 
 }  // namespace gearpod::mc

@@ -111,7 +111,8 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
         }
         const Value& value = end_of(document, split(key, '.').size());
         if (value.kind != Value::Kind::array || value.elements.empty()) {
-            reject(fmt::format("must be a list of values, but is {}", value.kind_name()),
+            reject(fmt::format("must be a list of values, but is {}",
+                               value.kind == Value::Kind::array ? "empty" : value.kind_name()),
                    "write section.key=[a, b, c]");
             continue;
         }

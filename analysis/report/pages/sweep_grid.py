@@ -182,8 +182,8 @@ def files(grid, page, how_to_compare):
     listed = blocks.table("Results files", [key.name for key in grid.keys] + ["file"],
                           [values(grid, p) + [p["results"]] for p in grid.points[:MOST_ROWS]])
     return page.section("files", "The studies", blocks.bullets([
-        "Every study draws the same gearboxes (common random numbers): points differ by the varied "
-        "keys, not by chance. Intervals are each point's own, so they may overlap where a pair "
+        "Every study draws the same gearboxes (common random numbers): chance moves points together, "
+        "but not alike. Intervals are each point's own, so they may overlap where a pair "
         f"differs surely{how_to_compare}.",
         "Varied: " + "; ".join(f"{k.key} = {', '.join(map(clipped, k.values[:50]))}"
                                for k in grid.keys) + "."]) + listed)

@@ -4,8 +4,15 @@
 #include "mc/study/assumptions.hpp"
 #include "tests/mc/study_file.hpp"
 
-using gearpod::mc::assumptions;
 using gearpod::test::shipped_study;
+
+namespace {
+
+std::string assumptions(const gearpod::mc::Study& study) {
+    return gearpod::mc::assumptions(study, false);
+}
+
+}  // namespace
 
 TEST_CASE("An answer says which teeth and planets it is for") {
     const std::string ideal = assumptions(shipped_study("planet-crack-ideal.toml"));
@@ -26,4 +33,10 @@ TEST_CASE("An answer says which teeth and planets it is for") {
         assumptions(shipped_study("real-teeth.toml")),
         Catch::Contains("grades that vary") &&
             Catch::Contains("a healthy record of the same gearbox, at a torque 2 % (rms) off"));
+}
+
+TEST_CASE("Cracks grow in an answer on lives, not in one on a run of the same study") {
+    const gearpod::mc::Study study = shipped_study("planet-life.toml");
+    CHECK_THAT(gearpod::mc::assumptions(study, true), Catch::Contains("grow by Paris' law"));
+    CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));
 }
