@@ -18,8 +18,8 @@ from matplotlib.transforms import ScaledTranslation  # noqa: E402
 SERIES = [("#0072b2", "#5cb8f0"), ("#c24e00", "#ff9b54"), ("#00795b", "#3fd0a4"),
           ("#a23f7d", "#f09ccb"), ("#806000", "#e3c14d"), ("#4b4fb8", "#a9adff"),
           ("#5b6066", "#b9bec5"), ("#9b2226", "#ff8f8f")]
-DASHES = ["-", (0, (6, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1)),
-          (0, (8, 2, 2, 2, 2, 2)), (0, (1.2, 2.4)), (0, (10, 2))]
+DASHES = ["-", (0, (6, 1.5)), (0, (3, 1, 1.2, 1)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1)),
+          (0, (8, 2, 2, 2, 2, 2)), (0, (12, 1.5, 3, 1.5)), (0, (10, 2))]  # dots: does not fit
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 INK, MUTED, RULE, PAPER, NOISY = "#1b1f23", "#59616a", "#c9ced4", "#ffffff", "#8f979f"
 _SCHEME = {INK: "--ink", MUTED: "--muted", RULE: "--rule", PAPER: "--paper", NOISY: "--noisy"}

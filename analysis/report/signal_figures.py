@@ -134,11 +134,13 @@ def tooth_rms(report, page):
     gearboxes = [g for g in report.data["examples"]["gearboxes"] if g["tooth_rms"]]
     level = report.data["examples"]["noise_level"]
     charts, columns, head = [], [], ["tooth"]
-    highest = 1.02
+    lowest, highest = 0.99, 1.02
     for g in gearboxes:
         for part in ("clean", "noisy"):
-            values = g["tooth_rms"][part]
-            highest = max(highest, max(values) / _median(values) if _median(values) > 0 else 1)
+            values, middle = g["tooth_rms"][part], _median(g["tooth_rms"][part])
+            if middle > 0:
+                lowest = min(lowest, min(values) / middle)
+                highest = max(highest, max(values) / middle)
     for g in gearboxes:
         figure, axes = panel(2.7)
         for part, paint, line, label in (("noisy", NOISY, "none", f"with {noise(level)}"),
@@ -150,7 +152,7 @@ def tooth_rms(report, page):
                       marker="o", markersize=3.4, linewidth=1, label=label)
             head.append(f"{_name(report, g)}, {label}, m/s²")
             columns.append(values)
-        axes.set_ylim(0.99 - 0.06 * (highest - 1), 1 + 1.1 * (highest - 1))
+        axes.set_ylim(lowest - 0.06 * (highest - lowest), highest + 0.1 * (highest - lowest))
         axes.set_xlabel("Tooth of the monitored gear")
         axes.set_ylabel("RMS over median")
         axes.set_title(_name(report, g), fontsize=10, loc="left", pad=16)
