@@ -65,6 +65,15 @@ inline Outcome shell(const std::string& command) {
     return outcome;
 }
 
+// Before a command: with so many kB of memory. The address sanitizer's shadow takes all there is.
+inline std::string within_memory([[maybe_unused]] int kilobytes) {
+#ifdef __SANITIZE_ADDRESS__
+    return "";
+#else
+    return "ulimit -v " + std::to_string(kilobytes) + "; ";
+#endif
+}
+
 inline Outcome program(const std::string& arguments) {
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments);
 }

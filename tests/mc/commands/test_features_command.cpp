@@ -285,8 +285,8 @@ TEST_CASE("A recording's speed is believed only where it can be true") {
             columns[2].second.push_back(rpm(i));
         }
         write_csv(file, columns);
-        return test::shell("ulimit -v 1000000; " + std::string(GEARPOD_PROGRAM) + " features " +
-                           file + " --study " + kSmall);
+        return test::shell(test::within_memory(1000000) + std::string(GEARPOD_PROGRAM) +
+                           " features " + file + " --study " + kSmall);
     };
     const Outcome forwards = recorded([](int) { return 20.0; });
     INFO(forwards.output);

@@ -301,8 +301,8 @@ TEST_CASE("Ten million rows are answered in bounded time and memory") {
         }
     }
     const Outcome outcome =
-        shell("ulimit -v 2000000; timeout 120 " + std::string(GEARPOD_PROGRAM) + " features " +
-              path + " --study " + kSmall + " --sampling-Hz 280 --speed stated");
+        shell(test::within_memory(2000000) + "timeout 120 " + std::string(GEARPOD_PROGRAM) +
+              " features " + path + " --study " + kSmall + " --sampling-Hz 280 --speed stated");
     INFO(outcome.output);
     CHECK(outcome.code == 0);
     CHECK(outcome.mentions("1250000 mesh periods of sensor signal"));
