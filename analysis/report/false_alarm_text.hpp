@@ -37,7 +37,7 @@ std::string least_cost_text(const std::string& feature, const LeastCost& least, 
 
 // {"refusal", "points": [{"false_alarm_rate", "threshold", "extrapolation": null for an order
 //   statistic, "tilted": of tilted records, "threshold_bounds": [lower, upper] (null: open), "a90":
-//   {"estimate", "lower", "upper"}}]}
+//   {"estimate", "lower", "upper"}}], "unfitted": [rates at which no curve fits]}
 nlohmann::json false_alarm_json(const FalseAlarmCurve& curve);
 // {"threshold", "extrapolation", "tilted", "false_alarm_rate", "rate_bounds", "pd", "pd_bounds",
 // "cost",
