@@ -27,8 +27,8 @@ std::string sample_shortage(std::span<const FeatureDetection> features,
 // No feature has a threshold at the noise level: nothing is known of the faults there.
 bool without_threshold(std::span<const FeatureDetection> features, std::size_t level);
 
-// One paragraph: a90 with its bounds by false-alarm rate, and up to where the sample carries. "" if
-// the curve is refused.
+// One paragraph: a90 with its bounds by false-alarm rate, and up to where the sample carries; or why
+// there is none.
 std::string false_alarm_text(const std::string& feature, const FalseAlarmCurve& curve,
                              const SizeGroup& tested, const SizeUnit& unit, double confidence);
 
