@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <ranges>
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
@@ -58,7 +57,10 @@ std::optional<AskedFeature> find_asked(const AskedResults& results, const std::s
     const auto found =
         std::ranges::find(frame.detection, feature, &analysis::FeatureDetection::feature);
     if (found == frame.detection.end()) {
-        const auto names = frame.features | std::views::transform(&FeatureResult::name);
+        std::vector<std::string> names;
+        for (const FeatureResult& known : frame.features) {
+            names.push_back(known.name);
+        }
         complaints.add("--feature", fmt::format("\"{}\" is not in {}, which has {}", feature,
                                                 results.path, fmt::join(names, ", ")));
         return std::nullopt;

@@ -162,7 +162,7 @@ class Merge {
 bool check_names(const MergeOptions& options) {
     std::vector<FileRole> parts;
     for (const std::string& path : options.results) {
-        parts.emplace_back("a part", path);
+        parts.push_back({"a part", path});
     }
     return can_write({"--out", options.out}, parts);
 }

@@ -88,7 +88,7 @@ std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std:
         Records one{name, rows, {}, {}, {}, {}, {}};
         const auto in_order = [&](const std::vector<double>& all) {
             std::vector<double> values;
-            for (const std::size_t row : all.empty() ? std::vector<std::size_t>() : rows) {
+            for (const std::size_t row : all.empty() ? std::vector<std::size_t>() : one.rows) {
                 values.push_back(all[row]);
             }
             return values;

@@ -1,8 +1,8 @@
 #include "mc/scene/gearbox_streams.hpp"
 
+#include <algorithm>
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
-#include <ranges>
 #include <string>
 
 #include "signals/noise/normals.hpp"
@@ -40,12 +40,12 @@ std::string noise_purpose(const GearboxId& id, std::string_view purpose) {
 }  // namespace
 
 std::uint64_t drawn_from(const Study& study, const GearboxId& id, std::string_view purpose) {
-    for (const analysis::DrawExchange& exchange : std::views::reverse(exchanges_of(id))) {
-        if (takes(study, id.group, exchange, purpose)) {
-            return exchange.index;
-        }
-    }
-    return id.index;
+    // The last one that takes them.
+    const std::span<const analysis::DrawExchange> exchanges = exchanges_of(id);
+    const auto taken = std::find_if(exchanges.rbegin(), exchanges.rend(), [&](const auto& one) {
+        return takes(study, id.group, one, purpose);
+    });
+    return taken == exchanges.rend() ? id.index : taken->index;
 }
 
 Philox gearbox_stream(const Study& study, const GearboxId& id, std::string_view purpose) {
