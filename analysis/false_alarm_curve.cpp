@@ -19,9 +19,7 @@ SizeBounds everywhere(SizeEstimate::Where where) {
     return {estimate, estimate, estimate};
 }
 
-// At one threshold; empty where no curve fits.
-std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, const PodForm& form,
-                                 double confidence) {
+HitMissTable outcomes_at(const GradedValues& values, double threshold) {
     std::vector<double> size;
     std::vector<char> hit;
     for (std::size_t i = 0; i < values.value.size(); ++i) {
@@ -30,7 +28,12 @@ std::optional<SizeBounds> a90_at(const GradedValues& values, double threshold, c
             hit.push_back(is_alarm(values.value[i], threshold, values.alarm) ? 1 : 0);
         }
     }
-    const HitMissTable table = hit_miss_table(size, hit);
+    return hit_miss_table(size, hit);
+}
+
+// Empty where no curve fits.
+std::optional<SizeBounds> a90_of(const HitMissTable& table, const PodForm& form,
+                                 double confidence) {
     if (table.empty() || total_hits(table) == 0.0) {
         return everywhere(SizeEstimate::Where::not_reached);
     }
@@ -110,12 +113,14 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
         const Interval& bounds = point.threshold_bounds;
         const double near = high ? bounds.lower : bounds.upper,
                      far = high ? bounds.upper : bounds.lower;
+        const HitMissTable here = outcomes_at(values, threshold.value),
+                           nearest = outcomes_at(values, near), farthest = outcomes_at(values, far);
         bool fitted = false;
         for (const PodForm& form : forms) {
             PodForm at = form;
             at.floor = form.floor > 0.0 ? rate : 0.0;
-            const auto middle = a90_at(values, threshold.value, at, half),
-                       least = a90_at(values, near, at, half), most = a90_at(values, far, at, half);
+            const auto middle = a90_of(here, at, half), least = a90_of(nearest, at, half),
+                       most = a90_of(farthest, at, half);
             if (middle && least && most) {
                 const SizeBounds own{middle->estimate, least->lower, most->upper};
                 point.a90 = fitted ? widest(point.a90, own) : own;

@@ -79,7 +79,7 @@ struct ReliabilityData {
     std::vector<InputColumn> uncertain;      // those of them that are (uncertain_inputs.hpp)
     std::vector<ConditionColumn> condition;  // at most one
     std::optional<Costs> costs = {};
-    // Of the features' records, or of the threshold sample where several of it are of one gearbox.
+    // Of the features' records, or without these of the threshold sample; empty: each its own.
     std::vector<std::size_t> record_gearbox = {};
 };
 

@@ -41,7 +41,7 @@ struct ConditionColumn {
     std::string unit;
     std::span<const double> healthy;  // value a gearbox
     std::span<const double> graded;
-    std::span<const std::size_t> gearbox = {};  // of `healthy`, where several are of one
+    std::span<const std::size_t> gearbox = {};  // of `healthy`; empty: each its own
 };
 
 // Refused if the input has more than 50 values: conditions are levels, not a continuous input.

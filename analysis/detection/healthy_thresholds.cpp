@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "analysis/detection/clustered_rate.hpp"
 
 namespace gearpod::analysis {
 
 bool HealthyValues::clustered() const {
-    return std::set<std::size_t>(gearbox.begin(), gearbox.end()).size() < gearbox.size();
+    std::vector<std::size_t> sorted(gearbox.begin(), gearbox.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
 HealthyThresholds::HealthyThresholds(const HealthyValues& sample, Alarm alarm) : alarm_(alarm) {

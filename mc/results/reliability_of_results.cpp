@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "analysis/detection/healthy_thresholds.hpp"
 #include "analysis/report/reliability_text.hpp"
 
 namespace gearpod::mc {
@@ -88,13 +87,8 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
     const std::vector<double> no_fault(std::max(healthy.rows, graded.rows), 0.0);
     analysis::ReliabilityData data;
     data.costs = costs;
-    // Of recordings several may be of one gearbox, too.
-    const auto gearbox = gearboxes_of(frame, healthy_rows);
-    const std::span<const std::size_t> recorded = analysis::HealthyValues{{}, gearbox}.clustered()
-                                                      ? std::span(gearbox)
-                                                      : std::span<const std::size_t>();
-    data.record_gearbox = repeated ? gearboxes_of(frame, repeated_rows)
-                                   : std::vector<std::size_t>(recorded.begin(), recorded.end());
+    const std::vector<std::size_t> gearbox = gearboxes_of(frame, healthy_rows);
+    data.record_gearbox = repeated ? gearboxes_of(frame, repeated_rows) : gearbox;
     std::span<const double> weights;
     data.healthy_size = {no_fault.data(), healthy.rows};
     data.graded_size = {no_fault.data(), graded.rows};
@@ -115,7 +109,7 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
         }
         if (parameter.name == condition) {
             data.condition.push_back({parameter.name, parameter.unit, healthy.parameters[p],
-                                      graded.parameters[p], recorded});
+                                      graded.parameters[p], gearbox});
         }
     }
     for (std::size_t f = 0; f < shape.features; ++f) {

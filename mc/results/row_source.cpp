@@ -141,9 +141,9 @@ std::vector<analysis::FeatureDetection> detect_all(const Results& frame, const R
         rows.visit([&](const RowBlock& block) {
             add_rows(block, shape, size_at, weight_at, first, healthy, graded);
         });
+        const std::vector<std::size_t> numbers = gearboxes_of(frame, healthy.row);
         for (std::size_t f = 0; f < count; ++f) {
             const FeatureResult& feature = frame.features[first + f];
-            const std::vector<std::size_t> numbers = gearboxes_of(frame, healthy.row);
             analysis::FeatureSample sample{healthy.size, healthy.values[f]};
             if (sees_tilt(feature.name)) {
                 sample.gearbox = numbers;
