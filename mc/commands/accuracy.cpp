@@ -3,8 +3,9 @@
 #include <exception>
 
 #include "mc/accuracy/report.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/input/exception_text.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

@@ -9,12 +9,13 @@
 #include <stdexcept>
 
 #include "analysis/detection/feature_alarm.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/results/file_rows.hpp"
+#include "mc/run/support.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "analysis/detection/detection_table.hpp"
 #include "features/feature.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/study_scene.hpp"

@@ -9,13 +9,14 @@
 #include <utility>
 
 #include "mc/calibration/healthy_records.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/recordings/measure_recordings.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,5 +1,4 @@
-// The program's commands. Each returns the exit code: 0 done, 2 bad input, 3 some gearboxes failed,
-// 4 stopped before its end with a checkpoint to resume from.
+// The program's commands. Each returns the exit code (mc/run/run_options.hpp).
 #pragma once
 
 #include <optional>
@@ -8,19 +7,11 @@
 
 #include "mc/gearbox/measured_signal.hpp"
 #include "mc/new_study/planetary_datasheet.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 
-inline constexpr int kDone = 0;
-inline constexpr int kBadInput = 2;
-inline constexpr int kSomeFailed = 3;
-inline constexpr int kResumable = 4;
-
-// A study file and what the command line changes in it.
-struct StudyOptions {
-    std::string path;
-    std::vector<std::string> overrides;  // "section.key=value"
-};
+class Ranks;
 
 struct NewOptions {
     std::string kind;     // of gearbox
@@ -30,21 +21,6 @@ struct NewOptions {
     bool force = false;     // overwrite a file
 };
 int new_command(const NewOptions& options);
-
-struct RunOptions {
-    StudyOptions study;
-    std::string out;  // "": the study's name with .h5, in the working folder
-    bool resume = false;
-    bool force = false;         // overwrite what a run with other numbers has written
-    std::string time_limit;     // "hh:mm:ss", "": none
-    std::string watch;          // feature whose Pd the progress shows, "": the study's first
-    std::vector<long> signals;  // rows whose signals the results hold as well
-    std::string part;           // "2/4": every fourth tile, the second; "": all
-    std::string progress;       // "json": one object a line; "": for people
-    bool quiet = false;
-    bool says_results = true;  // at the end, on the terminal
-};
-int run_command(const RunOptions& options);
 
 struct SweepOptions {
     StudyOptions study;
@@ -119,6 +95,8 @@ struct LivesOptions {
     std::string json, html;  // "": none; JSON "-": standard output
 };
 int lives_command(const LivesOptions& options);
+// The same by ranks that are there already. All of them call it.
+int lives_study(const LivesOptions& options, const Ranks& ranks);
 // Of the results file that it has written; `report` comes here with one.
 int report_lives(const ReportOptions& options);
 

@@ -10,7 +10,8 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/report/false_alarm_text.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/answers/run_report.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"
@@ -20,9 +21,9 @@
 #include "mc/random/philox.hpp"
 #include "mc/report/example_gearboxes.hpp"
 #include "mc/report/page.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

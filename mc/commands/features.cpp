@@ -5,12 +5,13 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/gearbox/measured_features.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/recordings/population.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

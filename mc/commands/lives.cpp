@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "machine/wall_clock.hpp"
-#include "mc/commands/run_agreement.hpp"
-#include "mc/commands/run_checks.hpp"
-#include "mc/commands/run_to_end.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/answers/run_report.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/json_text.hpp"
@@ -21,9 +19,12 @@
 #include "mc/lives/life_rows.hpp"
 #include "mc/report/lives_report.hpp"
 #include "mc/report/page.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
+#include "mc/run/run_agreement.hpp"
+#include "mc/run/run_checks.hpp"
+#include "mc/run/run_to_end.hpp"
+#include "mc/run/support.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {

@@ -6,9 +6,7 @@
 #include <stdexcept>
 
 #include "machine/wall_clock.hpp"
-#include "mc/commands/run_checks.hpp"
-#include "mc/commands/run_to_end.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/files/atomic_file.hpp"
@@ -16,6 +14,9 @@
 #include "mc/input/printable.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/provenance.hpp"
+#include "mc/run/run_checks.hpp"
+#include "mc/run/run_to_end.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

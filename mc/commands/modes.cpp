@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/gearbox_matrices.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
+#include "mc/run/support.hpp"
 #include "mc/scene/body.hpp"
 #include "mc/scene/meshes.hpp"
 

@@ -2,8 +2,9 @@
 
 #include <filesystem>
 
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/new_study/planetary.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

@@ -9,13 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/inspection_text.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/files/json_text.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/files/text_table.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
 #include "mc/report/page.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -5,7 +5,7 @@
 #include <exception>
 #include <optional>
 
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/progress.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/signal_file.hpp"
@@ -13,6 +13,7 @@
 #include "mc/input/printable.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/population.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -7,7 +7,8 @@
 #include <span>
 #include <tuple>
 
-#include "mc/commands/support.hpp"
+#include "mc/answers/run_report.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/atomic_file.hpp"
@@ -16,10 +17,10 @@
 #include "mc/input/printable.hpp"
 #include "mc/report/json.hpp"
 #include "mc/report/page.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/report/tables.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -4,13 +4,14 @@
 #include <iterator>
 #include <span>
 
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/files/atomic_file.hpp"
 #include "mc/files/hdf5_data.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/results/batch_rows.hpp"
 #include "mc/results/provenance.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

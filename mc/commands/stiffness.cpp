@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
+#include "mc/run/support.hpp"
 #include "mc/scene/stiffness_curves.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"

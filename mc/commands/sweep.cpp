@@ -7,9 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mc/commands/run_checks.hpp"
-#include "mc/commands/run_to_end.hpp"
-#include "mc/commands/support.hpp"
+#include "mc/commands/commands.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/files/json_text.hpp"
@@ -18,6 +16,9 @@
 #include "mc/lives/life_rows.hpp"
 #include "mc/report/page.hpp"
 #include "mc/results/file_rows.hpp"
+#include "mc/run/run_checks.hpp"
+#include "mc/run/run_to_end.hpp"
+#include "mc/run/support.hpp"
 #include "mc/sweep/lives_summary.hpp"
 #include "mc/sweep/summary.hpp"
 

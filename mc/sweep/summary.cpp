@@ -9,9 +9,9 @@
 
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
+#include "mc/answers/run_report.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/report/example_gearboxes.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/sweep/columns.hpp"

@@ -1,6 +1,6 @@
 // What each effect of a scene costs: time of a step and gearbox against the effects that are on, in
 // three scenes (x, y and rotation of Liang's train; its rotations alone; a fixed-shaft stage),
-// eight abreast. `a_step` is what README.md tabulates and mc/forecast/effect_costs.cpp holds.
+// eight abreast. `a_step` is what README.md tabulates and mc/description/effect_costs.cpp holds.
 #include <benchmark/benchmark.h>
 
 #include <memory>

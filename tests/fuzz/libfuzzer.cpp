@@ -9,10 +9,10 @@
 #include <iterator>
 #include <string>
 
+#include "mc/answers/run_report.hpp"
 #include "mc/ensemble/results_check.hpp"
 #include "mc/files/signal_file.hpp"
 #include "mc/recordings/manifest.hpp"
-#include "mc/report/run_report.hpp"
 #include "mc/results/file_rows.hpp"
 #include "mc/study/study.hpp"
 #include "tests/mc/resealed.hpp"

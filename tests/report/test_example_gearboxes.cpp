@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "mc/commands/support.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/report/example_gearboxes.hpp"
+#include "mc/run/support.hpp"
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;

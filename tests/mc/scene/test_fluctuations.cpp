@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mc/forecast/effect_costs.hpp"
+#include "mc/description/effect_costs.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/simulation.hpp"
 #include "mc/study/fluctuations.hpp"

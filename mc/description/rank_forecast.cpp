@@ -1,4 +1,4 @@
-#include "mc/forecast/rank_forecast.hpp"
+#include "mc/description/rank_forecast.hpp"
 
 #include <algorithm>
 #include <array>

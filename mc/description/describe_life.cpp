@@ -1,9 +1,9 @@
-#include "mc/forecast/describe_life.hpp"
+#include "mc/description/describe_life.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mc/forecast/describe_effects.hpp"
+#include "mc/description/describe_effects.hpp"
 #include "mc/lives/life_tile.hpp"
 #include "mc/scene/scene_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "mc/report/alarms_over_time.hpp"
+#include "mc/answers/alarms_over_time.hpp"
 
 #include <fmt/format.h>
 

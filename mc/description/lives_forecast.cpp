@@ -1,4 +1,4 @@
-#include "mc/forecast/lives_forecast.hpp"
+#include "mc/description/lives_forecast.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "machine/dispatch.hpp"
+#include "mc/description/describe_effects.hpp"
 #include "mc/ensemble/thread_count.hpp"
-#include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/lives/life_rows.hpp"

@@ -1,4 +1,4 @@
-#include "mc/forecast/effect_costs.hpp"
+#include "mc/description/effect_costs.hpp"
 
 #include "mc/study/fluctuations.hpp"
 #include "mc/study/gears.hpp"

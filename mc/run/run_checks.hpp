@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "mc/commands/commands.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/results/batch_rows.hpp"
+#include "mc/run/run_options.hpp"
 #include "mc/scene/scene.hpp"
 
 namespace gearpod::mc {

@@ -1,4 +1,4 @@
-#include "mc/forecast/undamped.hpp"
+#include "mc/description/undamped.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

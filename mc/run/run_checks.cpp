@@ -1,11 +1,10 @@
-#include "mc/commands/run_checks.hpp"
+#include "mc/run/run_checks.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "mc/commands/support.hpp"
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/run_store.hpp"
 #include "mc/ensemble/thread_count.hpp"
@@ -13,6 +12,7 @@
 #include "mc/forecast/forecast.hpp"
 #include "mc/forecast/memory.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mc/commands/commands.hpp"
 #include "mc/numerics/study_scene.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 

@@ -1,10 +1,10 @@
 // All ranks of a run must compute the same: the same program, study and seed.
 #pragma once
 
-#include "mc/commands/commands.hpp"
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/study_scene.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 

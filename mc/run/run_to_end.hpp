@@ -3,19 +3,17 @@
 
 #include <memory>
 
-#include "mc/commands/commands.hpp"
 #include "mc/ensemble/ensemble_run.hpp"
 #include "mc/ensemble/interruption.hpp"
 #include "mc/ensemble/ranks.hpp"
 #include "mc/numerics/study_scene.hpp"
 #include "mc/results/checkpoint.hpp"
+#include "mc/run/run_options.hpp"
 
 namespace gearpod::mc {
 
 // `run` itself, by ranks that are there already. All of them call it.
 int run_study(const RunOptions& options, const Ranks& ranks);
-// The same of `lives`.
-int lives_study(const LivesOptions& options, const Ranks& ranks);
 
 // That a run which ends before its time goes on from its checkpoint, on stderr.
 void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,

@@ -1,4 +1,4 @@
-#include "mc/commands/run_agreement.hpp"
+#include "mc/run/run_agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "machine/stop.hpp"
-#include "mc/commands/support.hpp"
 #include "mc/random/fnv.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/run_identity.hpp"
+#include "mc/run/support.hpp"
 
 namespace gearpod::mc {
 namespace {

@@ -1,4 +1,4 @@
-#include "mc/forecast/describe_effects.hpp"
+#include "mc/description/describe_effects.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "mc/forecast/undamped.hpp"
+#include "mc/description/undamped.hpp"
 #include "mc/scene/sampling.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/fluctuations.hpp"

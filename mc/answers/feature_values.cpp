@@ -1,4 +1,4 @@
-#include "mc/report/feature_values.hpp"
+#include "mc/answers/feature_values.hpp"
 
 #include <fmt/format.h>
 

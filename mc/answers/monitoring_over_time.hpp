@@ -47,8 +47,8 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame, con
 std::string monitoring_text(const MonitoringOverTime& monitoring,
                             const std::vector<std::string>& features);
 
-// {"baseline_records", "false_alarm_rate", "torque_regression", "note", "refusal", "watched": [{"feature",
-// "detector", "threshold", "healthy": {"recordings", "alarms"}, "gearboxes": [{"name",
+// {"baseline_records", "false_alarm_rate", "torque_regression", "note", "refusal", "watched":
+// [{"feature", "detector", "threshold", "healthy": {"recordings", "alarms"}, "gearboxes": [{"name",
 // "recordings", "alarms", "first": {"row", "time", "recording"} or null}]}]}
 nlohmann::json monitoring_json(const MonitoringOverTime& monitoring);
 

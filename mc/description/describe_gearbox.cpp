@@ -1,4 +1,4 @@
-#include "mc/forecast/describe_gearbox.hpp"
+#include "mc/description/describe_gearbox.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mc/forecast/describe_effects.hpp"
+#include "mc/description/describe_effects.hpp"
 #include "mc/scene/drive.hpp"
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"

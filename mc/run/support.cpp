@@ -1,4 +1,4 @@
-#include "mc/commands/support.hpp"
+#include "mc/run/support.hpp"
 
 #include <fmt/core.h>
 

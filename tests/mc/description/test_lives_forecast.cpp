@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "mc/forecast/lives_forecast.hpp"
+#include "mc/description/lives_forecast.hpp"
 #include "mc/lives/campaign.hpp"
 #include "mc/results/results_file.hpp"
 #include "tests/mc/lives/life_example.hpp"

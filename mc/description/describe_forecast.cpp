@@ -1,4 +1,4 @@
-#include "mc/forecast/describe_forecast.hpp"
+#include "mc/description/describe_forecast.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "machine/dispatch.hpp"
+#include "mc/description/describe_effects.hpp"
+#include "mc/description/lives_forecast.hpp"
+#include "mc/description/rank_forecast.hpp"
 #include "mc/ensemble/thread_count.hpp"
-#include "mc/forecast/describe_effects.hpp"
 #include "mc/forecast/forecast.hpp"
-#include "mc/forecast/lives_forecast.hpp"
-#include "mc/forecast/rank_forecast.hpp"
 #include "mc/scene/scene_error.hpp"
 
 namespace gearpod::mc {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "mc/forecast/rank_forecast.hpp"
+#include "mc/description/rank_forecast.hpp"
 #include "mc/results/checkpoint.hpp"
 #include "mc/scene/sampling.hpp"
 #include "tests/mc/program.hpp"

@@ -1,4 +1,4 @@
-#include "mc/report/run_report.hpp"
+#include "mc/answers/run_report.hpp"
 
 #include <fmt/core.h>
 
@@ -7,10 +7,10 @@
 #include "analysis/report/detection_text.hpp"
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
+#include "mc/answers/alarms_over_time.hpp"
+#include "mc/answers/feature_values.hpp"
+#include "mc/answers/monitoring_over_time.hpp"
 #include "mc/numerics/numerical_error.hpp"
-#include "mc/report/alarms_over_time.hpp"
-#include "mc/report/feature_values.hpp"
-#include "mc/report/monitoring_over_time.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
