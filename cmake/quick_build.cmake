@@ -45,19 +45,25 @@ if(GEARPOD_QUICK)
     <string_view> <vector> <fmt/format.h>)
   target_precompile_headers(gearpod_physics PRIVATE ${headers})
   # The flags for threads are part of what must agree.
-  target_precompile_headers(gearpod_analysis PRIVATE ${headers} <filesystem>)
-  target_precompile_headers(gearpod_mc REUSE_FROM gearpod_analysis)
+  target_precompile_headers(gearpod_run_analysis PRIVATE ${headers} <filesystem>)
+  foreach(library gearpod_analysis gearpod_run_mc gearpod_mc)
+    target_precompile_headers(${library} REUSE_FROM gearpod_run_analysis)
+  endforeach()
   gearpod_unite(gearpod_physics
     "features gears machine"
     "lockstep/driven lockstep/integrators lockstep/plan lockstep/steps lockstep/tile"
     "signals signals/noise signals/path signals/sensor signals/spectra signals/windowing"
     "stiffness stiffness/contact stiffness/foundation stiffness/growth stiffness/teeth")
-  gearpod_unite(gearpod_analysis) # folders together are no faster here
-  gearpod_unite(gearpod_mc
-    "accuracy files random sweep" "calibration lives new_study recordings"
-    "ensemble gearbox" "forecast input numerics"
+  gearpod_unite(gearpod_run_analysis) # folders together are no faster here
+  gearpod_unite(gearpod_analysis)
+  gearpod_unite(gearpod_run_mc
+    "files random" "ensemble gearbox" "answers forecast input numerics run"
     "scene study study/keys study/reading study/schema")
-  set_target_properties(gearpod_command_line PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  gearpod_unite(gearpod_mc
+    "accuracy description sweep" "calibration lives new_study recordings")
+  foreach(library gearpod_first_command_line gearpod_command_line)
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  endforeach()
 endif()
 
 # Files of kernels hold little else than one line for the templates that all of them read; those of a
@@ -71,7 +77,8 @@ function(gearpod_precompile_kernels library)
       <lockstep/kernels/paced_kernels.hpp>)
   endif()
 endfunction()
-gearpod_precompile_kernels(gearpod_kernels)
+gearpod_precompile_kernels(gearpod_first_kernels)
+gearpod_precompile_kernels(gearpod_kernels gearpod_first_kernels)
 
 # Test programs read Catch2 once; what has a main() of its own sets Catch2 up before it reads it. One
 # whose files mostly read some further headers reads those once too.

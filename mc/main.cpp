@@ -1,18 +1,10 @@
 #include <fmt/core.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
-#include <exception>
 
-#include "analysis/report/text_lines.hpp"
-#include "lockstep/kernels/built_kernels.hpp"
 #include "mc/help/manual.hpp"
-#include "mc/input/exception_text.hpp"
-#include "mc/input/printable.hpp"
 #include "mc/options/options.hpp"
+#include "mc/options/program.hpp"
 #include "mc/results/provenance.hpp"
 
 namespace {
@@ -46,14 +38,6 @@ void add_descriptions(CLI::App& app) {
         "print bash's completion (source <(gearpod --completion))");
 }
 
-// Reports as wide as the terminal that shows them.
-void fit_terminal() {
-    winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-        gearpod::analysis::set_text_width(std::min<std::size_t>(size.ws_col, 160));
-    }
-}
-
 int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
@@ -64,29 +48,7 @@ int run_program(int argc, char** argv) {
     int code = kDone;
 
     RunOptions run;
-    auto* run_app =
-        app.add_subcommand("run", "simulate the whole study and report detection rates");
-    add_study(*run_app, run.study);
-    add_shorthand(*run_app, "--instances", "ensemble.instances", "gearboxes over all fault sizes",
-                  run.study);
-    add_shorthand(*run_app, "--seed", "ensemble.seed", "seed of all random numbers", run.study);
-    add_results(*run_app, run, "continue an interrupted run, or add gearboxes to a finished one",
-                "overwrite the results of another study, or a file that is none; start although "
-                "the memory will not suffice");
-    run_app
-        ->add_option("--part", run.part,
-                     "compute one part of the gearboxes, e.g. 2/4; merge makes the whole of all")
-        ->type_name("K/N");
-    add_progress(*run_app, run);
-    run_app->add_option("--watch", run.watch, "feature whose detection rate the progress shows");
-    run_app
-        ->add_option("--signals", run.signals,
-                     "rows whose signals over a planet turn go into the results, e.g. 0,17")
-        ->type_name("ROW,ROW...")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    run_app->add_flag("--quiet", run.quiet, "print nothing but problems");
-    run_app->callback([&] { code = run_command(run); });
+    add_run(app, run, code);
 
     NewOptions new_study;
     add_new(app, new_study, code);
@@ -204,34 +166,11 @@ int run_program(int argc, char** argv) {
     if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
         return kBadInput;
     }
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kDone : kBadInput;
-    }
-    return code;
+    return parse(app, argc, argv, code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        // A program that was built for another processor would end in an illegal instruction.
-        gearpod::lockstep::choose_instruction_set({});
-        fit_terminal();
-        const int code = run_program(argc, argv);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            fmt::print(stderr, "gearpod: standard output cannot be written\n");
-            return kBadInput;
-        }
-        return code;
-    } catch (const std::exception& error) {
-        // The command and what it was given, where no command has found words of its own.
-        std::string call = "gearpod";
-        for (int i = 1; i < std::min(argc, 3); ++i) {
-            call += std::string(" ") + argv[i];
-        }
-        fmt::print(stderr, "{}: {}\n", printable(call), exception_text(error));
-        return kBadInput;
-    }
+    return run_safely(argc, argv, run_program);
 }

@@ -7,19 +7,35 @@
 
 namespace gearpod::mc {
 
+namespace {
+
+// As many as a launcher started.
+const char* copies() {
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+        const char* copies = std::getenv(name);
+        if (copies != nullptr && std::atoi(copies) > 1) {
+            return copies;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace
+
 bool Ranks::of_mpi() {
     return false;
 }
 
+bool Ranks::launched() {
+    return copies() != nullptr;
+}
+
 // Copies that do not know of each other would all compute the same and write over each other.
 Ranks::Ranks() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-        const char* copies = std::getenv(name);
-        if (copies != nullptr && std::atoi(copies) > 1) {
-            throw std::runtime_error("started as one of " + std::string(copies) +
-                                     " processes, but built without MPI; start one, or build it "
-                                     "with -DGEARPOD_MPI=ON");
-        }
+    if (launched()) {
+        throw std::runtime_error("started as one of " + std::string(copies()) +
+                                 " processes, but built without MPI; start one, or build it "
+                                 "with -DGEARPOD_MPI=ON");
     }
 }
 

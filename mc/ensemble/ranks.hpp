@@ -17,6 +17,8 @@ class Ranks {
   public:
     // Whether the program was built with MPI.
     static bool of_mpi();
+    // Whether a launcher of ranks has started this process.
+    static bool launched();
 
     Ranks();
     Ranks(const Ranks&) = delete;

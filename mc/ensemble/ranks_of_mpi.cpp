@@ -14,16 +14,6 @@
 namespace gearpod::mc {
 namespace {
 
-// What Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun, mpiexec) leave in the environment.
-bool launched() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
-        if (std::getenv(name) != nullptr) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // MPI's own waiting keeps a processor busy. Ranks that wait here leave theirs to others: to their
 // threads, and to what rank 0 still has to do.
 void wait_for(MPI_Request& request) {
@@ -47,6 +37,17 @@ void broadcast(void* data, int count, MPI_Datatype type) {
 
 bool Ranks::of_mpi() {
     return true;
+}
+
+// By what Open MPI's mpirun, PMIx (srun, prun) and PMI-1/2 (srun, mpiexec) leave in the
+// environment.
+bool Ranks::launched() {
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+        if (std::getenv(name) != nullptr) {
+            return true;
+        }
+    }
+    return false;
 }
 
 Ranks::Ranks() {

@@ -8,6 +8,10 @@
 
 namespace gearpod::mc {
 
+// The exit code of the command that the arguments ask for, which leaves it in `code`, or of their
+// refusal.
+int parse(CLI::App& app, int argc, char** argv, const int& code);
+
 // Of an option that names a file to write: "" would be no file, or another than the one meant.
 CLI::Option* needs_name(CLI::Option* option);
 
@@ -23,6 +27,7 @@ void add_shorthand(CLI::App& command, const char* name, const char* key, const c
 void add_results(CLI::App& command, RunOptions& run, const char* resume, const char* force);
 void add_progress(CLI::App& command, RunOptions& run);
 
+void add_run(CLI::App& app, RunOptions& run, int& code);
 void add_new(CLI::App& app, NewOptions& options, int& code);
 void add_sweep(CLI::App& app, SweepOptions& options, int& code);
 void add_lives(CLI::App& app, LivesOptions& options, int& code);

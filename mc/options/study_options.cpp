@@ -2,6 +2,15 @@
 
 namespace gearpod::mc {
 
+int parse(CLI::App& app, int argc, char** argv, const int& code) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kDone : kBadInput;
+    }
+    return code;
+}
+
 CLI::Option* needs_name(CLI::Option* option) {
     return option->check([](const std::string& name) {
         return name.empty() ? std::string("the file name is empty; name a file, or leave it out")

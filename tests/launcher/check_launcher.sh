@@ -16,7 +16,7 @@ tree=$work/tree bin=$work/bin
 mkdir -p "$tree/cmake" "$bin"
 cp "$launcher" "$tree/gearpod"
 cp "$(dirname -- "$launcher")/cmake/packages.txt" "$tree/cmake"
-for tool in sh readlink dirname mkdir touch mv find head tail id env sed awk cat grep tr; do
+for tool in sh readlink dirname mkdir touch mv rm ln find head tail id env sed awk cat grep tr; do
     ln -s "$(command -v $tool)" "$bin/$tool"
 done
 fake() {
@@ -58,9 +58,30 @@ expect 2 "missing: Catch2" catch2-devel
 asked=--version
 
 # All is there: the program is started.
-fake cmake "mkdir -p '$tree/build'; printf '#!/bin/sh\necho started\n' >'$tree/build/gearpod'; chmod +x '$tree/build/gearpod'"
 ln -s "$(command -v chmod)" "$bin/chmod"
-expect 0 started
+fake cmake "case \$* in *gearpod_run*) name=gearpod-run;; *) name=gearpod;; esac
+mkdir -p '$tree/build'; printf '#!/bin/sh\necho started %s\n' \$name >'$tree/build/'\$name; chmod +x '$tree/build/'\$name"
+expect 0 "started gearpod"
+
+# The first study of a fresh tree: a program that has `run` alone, where the whole one will be.
+rm -r "$tree/build"
+asked="run study.toml"
+expect 0 "started gearpod-run"
+[ "$("$tree/build/gearpod")" = "started gearpod-run" ] || fail "build/gearpod is not what was built"
+expect 0 "started gearpod-run"
+grep -q building "$work/said" && fail "it builds what it has built"
+asked=--version
+expect 0 "started gearpod"
+grep -q gearpod-run "$work/said" && fail "it takes the program that has run alone"
+asked="run study.toml"
+expect 0 "started gearpod"
+grep -q gearpod-run "$work/said" && fail "it goes back to the program that has run alone"
+rm -r "$tree/build"
+export GEARPOD_WHOLE=1
+expect 0 "started gearpod"
+grep -q gearpod-run "$work/said" && fail "GEARPOD_WHOLE means nothing to it"
+unset GEARPOD_WHOLE
+asked=--version
 
 # Debian: what is not installed is asked of apt-get, or named to who is not root.
 fake dpkg-query 'case $* in *libfmt-dev*) exit 1;; esac; printf "install ok installed"'

@@ -158,9 +158,9 @@ endforeach()
 # The names of the mesh laws.
 list(TRANSFORM gearpod_mesh_laws REPLACE "\\|.*" "" OUTPUT_VARIABLE gearpod_law_names)
 
-# All kernels of this build, in `files` and `adders`.
-macro(gearpod_make_all_kernels)
-  foreach(pair ${gearpod_kernel_kinds})
+# All kernels of those pairs that this build has, in `files` and `adders`.
+macro(gearpod_make_kernels_of)
+  foreach(pair ${ARGN})
     foreach(law ${gearpod_law_names})
       foreach(set ${gearpod_sets})
         gearpod_lanes(${set} ${pair} lanes)

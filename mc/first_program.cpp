@@ -1,0 +1,75 @@
+// The program that a fresh tree runs its first study with: `run` alone, by the integrators that
+// src/CMakeLists.txt names, which takes two thirds of the time to build. For everything else it
+// starts the launcher, which builds the whole program in its place.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "lockstep/kernels/kernel_table.hpp"
+#include "mc/ensemble/ranks.hpp"
+#include "mc/options/options.hpp"
+#include "mc/options/program.hpp"
+#include "mc/study/study.hpp"
+
+namespace {
+
+using namespace gearpod;
+using namespace gearpod::mc;
+
+// Whether nothing but `run` as this program has it can be asked for: integrator and steps are not
+// searched for, and the integrator is one of its own.
+bool marches(const Numerics& numerics) {
+    const auto keys = lockstep::kernel_table().keys();
+    return numerics.integrator && numerics.grid == StepGrid::uniform && numerics.tolerance == 0.0 &&
+           !numerics.verify && std::ranges::any_of(keys, [&](const lockstep::KernelKey& key) {
+               return key.integrator == *numerics.integrator;
+           });
+}
+
+// Does not return if it succeeds.
+int start_launcher(char** argv) {
+    if (Ranks::launched()) {
+        fmt::print(stderr,
+                   "gearpod: what was built so far is `run`, by the integrators of the first "
+                   "study; {} --help builds the rest\n",
+                   GEARPOD_LAUNCHER);
+        return kBadInput;
+    }
+    std::string launcher = GEARPOD_LAUNCHER;
+    argv[0] = launcher.data();
+    setenv("GEARPOD_WHOLE", "1", 1);
+    execv(GEARPOD_LAUNCHER, argv);
+    fmt::print(stderr, "{}: {}\n", launcher, std::strerror(errno));
+    return kBadInput;
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App app;
+    app.require_subcommand(1);
+    RunOptions run;
+    int code = kDone;
+    add_run(app, run, code);
+    app.get_subcommand("run")->callback([&] {
+        const StudyReading reading = read_study(run.study.path, run.study.overrides);
+        // A study that cannot be read is refused as the whole program refuses it.
+        code = !reading.study || marches(reading.study->numerics) ? run_command(run)
+                                                                  : start_launcher(argv);
+    });
+    return parse(app, argc, argv, code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2 || std::string_view(argv[1]) != "run") {
+        return start_launcher(argv);
+    }
+    return run_safely(argc, argv, run_program);
+}
