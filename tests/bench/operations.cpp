@@ -25,9 +25,6 @@ struct CountedState {
 [[maybe_unused]] lockstep::NoRest position_rest(CountedState&) {
     return {};
 }
-[[maybe_unused]] lockstep::NoRest velocity_rest(CountedState&) {
-    return {};
-}
 
 // Of step `i`. The values do not matter: no kernel branches on them.
 template <class Integrator, class Model>

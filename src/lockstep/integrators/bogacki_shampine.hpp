@@ -74,7 +74,7 @@ struct BogackiShampine {
                 const Real slope = std::fma(sixth[l], std::fma(Real(2), a2, a1), x.v[at]);
                 const Real rise = std::fma(Real(2), a1, std::fma(Real(3), a2, Real(4) * a3));
                 x.q[at] = advance(x.q[at], x.h[l], slope, x.q_rest, at);
-                x.v[at] = advance(x.v[at], ninth[l], rise, x.v_rest, at);
+                x.v[at] = std::fma(ninth[l], rise, x.v[at]);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);

@@ -89,7 +89,7 @@ struct Butcher {
             for (int l = 0; l < W; ++l) {
                 const int at = j + l;
                 x.q[at] = advance(x.q[at], x.h[l], slope<kStages>(x, s, at, l), x.q_rest, at);
-                x.v[at] = advance(x.v[at], x.h[l], rise<kStages>(s, at), x.v_rest, at);
+                x.v[at] = std::fma(x.h[l], rise<kStages>(s, at), x.v[at]);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2],

@@ -70,7 +70,7 @@ struct CentralDifference {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
                 const int at = j + l;
-                const Real v = advance(x.v[at], x.h[l], a[at], x.v_rest, at);
+                const Real v = std::fma(x.h[l], a[at], x.v[at]);
                 x.v[at] = v;
                 x.q[at] = advance(x.q[at], ahead.drift[l], v, x.q_rest, at);
                 s.v[at] = std::fma(ahead.reach[l], a[at], v);

@@ -26,7 +26,7 @@ struct ExplicitStep {
     const int channels, size;
     Real* __restrict const q;
     Real* __restrict const v;
-    const decltype(position_rest(std::declval<State&>())) q_rest, v_rest;
+    const decltype(position_rest(std::declval<State&>())) q_rest;
     alignas(64) Real h[W], half[W];
 
     GEARPOD_INLINE ExplicitStep(const MarchPlan& plan, const typename Model::Lanes& lanes, int i,
@@ -36,8 +36,7 @@ struct ExplicitStep {
           size(Model::degrees_of_freedom(lanes) * W),
           q(state.q.data()),
           v(state.v.data()),
-          q_rest(position_rest(state)),
-          v_rest(velocity_rest(state)) {
+          q_rest(position_rest(state)) {
         const Real length = static_cast<Real>(step.length);
         for (int l = 0; l < W; ++l) {
             h[l] = length * lanes.mesh_period[l];

@@ -1,9 +1,11 @@
 // What a kernel advances within a mesh period: in double precision the tile's state itself, in
 // single precision a copy of it.
 //
-// Single precision carries positions and velocities as a float and what rounding took from it
-// (Kahan 1965): a step changes a motion by 1e-4 of itself and less, and thousands of such changes
-// would drown in a float's 6e-8. The filter's states need no such care; each step makes them anew.
+// Single precision carries positions as a float and what rounding took from it (Kahan 1965): a step
+// changes a position by 1e-4 of itself and less, and thousands of such changes would drown in a
+// float's 6e-8. Velocities need no such care: rounding one is a push of 6e-8 v / h, 1e-5 of the
+// accelerations that the sensor hears, and dampers forget it. Nor do the filter's states; each step
+// makes them anew.
 #pragma once
 
 #include <cmath>
@@ -22,42 +24,34 @@ using RealOf = std::remove_all_extents_t<decltype(std::declval<typename Model::P
 
 struct SingleState {
     machine::AlignedArray<float> q, v, filter;
-    machine::AlignedArray<float> q_rest, v_rest;
+    machine::AlignedArray<float> q_rest;
 
     explicit SingleState(const TileState& state)
         : q(state.q.begin(), state.q.end()),
           v(state.v.begin(), state.v.end()),
           filter(state.filter.begin(), state.filter.end()),
-          q_rest(q.size()),
-          v_rest(v.size()) {
+          q_rest(q.size()) {
         for (std::size_t i = 0; i < q.size(); ++i) {
             q_rest[i] = static_cast<float>(state.q[i] - double{q[i]});
-            v_rest[i] = static_cast<float>(state.v[i] - double{v[i]});
         }
     }
 
     void copy_to(TileState& state) const {
         for (std::size_t i = 0; i < q.size(); ++i) {
             state.q[i] = double{q[i]} + double{q_rest[i]};
-            state.v[i] = double{v[i]} + double{v_rest[i]};
         }
+        state.v.assign(v.begin(), v.end());
         state.filter.assign(filter.begin(), filter.end());
     }
 };
 
-// What rounding took from a state's motions, if it is kept.
+// What rounding took from a state's positions, if it is kept.
 struct NoRest {};
 GEARPOD_INLINE NoRest position_rest(TileState&) {
     return {};
 }
-GEARPOD_INLINE NoRest velocity_rest(TileState&) {
-    return {};
-}
 GEARPOD_INLINE float* position_rest(SingleState& state) {
     return state.q_rest.data();
-}
-GEARPOD_INLINE float* velocity_rest(SingleState& state) {
-    return state.v_rest.data();
 }
 
 // sum + h rate; `i` is the sum's place in `rest`.

@@ -67,7 +67,7 @@ struct RungeKutta4 {
         for (int j = 0; j < x.size; j += W) {
 #pragma omp simd
             for (int l = 0; l < W; ++l) {
-                x.v[j + l] = advance(x.v[j + l], sixth[l], s.a[0][j + l], x.v_rest, j + l);
+                x.v[j + l] = std::fma(sixth[l], s.a[0][j + l], x.v[j + l]);
             }
         }
         step_filter<W>(filter, x.step, x.channels, state, s.input[0], s.input[1], s.input[2]);
@@ -94,8 +94,7 @@ struct RungeKutta4 {
                 // stage.
                 x.q[at] = advance(x.q[at], x.h[l], std::fma(sixth[l], s.a[0][at] + sum, x.v[at]),
                                   x.q_rest, at);
-                x.v[at] =
-                    advance(x.v[at], sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v_rest, at);
+                x.v[at] = std::fma(sixth[l], std::fma(Real(2), sum, s.a[0][at]), x.v[at]);
             }
         }
     }
