@@ -60,9 +60,9 @@ if(GEARPOD_QUICK)
     "files random" "ensemble gearbox" "answers forecast input numerics run"
     "scene study study/keys study/reading study/schema")
   gearpod_unite(gearpod_mc
-    "accuracy description sweep" "calibration lives new_study recordings")
-  foreach(library gearpod_first_command_line gearpod_command_line)
-    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    "accuracy description files sweep" "calibration lives new_study recordings" "ensemble gearbox")
+  foreach(part gearpod_run gearpod_command_line)
+    set_target_properties(${part} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endforeach()
 endif()
 
