@@ -23,6 +23,51 @@ double quantile(std::vector<double>& values) {
     return values[static_cast<std::size_t>(rank)];
 }
 
+// Sines and cosines of all waves at the teeth of a gear, for flanks on one side.
+class FlankWaves {
+  public:
+    FlankWaves(int teeth, double pressure_angle_rad, int side)
+        : side_(side), turn_(2.0 * pi / teeth) {
+        const double normal = side * (0.5 * pi - pressure_angle_rad);
+        for (int t = 0; t < teeth; ++t) {
+            const double angle = turn_ * t;
+            Tooth tooth{std::cos(angle + normal), std::sin(angle + normal), {}, {}};
+            for (int h = 1; h <= WaveNumbers::kHarmonics; ++h) {
+                tooth.cosine[h - 1] = std::cos(h * angle);
+                tooth.sine[h - 1] = std::sin(h * angle);
+            }
+            teeth_.push_back(tooth);
+        }
+    }
+
+    FlankDeviations deviations(const DeviationScales& scales, const WaveNumbers& numbers) const {
+        FlankDeviations flank;
+        const double centre = scales.eccentricity / std::numbers::sqrt2;
+        const double waves = side_ * scales.waves * kWaveNorm;
+        for (const auto& [c, s, cosine, sine] : teeth_) {
+            double index = -centre * (numbers.centre[0] * c + numbers.centre[1] * s);
+            for (int h = 1; h <= WaveNumbers::kHarmonics; ++h) {
+                index +=
+                    waves / h *
+                    (numbers.cosine[h - 1] * cosine[h - 1] + numbers.sine[h - 1] * sine[h - 1]);
+            }
+            flank.index_m.push_back(index);
+            flank.drift_m.push_back(turn_ * centre *
+                                    (numbers.centre[0] * s - numbers.centre[1] * c));
+        }
+        return flank;
+    }
+
+  private:
+    struct Tooth {
+        double c, s;  // of the angle to the flank's normal
+        double cosine[WaveNumbers::kHarmonics], sine[WaveNumbers::kHarmonics];
+    };
+    int side_;
+    double turn_;
+    std::vector<Tooth> teeth_;
+};
+
 // Random gears of unit scales, whose parts add up to gears of any scales.
 class SampleGears {
   public:
@@ -34,6 +79,7 @@ class SampleGears {
         DeviationScales centre, waves;
         centre.eccentricity = 1.0;
         waves.waves = 1.0;
+        const FlankWaves flanks[] = {{teeth, angle_, 1}, {teeth, angle_, -1}};
         for (int g = 0; g < gears; ++g) {
             WaveNumbers numbers;
             for (double* list : {numbers.centre, numbers.cosine, numbers.sine}) {
@@ -42,9 +88,8 @@ class SampleGears {
             }
             Gear gear;
             for (const int s : {0, 1}) {
-                const int side = s == 0 ? 1 : -1;
-                gear.centre[s] = wave_deviations(teeth, angle_, centre, numbers, side).index_m;
-                gear.waves[s] = wave_deviations(teeth, angle_, waves, numbers, side).index_m;
+                gear.centre[s] = flanks[s].deviations(centre, numbers).index_m;
+                gear.waves[s] = flanks[s].deviations(waves, numbers).index_m;
                 for (int t = 0; t < teeth; ++t) {
                     gear.pitch[s].push_back(normal(engine));
                 }
@@ -121,23 +166,7 @@ DeviationScales scaled(const DeviationScales& s, double factor) {
 
 FlankDeviations wave_deviations(int teeth, double pressure_angle_rad, const DeviationScales& scales,
                                 const WaveNumbers& numbers, int side) {
-    FlankDeviations flank;
-    const double centre = scales.eccentricity / std::numbers::sqrt2;
-    const double waves = side * scales.waves * kWaveNorm;
-    const double normal = side * (0.5 * pi - pressure_angle_rad);
-    for (int t = 0; t < teeth; ++t) {
-        const double turn = 2.0 * pi / teeth, angle = turn * t;
-        const double c = std::cos(angle + normal), s = std::sin(angle + normal);
-        double index = -centre * (numbers.centre[0] * c + numbers.centre[1] * s);
-        for (int h = 1; h <= WaveNumbers::kHarmonics; ++h) {
-            index += waves / h *
-                     (numbers.cosine[h - 1] * std::cos(h * angle) +
-                      numbers.sine[h - 1] * std::sin(h * angle));
-        }
-        flank.index_m.push_back(index);
-        flank.drift_m.push_back(turn * centre * (numbers.centre[0] * s - numbers.centre[1] * c));
-    }
-    return flank;
+    return FlankWaves(teeth, pressure_angle_rad, side).deviations(scales, numbers);
 }
 
 ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector<double>& along,
