@@ -172,7 +172,7 @@ constexpr const char* kAnswer =
     "baseline_torque_scatter = 0.02\n"
     "\n[detection]\nfalse_alarm_rate = 0.05\nconfidence = 0.95\n"
     "\n[ensemble]                                  # more make the intervals narrower\n"
-    "instances = 140\nthreshold_instances = 100\nseed = 1\n";
+    "instances = 128\nthreshold_instances = 96\nseed = 1\n";
 
 }  // namespace
 
