@@ -2,6 +2,11 @@
 
 namespace gearpod::lockstep {
 
+MarchPlan in_doubles(MarchPlan plan) {
+    plan.precision = Precision::double_precision;
+    return plan;
+}
+
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion) {
     const std::size_t rows = plan.samples() * static_cast<std::size_t>(lanes);
     MeshRecord record;

@@ -78,6 +78,10 @@ using MarchKernel = void(const MarchPlan& plan, const Lanes& lanes,
                          const machine::AlignedVector& filter, const MeshOverrides& overrides,
                          TileState& state, MeshRecord& record);
 
+// The same plan for doubles: every program marches eight of those abreast, and not always so few
+// singles.
+MarchPlan in_doubles(MarchPlan plan);
+
 // Allocates a record of W lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);
 

@@ -146,8 +146,8 @@ Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInput
         return Instability::step;
     }
     const bool linear = !dynamics::separates(plan.mesh_law);
-    return linear && growth_per_mesh(plan, inputs) > kNoGrowth ? Instability::parametric
-                                                               : Instability::none;
+    return linear && growth_per_mesh(in_doubles(plan), inputs) > kNoGrowth ? Instability::parametric
+                                                                           : Instability::none;
 }
 
 }  // namespace gearpod::lockstep

@@ -17,7 +17,7 @@ class PilotMarch {
   public:
     PilotMarch(const Pilot& pilot, PhaseGrid grid)
         : pilot_(pilot),
-          plan_(pilot.plan(std::move(grid))),
+          plan_(in_doubles(pilot.plan(std::move(grid)))),
           march_(make_mesh_march<kPilotLanes>(plan_, pilot.inputs)),
           rotation_(plan_.layout, pilot.inputs) {}
 

@@ -34,3 +34,27 @@ TEST_CASE("Results say which kernels the program was built with") {
     CHECK(kernels.find("doubles or") != std::string::npos);
     CHECK(kernels.find("abreast for") != std::string::npos);
 }
+
+TEST_CASE(
+    "Singles that do not settle are counted by a program that marches sixteen of them alone") {
+    const test::Folder folder;
+    for (const std::string integrator : {"rk4", "central-difference"}) {
+        const Outcome run = test::program(
+            "run " + study("planet-crack-ideal.toml") + " --set numerics.precision='\"single\"'" +
+            " --set numerics.integrator='\"" + integrator + "\"' --set numerics.max_meshes=2" +
+            " --set numerics.settle_tolerance=1e-5 --instances 8" +
+            " --set ensemble.threshold_instances=8 --out " + folder.file(integrator + ".h5"));
+        INFO(run.output);
+        CHECK(run.code == 3);
+        CHECK(run.mentions(" of 16 failed (0 diverged, "));
+    }
+}
+
+TEST_CASE("A grid for singles is graded by a program that marches sixteen of them alone") {
+    const Outcome described = test::program(
+        "describe " + study("crack-in-sun.toml") + " --set numerics.precision='\"single\"'" +
+        " --set numerics.integrator='\"rk4\"' --set numerics.grid='\"graded\"'");
+    INFO(described.output);
+    CHECK(described.code == 0);
+    CHECK(described.mentions("after a transition"));
+}
