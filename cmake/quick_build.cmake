@@ -13,8 +13,7 @@ option(GEARPOD_QUICK "files of folders compiled together, with precompiled heade
 
 # The target's files, by folder, or by the folders that an argument names. No two of a group name
 # something alike for themselves: move a folder to another group where they do. None of those with
-# options of their own (kernels), nor those that are one of a list and name the same things (faults,
-# tables of keys).
+# options of their own (kernels).
 function(gearpod_unite target)
   get_target_property(folder ${target} SOURCE_DIR)
   string(REPLACE " " ";" named "${ARGN}")
@@ -24,7 +23,6 @@ function(gearpod_unite target)
     endif()
   endforeach()
   get_target_property(files ${target} SOURCES)
-  list(FILTER files EXCLUDE REGEX "study/faults/|_keys\\.cpp$")
   foreach(file ${files})
     file(RELATIVE_PATH name ${folder} ${file})
     get_filename_component(group ${name} DIRECTORY)

@@ -15,14 +15,14 @@ struct LostTooth : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "share of the tooth that has broken off: 1 carries nothing"};
+constexpr FaultSize kBrokenSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "share of the tooth that has broken off: 1 carries nothing"};
 // clang-format on
 
 class BrokenKind final : public FaultKind {
   public:
     std::string_view name() const override { return "broken"; }
     std::string_view words() const override { return "a broken tooth"; }
-    const FaultSize& size() const override { return kSize; }
+    const FaultSize& size() const override { return kBrokenSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
     // Any tooth can lose any share.

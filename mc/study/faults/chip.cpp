@@ -24,8 +24,8 @@ struct Chip : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width that the chip takes off the face width at the tip"};
-constexpr FaultKey kOthers[] = {
+constexpr FaultSize kChipSize{"chip_mm", number<&Chip::width_m>, kMm, kNotNegative, "width that the chip takes off the face width at the tip"};
+constexpr FaultKey kChipOthers[] = {
     {"chip_height_mm", number<&Chip::height_m>, kMm, kPositive, Need::optional, kFaultShape, "height of the chip along the tooth, from the tip; a quarter of its width by default"},
     {"chip_end", choice<&Chip::end>(kEnds), kNone, kAny, Need::optional, kFaultShape, "end of the face width of helical teeth that is chipped: the one that engages \"first\" (by default) or \"last\""},
 };
@@ -35,8 +35,8 @@ class ChipKind final : public FaultKind {
   public:
     std::string_view name() const override { return "chip"; }
     std::string_view words() const override { return "a chip"; }
-    const FaultSize& size() const override { return kSize; }
-    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    const FaultSize& size() const override { return kChipSize; }
+    std::span<const FaultKey> other_keys() const override { return kChipOthers; }
     bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {

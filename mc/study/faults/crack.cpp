@@ -14,8 +14,8 @@ struct Crack : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"depth_mm", number<&Crack::depth_m>, kMm, kNotNegative, "depth along the crack"};
-constexpr FaultKey kOthers[] = {kCrackAngle};
+constexpr FaultSize kCrackSize{"depth_mm", number<&Crack::depth_m>, kMm, kNotNegative, "depth along the crack"};
+constexpr FaultKey kCrackOthers[] = {kCrackAngle};
 // clang-format on
 
 class CrackKind final : public FaultKind {
@@ -23,8 +23,8 @@ class CrackKind final : public FaultKind {
     std::string_view name() const override { return "crack"; }
     std::string_view words() const override { return "a crack"; }
     std::string_view title() const override { return "tooth crack"; }
-    const FaultSize& size() const override { return kSize; }
-    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    const FaultSize& size() const override { return kCrackSize; }
+    std::span<const FaultKey> other_keys() const override { return kCrackOthers; }
     bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {

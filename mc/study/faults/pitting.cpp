@@ -26,8 +26,8 @@ struct Pits : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"pit_width_mm", number<&Pits::width_m>, kMm, kNotNegative, "width of the pitted band along the face width"};
-constexpr FaultKey kOthers[] = {
+constexpr FaultSize kPittingSize{"pit_width_mm", number<&Pits::width_m>, kMm, kNotNegative, "width of the pitted band along the face width"};
+constexpr FaultKey kPittingOthers[] = {
     {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the band along the tooth height"},
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
@@ -103,8 +103,8 @@ class PittingKind final : public FaultKind {
   public:
     std::string_view name() const override { return "pitting"; }
     std::string_view words() const override { return "pitting"; }
-    const FaultSize& size() const override { return kSize; }
-    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    const FaultSize& size() const override { return kPittingSize; }
+    std::span<const FaultKey> other_keys() const override { return kPittingOthers; }
     bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {

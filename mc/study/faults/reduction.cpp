@@ -15,14 +15,14 @@ struct LostStiffness : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "share of the tooth pair's stiffness that is lost"};
+constexpr FaultSize kReductionSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "share of the tooth pair's stiffness that is lost"};
 // clang-format on
 
 class ReductionKind final : public FaultKind {
   public:
     std::string_view name() const override { return "reduction"; }
     std::string_view words() const override { return "a reduction"; }
-    const FaultSize& size() const override { return kSize; }
+    const FaultSize& size() const override { return kReductionSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
     // Any tooth can lose any share.

@@ -27,8 +27,8 @@ struct Growth : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
-constexpr FaultKey kOthers[] = {
+constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
+constexpr FaultKey kSpatialCrackOthers[] = {
     kCrackAngle,
     {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 where it begins"},
     {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until it gets there"},
@@ -126,8 +126,8 @@ class SpatialCrackKind final : public FaultKind {
   public:
     std::string_view name() const override { return "spatial-crack"; }
     std::string_view words() const override { return "a spatial crack"; }
-    const FaultSize& size() const override { return kSize; }
-    std::span<const FaultKey> other_keys() const override { return kOthers; }
+    const FaultSize& size() const override { return kSpatialCrackSize; }
+    std::span<const FaultKey> other_keys() const override { return kSpatialCrackOthers; }
     bool shapes_tooth() const override { return true; }
 
     void check(StudyDraft& draft) const override {

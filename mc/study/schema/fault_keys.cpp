@@ -83,7 +83,7 @@ Presence of_kinds(const Study& s, std::string_view name) {
 }
 
 // clang-format off
-const Key kKeys[] = {
+const Key kFaultKeys[] = {
     {"fault", "kind", listed<&Fault::kind, all_faults>(kind_names()), kNone, kAny, always, kShared, "kind of fault"},
     {"fault", "member", choice<&Fault::member>(kToothed), kNone, kAny, faulty_member, kShared, "gear with the faulty tooth"},
     {"fault", "side", choice<&Fault::side>(kSides), kNone, kAny, planet_side, kShared, "mesh in which a planet's fault acts"},
@@ -93,7 +93,7 @@ const Key kKeys[] = {
 
 // Once each; a key that kinds share stands with the first of them.
 std::vector<Key> all_keys() {
-    std::vector<Key> all(std::begin(kKeys), std::end(kKeys));
+    std::vector<Key> all(std::begin(kFaultKeys), std::end(kFaultKeys));
     for (const FaultKind* kind : all_faults()) {
         for (const FaultKey& key : kind->keys()) {
             const auto same = [&](const Key& known) { return known.name == key.name; };

@@ -25,7 +25,7 @@ using B = MemberValues;
 using M = MeshValues;
 
 // clang-format off
-const Key kKeys[] = {
+const Key kGearboxKeys[] = {
     {"gearbox", "kind", choice<&G::kind>(kKinds), kNone, kAny, always, kShared, "kind of gearbox"},
     {"gearbox", "planets", integer<&G::planets>, kNone, from_to(2, 8), planetary<always>, kGeometry, "number of planets"},
     {"gearbox", "planet_positions_deg", ascending<&G::planet_positions_rad>, kDeg, Range{0.0, 360.0, false, true}, planetary<may>, kGeometry, "angles of the planets on the carrier, the first 0, in the sense of the turn that the sun's torque gives; by default equally spaced, or as nearly as the teeth allow"},
@@ -185,7 +185,7 @@ const Key kKeys[] = {
 }  // namespace
 
 std::span<const Key> gearbox_keys() {
-    return kKeys;
+    return kGearboxKeys;
 }
 
 }  // namespace gearpod::mc

@@ -37,13 +37,13 @@ std::span<const ChoiceName> path_names() {
     return names;
 }
 
-using F = Fluctuations;
+using U = Fluctuations;
 // A speed that comes near zero is no speed to march in mesh phase; noise reaches six times its rms.
 constexpr Range kSpeedAmplitude = from_to(0, 0.3);
 constexpr Range kSpeedNoise = from_to(0, 0.05);
 
 // clang-format off
-const Key kKeys[] = {
+const Key kOperationKeys[] = {
     {"operation", "fixed", choice<&Operation::fixed>(kCentral), kNone, kAny, planetary<may>, kShared, "member that stands still"},
     {"operation", "input", choice<&Operation::input>(kCentral), kNone, kAny, planetary<may>, kShared, "member that is driven; the sun by default, or the ring if the sun is fixed"},
     {"operation", "torque_on", choice<&Operation::torque_on>(kCentral), kNone, kAny, planetary<may>, kShared, "member whose torque is given; the sun by default, or the ring if the sun is fixed"},
@@ -54,17 +54,17 @@ const Key kKeys[] = {
     {"operation", "load_torque_N_m", number<&Operation::load_torque_N_m>, kNm, kNotNegative, fixed_shaft<may>, kRandom, "torque of the load; in balance with the motor's by default"},
     {"operation", "pinion_speed_rpm", number<&Operation::pinion_speed_rad_s>, kRpm, kPositive, fixed_shaft<always>, kRandom, "speed of the pinion"},
 
-    {"operation", "torque_fluctuation", number<&F::torque>, kNone, from_to(0, 10), may, kRandom, "amplitude of a sine by which all torques vary, relative to them; contacts and static equilibrium keep the mean torque"},
-    {"operation", "torque_fluctuation_order", number<&F::torque_order>, kNone, kPositive, torque_sine, kRandom, "its periods in a turn of the input member (the pinion); or give torque_fluctuation_Hz"},
-    {"operation", "torque_fluctuation_Hz", number<&F::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "its frequency; or give torque_fluctuation_order"},
-    {"operation", "torque_fluctuation_phase_deg", number<&F::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "its phase at the first recorded mesh"},
-    {"operation", "torque_noise", number<&F::torque_noise>, kNone, from_to(0, 10), may, kRandom, "rms by which all torques vary at random, relative to them: Gaussian, every gearbox differently"},
-    {"operation", "torque_noise_band_Hz", number<&F::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which its spectrum has fallen to half (to a twentieth at twice that): white noise shaped by cubic B-splines"},
-    {"operation", "speed_fluctuation", number<&F::speed>, kNone, kSpeedAmplitude, integration, kRandom, "amplitude of a sine by which the speed varies, relative to it; the input's torque speeds all masses up"},
-    {"operation", "speed_fluctuation_order", number<&F::speed_order>, kNone, kPositive, speed_sine, kRandom, "its periods in a turn of the input member (the pinion)"},
-    {"operation", "speed_fluctuation_phase_deg", number<&F::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "its phase at the first recorded mesh"},
-    {"operation", "speed_noise", number<&F::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "rms by which the speed varies at random, relative to it"},
-    {"operation", "speed_noise_band_Hz", number<&F::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which its spectrum has fallen to half, at the mean speed"},
+    {"operation", "torque_fluctuation", number<&U::torque>, kNone, from_to(0, 10), may, kRandom, "amplitude of a sine by which all torques vary, relative to them; contacts and static equilibrium keep the mean torque"},
+    {"operation", "torque_fluctuation_order", number<&U::torque_order>, kNone, kPositive, torque_sine, kRandom, "its periods in a turn of the input member (the pinion); or give torque_fluctuation_Hz"},
+    {"operation", "torque_fluctuation_Hz", number<&U::torque_Hz>, kHz, kFrequency, torque_sine, kRandom, "its frequency; or give torque_fluctuation_order"},
+    {"operation", "torque_fluctuation_phase_deg", number<&U::torque_phase_rad>, kDeg, from_to(-360, 360), torque_sine, kRandom, "its phase at the first recorded mesh"},
+    {"operation", "torque_noise", number<&U::torque_noise>, kNone, from_to(0, 10), may, kRandom, "rms by which all torques vary at random, relative to them: Gaussian, every gearbox differently"},
+    {"operation", "torque_noise_band_Hz", number<&U::torque_noise_Hz>, kHz, kFrequency, torque_noise, kRandom, "frequency at which its spectrum has fallen to half (to a twentieth at twice that): white noise shaped by cubic B-splines"},
+    {"operation", "speed_fluctuation", number<&U::speed>, kNone, kSpeedAmplitude, integration, kRandom, "amplitude of a sine by which the speed varies, relative to it; the input's torque speeds all masses up"},
+    {"operation", "speed_fluctuation_order", number<&U::speed_order>, kNone, kPositive, speed_sine, kRandom, "its periods in a turn of the input member (the pinion)"},
+    {"operation", "speed_fluctuation_phase_deg", number<&U::speed_phase_rad>, kDeg, from_to(-360, 360), speed_phase, kRandom, "its phase at the first recorded mesh"},
+    {"operation", "speed_noise", number<&U::speed_noise>, kNone, kSpeedNoise, integration, kRandom, "rms by which the speed varies at random, relative to it"},
+    {"operation", "speed_noise_band_Hz", number<&U::speed_noise_Hz>, kHz, kFrequency, speed_noise, kRandom, "frequency at which its spectrum has fallen to half, at the mean speed"},
 
     {"effects", "motion", choice<&Effects::motion>(kMotions), kNone, kAny, may, kShared, "degrees of freedom"},
     {"effects", "foundation", choice<&Effects::foundation>(kFoundations), kNone, kAny, tooth_model, kShared, "compliance of the gear bodies under the teeth"},
@@ -82,7 +82,7 @@ const Key kKeys[] = {
 }  // namespace
 
 std::span<const Key> operation_keys() {
-    return kKeys;
+    return kOperationKeys;
 }
 
 }  // namespace gearpod::mc

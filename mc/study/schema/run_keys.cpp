@@ -48,7 +48,7 @@ std::span<const ChoiceName> feature_names() {
 }
 
 // clang-format off
-const Key kKeys[] = {
+const Key kRunKeys[] = {
     {"sensor", "sampling_Hz", number<&Sensor::sampling_Hz>, kHz, kFrequency, acceleration, kSampling, "sampling rate of the accelerometer"},
     {"sensor", "low_pass_Hz", number<&Sensor::low_pass_Hz>, kHz, kFrequency, acceleration, kSampling, "anti-alias low-pass"},
     {"sensor", "position", choice<&Sensor::position>(kPositions), kNone, kAny, fixed_shaft<acceleration_detail>, kShared, "bearing on which the sensor sits"},
@@ -134,7 +134,7 @@ const Key kKeys[] = {
 }  // namespace
 
 std::span<const Key> run_keys() {
-    return kKeys;
+    return kRunKeys;
 }
 
 }  // namespace gearpod::mc
