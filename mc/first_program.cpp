@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "lockstep/kernels/kernel_table.hpp"
 #include "mc/ensemble/ranks.hpp"
@@ -23,14 +25,26 @@ namespace {
 using namespace gearpod;
 using namespace gearpod::mc;
 
-// Whether nothing but `run` as this program has it can be asked for: integrator and steps are not
-// searched for, and the integrator is one of its own.
-bool marches(const Numerics& numerics) {
+// Whether integrator or steps are searched for, or the integrator is none of this program's.
+bool is_for_others(const Numerics& numerics) {
     const auto keys = lockstep::kernel_table().keys();
-    return numerics.integrator && numerics.grid == StepGrid::uniform && numerics.tolerance == 0.0 &&
-           !numerics.verify && std::ranges::any_of(keys, [&](const lockstep::KernelKey& key) {
+    return !numerics.integrator || numerics.grid != StepGrid::uniform ||
+           numerics.tolerance != 0.0 || numerics.verify ||
+           std::ranges::none_of(keys, [&](const lockstep::KernelKey& key) {
                return key.integrator == *numerics.integrator;
            });
+}
+
+// A study that cannot be read is refused here as the whole program refuses it; of one that can be
+// read only once that program is to do it.
+bool is_for_others(const StudyOptions& options) {
+    std::error_code none;
+    if (std::filesystem::exists(options.path, none) &&
+        !std::filesystem::is_regular_file(options.path, none)) {
+        return true;
+    }
+    const StudyReading reading = read_study(options.path, options.overrides);
+    return reading.study && is_for_others(reading.study->numerics);
 }
 
 // Does not return if it succeeds.
@@ -56,12 +70,8 @@ int run_program(int argc, char** argv) {
     RunOptions run;
     int code = kDone;
     add_run(app, run, code);
-    app.get_subcommand("run")->callback([&] {
-        const StudyReading reading = read_study(run.study.path, run.study.overrides);
-        // A study that cannot be read is refused as the whole program refuses it.
-        code = !reading.study || marches(reading.study->numerics) ? run_command(run)
-                                                                  : start_launcher(argv);
-    });
+    app.get_subcommand("run")->callback(
+        [&] { code = is_for_others(run.study) ? start_launcher(argv) : run_command(run); });
     return parse(app, argc, argv, code);
 }
 

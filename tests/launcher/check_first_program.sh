@@ -39,10 +39,10 @@ done
 
 # What it lacks the launcher builds, but not once for each rank of a run.
 for arguments in "describe $study" "run $study --set numerics.integrator=\"rk4\"" \
-    "run $study --set numerics.verify=true" "--version"; do
+    "run $study --set numerics.verify=true" "run /dev/stdin" "--version"; do
     code=0
     # shellcheck disable=SC2086
-    OMPI_COMM_WORLD_SIZE=2 "$first" $arguments >first.txt 2>&1 || code=$?
+    echo | OMPI_COMM_WORLD_SIZE=2 "$first" $arguments >first.txt 2>&1 || code=$?
     [ "$code" -eq 2 ] || fail "exit code $code of $arguments by several ranks"
     grep -q "gearpod --help builds the rest" first.txt || fail "$arguments does not say what to do"
 done
