@@ -12,9 +12,9 @@ namespace {
 // As many as a launcher started.
 const char* copies() {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-        const char* copies = std::getenv(name);
-        if (copies != nullptr && std::atoi(copies) > 1) {
-            return copies;
+        const char* count = std::getenv(name);
+        if (count != nullptr && std::atoi(count) > 1) {
+            return count;
         }
     }
     return nullptr;

@@ -134,8 +134,9 @@ bool above_critical_speed(const dynamics::GearboxLayout& layout,
 
 double growth_per_mesh(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
     const auto matrices = dynamics::assemble(plan.layout, inputs, mean_stiffness(plan));
-    return growth(plan, matrices.mass,
-                  marched_map(plan, inputs, matrices.mass.rows(), velocity_scale(matrices)));
+    return growth(
+        plan, matrices.mass,
+        marched_map(in_doubles(plan), inputs, matrices.mass.rows(), velocity_scale(matrices)));
 }
 
 Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInputs& inputs) {
@@ -146,8 +147,8 @@ Instability find_instability(const MarchPlan& plan, const dynamics::GearboxInput
         return Instability::step;
     }
     const bool linear = !dynamics::separates(plan.mesh_law);
-    return linear && growth_per_mesh(in_doubles(plan), inputs) > kNoGrowth ? Instability::parametric
-                                                                           : Instability::none;
+    return linear && growth_per_mesh(plan, inputs) > kNoGrowth ? Instability::parametric
+                                                               : Instability::none;
 }
 
 }  // namespace gearpod::lockstep
