@@ -1,5 +1,5 @@
 // Bounds over synthetic studies whose truth is known: 95 % bounds must hold in 95 % of them. Tagged
-// [.coverage]; ctest runs it with the label "long".
+// [.coverage]; ctest runs it as analysis-coverage of -C long.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>

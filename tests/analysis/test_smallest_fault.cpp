@@ -116,8 +116,8 @@ bool no_less(const LevelReliability& a, const LevelReliability& b) {
 TEST_CASE("The size found falls with noise where no rate falls, and no feature loses to a worse") {
     Engine engine(20);
     long pairs = 0, wrong = 0, beaten = 0, curves_wrong = 0;
-    // Ten thousand results, four a study.
-    for (int r = 0; r < 2500; ++r) {
+    // Four thousand results, four a study.
+    for (int r = 0; r < 1000; ++r) {
         const Reliability result = made_up(engine, r % 8 == 0, r % 4 != 3);
         // Each bound by itself, without the others to carry it.
         const auto alone = [&](std::size_t f, std::size_t n) {
@@ -151,10 +151,10 @@ TEST_CASE("The size found falls with noise where no rate falls, and no feature l
             wrong += size_of(quiet) > size_of(loud);
         }
     }
-    CHECK(pairs > 3000);
+    CHECK(pairs > 1200);
     CHECK(wrong == 0);
     CHECK(beaten == 0);
-    CHECK(curves_wrong > 100);  // what each curve alone would have said
+    CHECK(curves_wrong > 40);  // what each curve alone would have said
 }
 
 TEST_CASE("A carried bound names where it comes from, an own one itself") {

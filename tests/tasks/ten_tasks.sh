@@ -7,7 +7,7 @@ program=$(realpath "$1") sources=$(realpath "$2") size=${3:-whole}
 studies=$sources/studies
 graded='' healthy='' more='--instances 7000'
 if [ "$size" = small ]; then
-    graded='--instances 14' healthy='--set ensemble.threshold_instances=20' more='--instances 28'
+    graded='--instances 7' healthy='--set ensemble.threshold_instances=16' more='--instances 28'
 fi
 few="$graded $healthy"
 export GEARPOD_PROGRAM="$program" PYTHONPATH="$sources/analysis/python" PYTHONDONTWRITEBYTECODE=1
@@ -61,7 +61,7 @@ published_figure() {
 }
 
 # A recording of a gearbox, in g: what task 5 begins with.
-gearpod simulate "$studies/planet-crack-ideal.toml" --instance 2000 --meshes 2511 --out made.csv > out
+gearpod simulate "$studies/planet-crack-ideal.toml" --instance 2000 --meshes 837 --out made.csv > out
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i ~ /^time/) t = i; if ($i ~ /^sensor_noise_1/) s = i }; print "time,a"; next }
     { printf "%s,%.9g\n", $t, $s / 9.80665 }' made.csv > recording.csv
 

@@ -40,7 +40,7 @@ TEST_CASE("Rates of misses are those of counted ones") {
     const double threshold = answer["threshold"];
     const std::string counted = folder.file("counted.h5");
     REQUIRE(program("run " + test::study("planet-crack-ideal.toml") + " --quiet --out " + counted +
-                    " --instances 1000 --seed 77 --set ensemble.threshold_instances=8 --set "
+                    " --instances 500 --seed 77 --set ensemble.threshold_instances=8 --set "
                     "'sensor.noise_levels=[0,2]' --set 'features.use=[\"window_ratio\"]' --set "
                     "'random.fault.depth_mm={distribution=\"levels\",values=[1]}'")
                 .code == 0);

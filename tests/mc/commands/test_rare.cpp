@@ -64,7 +64,7 @@ TEST_CASE("Thresholds of rare false alarms are those of counted ones") {
     CHECK(answer["least_kept"] > 0.05);
     // Of other healthy gearboxes.
     const std::string counted = run_some(
-        folder, "counted.h5", "--instances 16 --seed 77 --set ensemble.threshold_instances=1600");
+        folder, "counted.h5", "--instances 16 --seed 77 --set ensemble.threshold_instances=1000");
     const auto [above, all] = count_above(counted, 0, answer["threshold"], "window_ratio");
     INFO(above << " of " << all << " counted");
     CHECK(answer["lower"].get<double>() * all < above + 3.0 * std::sqrt(above + 1.0));

@@ -220,7 +220,7 @@ TEST_CASE("A report on lives says what the run said, and other commands refuse t
 TEST_CASE("Lives that were stopped go on to the same bits") {
     const Folder folder;
     const std::string command = "lives " + study("planet-crack-ideal.toml") + life_options() +
-                                " --set ensemble.threshold_instances=40 --out ";
+                                " --set ensemble.threshold_instances=20 --out ";
     const auto whole = told(program(command + folder.file("w.h5")));
     const Outcome stopped =
         shell("timeout --preserve-status -s TERM 0.7 " + std::string(GEARPOD_PROGRAM) + " " +

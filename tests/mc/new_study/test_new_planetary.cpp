@@ -113,7 +113,7 @@ TEST_CASE("The study that new writes is described and run as it stands") {
     const Folder folder;
     const std::string file = folder.file("p.toml");
     const std::string command =
-        "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 46.7 "
+        "new planetary --sun 19 --planet 23 --ring 65 --module 3.2 --torque 429 --speed 400 "
         "--out " +
         file;
     const auto written = program(command);
