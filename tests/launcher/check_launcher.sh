@@ -16,7 +16,8 @@ tree=$work/tree bin=$work/bin
 mkdir -p "$tree/cmake" "$bin"
 cp "$launcher" "$tree/gearpod"
 cp "$(dirname -- "$launcher")/cmake/packages.txt" "$tree/cmake"
-for tool in sh readlink dirname mkdir touch mv rm ln find head tail id env sed awk cat grep tr; do
+for tool in sh readlink dirname mkdir touch mv rm ln find head tail id env sed awk cat grep tr \
+    getconf; do
     ln -s "$(command -v $tool)" "$bin/$tool"
 done
 fake() {
