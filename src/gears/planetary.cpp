@@ -18,6 +18,20 @@ int planets_with_room(const PlanetRoom& room) {
     return ratio >= 1 ? 1 : static_cast<int>(std::ceil(pi / std::asin(ratio))) - 1;
 }
 
+// More planets than have room wherever they are: one problem, not one of every two that touch.
+bool too_many(const PlanetaryTrain& train, const PlanetRoom& room,
+              std::vector<std::string>& problems) {
+    const int most = planets_with_room(room), n = train.planets;
+    if (n <= most) {
+        return false;
+    }
+    problems.push_back(
+        fmt::format("the tip circles of {} planets touch: axes {:.2f} modules apart, tip diameter "
+                    "{:.2f} modules (at most {} planets)",
+                    n, 2 * room.centre_distance * std::sin(pi / n), room.tip_diameter, most));
+    return true;
+}
+
 PlanetRoom standard_room(const PlanetaryTrain& train, double addendum_coefficient) {
     return {0.5 * (train.sun_teeth + train.planet_teeth),
             train.planet_teeth + 2 * addendum_coefficient};
@@ -51,13 +65,7 @@ void equal_spacing_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                         "planets do not mesh (sun + ring = {} or {} would)",
                         teeth, n, below, below + n));
     }
-    const double between_axes = 2 * room.centre_distance * std::sin(pi / n);
-    if (n > 1 && between_axes <= room.tip_diameter) {
-        problems.push_back(
-            fmt::format("the tip circles of {} planets touch: axes {:.2f} modules apart, tip "
-                        "diameter {:.2f} modules (at most {} planets)",
-                        n, between_axes, room.tip_diameter, planets_with_room(room)));
-    }
+    too_many(train, room, problems);
 }
 
 double degrees(double angle_rad) {
@@ -97,6 +105,9 @@ void position_problems(const PlanetaryTrain& train, const PlanetRoom& room,
                 n + 1, degrees(psi[n]), place, std::floor(place) * 360 / places,
                 std::ceil(place) * 360 / places));
         }
+    }
+    if (too_many(train, room, problems)) {
+        return;
     }
     const PlanetPlaces at = planet_places(train);
     for (int n = 0; n < train.planets; ++n)

@@ -69,6 +69,8 @@ TEST_CASE("A planet meshes with sun and ring at once at its place, and only ther
     CHECK(assembly_problems(park_at({0, 120.00001, 240})).empty());
     CHECK(says(assembly_problems(park_at({0, 121, 240})), "120.000000 or 124.285714"));
     CHECK(says(assembly_problems(park_at({0, 360.0 * 14 / 84, 240})), "planets 1 and 2 touch"));
+    // Axes 42 sin 30 = 21 modules apart leave no room for tip circles of 28: one problem, not six.
+    CHECK(says(assembly_problems(park_at({0, 60, 120, 180, 240, 300})), "(at most 4 planets)"));
     CHECK(says(assembly_problems(park_at({0, 240, 120})), "does not follow planet 2"));
     CHECK(assembly_problems(park_at({0, 120, 360})).size() ==
           2);  // not below 360; touches planet 1

@@ -29,6 +29,25 @@ Guess guess_by_unit(const std::string& section, const std::string& name) {
     return {};
 }
 
+// A key whose name without its unit is near.
+const Key* nearest_stem(const std::string& section, const std::string& name) {
+    const Key* found = nullptr;
+    int least = 0;
+    for (const Key& key : schema()) {
+        if (key.section != section || key.unit.suffix.empty()) {
+            continue;
+        }
+        const std::string_view stem = key.stem();
+        const int distance = edit_distance(name, stem);
+        if (distance <= std::max(1, static_cast<int>(stem.size()) / 3) &&
+            (found == nullptr || distance < least)) {
+            found = &key;
+            least = distance;
+        }
+    }
+    return found;
+}
+
 Guess guess_key(const std::string& section, const std::string& name) {
     if (Guess guess = guess_by_unit(section, name); guess.key != nullptr) {
         return guess;
@@ -43,8 +62,13 @@ Guess guess_key(const std::string& section, const std::string& name) {
         }
     }
     const std::string words = suggest(name, names);
-    const bool near = words.starts_with("did you mean");
-    return {near ? find_key(section, nearest(name, names)) : nullptr, words};
+    if (words.starts_with("did you mean")) {
+        return {find_key(section, nearest(name, names)), words};
+    }
+    if (const Key* key = nearest_stem(section, name)) {
+        return {key, fmt::format("did you mean {}?", key->name)};
+    }
+    return {nullptr, words};
 }
 
 }  // namespace

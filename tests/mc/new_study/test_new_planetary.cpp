@@ -86,6 +86,8 @@ TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
     const auto crowded = refused([](auto& data) { data.planets = 7; });
     INFO(crowded);
     CHECK(crowded.find("new planetary: --") != std::string::npos);
+    CHECK(crowded.find("(at most 4 planets)") != std::string::npos);
+    CHECK(std::count(crowded.begin(), crowded.end(), '\n') == 1);
     const auto undercut = refused([](auto& data) {
         data.sun = 9;
         data.ring = 87;

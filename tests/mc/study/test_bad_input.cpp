@@ -45,6 +45,7 @@ const BadFile kBadFiles[] = {
      "did you mean young_modulus_Pa? (its unit is Pa)"},
     {"planet_teeth", "planet_teth", "planet_teth", "gearbox.planet_teth",
      "did you mean planet_teeth?"},
+    {"torque_N_m", "turqe", "turqe", "operation.turqe", "did you mean torque_N_m?"},
     {"torque_N_m", "turque_N_m", "turque", "operation.turque_N_m", "did you mean torque_N_m?"},
     {"low_pass_Hz", "low_pass_kHz", "low_pass_kHz", "sensor.low_pass_kHz",
      "did you mean low_pass_Hz? (its unit is Hz)"},
