@@ -71,9 +71,9 @@ TEST_CASE("a90 over the false-alarm rate is the normal law's, down to where the 
     CHECK(low.points[9].threshold == Approx(-curve.points[9].threshold));
 }
 
-TEST_CASE("Bounds of a90 hold the threshold's scatter over 200 studies") {
+TEST_CASE("Bounds of a90 hold the threshold's scatter over 100 studies") {
     int covered[3] = {}, narrow = 0;
-    constexpr int kStudies = 200;
+    constexpr int kStudies = 100;
     for (int s = 0; s < kStudies; ++s) {
         const Study study(1000, 200, 100 + s);
         const FalseAlarmCurve curve = false_alarm_curve(study.values(), {&kProbit, 1}, 0.95);

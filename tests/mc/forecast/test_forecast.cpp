@@ -141,7 +141,7 @@ TEST_CASE("The most memory is that of the gearboxes, or of the analysis after th
 }
 
 TEST_CASE("Every shipped study is measured on no more than a tile a thread, if it must be quick") {
-    int studies = 0;
+    int studies = 0, trials = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test::study_path(""))) {
         if (entry.path().extension() != ".toml") {
             continue;
@@ -154,15 +154,23 @@ TEST_CASE("Every shipped study is measured on no more than a tile a thread, if i
         const Scene scene(study);
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
-        const AnalysisTrial trial = try_analysis(study, calibration, plan, 1, kNoBudget_s);
+        // The analysis of thousands of gearboxes takes seconds, whichever study made them: one will
+        // do.
+        const bool tried =
+            plan.rows() < kTrialRows / 3 || entry.path().filename() == "reference-10k.toml";
+        const AnalysisTrial trial =
+            tried ? try_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
         const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
         ++studies;
+        trials += tried ? 1 : 0;
         CHECK(calibration.to_record == scene.signal_meshes());
         if (!calibration.march_alone) {
             CHECK(!calibration.gearboxes.empty());
             CHECK(calibration.gearboxes.size() <= static_cast<std::size_t>(study.numerics.lanes));
-            CHECK(trial.levels == 1);
-            CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
+            if (tried) {
+                CHECK(trial.levels == 1);
+                CHECK(trial.rows == std::min(plan.rows(), kTrialRows));
+            }
         }
         const bool shortened =
             study.numerics.horizon == Horizon::march && !study.effects.quasi_static();
@@ -173,6 +181,7 @@ TEST_CASE("Every shipped study is measured on no more than a tile a thread, if i
         CHECK(forecast.memory_bytes > 1e6);
     }
     CHECK(studies > 30);
+    CHECK(trials > 20);
 }
 
 TEST_CASE("A march that is cut short to be measured counts in full, and leaves no trace") {
