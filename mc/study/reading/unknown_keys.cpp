@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mc/input/spelling.hpp"
 #include "mc/study/schema/schema.hpp"
 
@@ -30,22 +32,18 @@ Guess guess_by_unit(const std::string& section, const std::string& name) {
 }
 
 // A key whose name without its unit is near.
-const Key* nearest_stem(const std::string& section, const std::string& name) {
-    const Key* found = nullptr;
-    int least = 0;
+const Key* near_without_unit(const std::string& section, const std::string& name) {
+    std::vector<std::string_view> stems;
     for (const Key& key : schema()) {
-        if (key.section != section || key.unit.suffix.empty()) {
-            continue;
-        }
-        const std::string_view stem = key.stem();
-        const int distance = edit_distance(name, stem);
-        if (distance <= std::max(1, static_cast<int>(stem.size()) / 3) &&
-            (found == nullptr || distance < least)) {
-            found = &key;
-            least = distance;
+        if (key.section == section && !key.unit.suffix.empty()) {
+            stems.push_back(key.stem());
         }
     }
-    return found;
+    const std::string_view best = nearest(name, stems);
+    const int allowed = std::max(1, static_cast<int>(best.size()) / 3);
+    return !best.empty() && edit_distance(name, best) <= allowed
+               ? guess_by_unit(section, std::string(best)).key
+               : nullptr;
 }
 
 Guess guess_key(const std::string& section, const std::string& name) {
@@ -65,7 +63,7 @@ Guess guess_key(const std::string& section, const std::string& name) {
     if (words.starts_with("did you mean")) {
         return {find_key(section, nearest(name, names)), words};
     }
-    if (const Key* key = nearest_stem(section, name)) {
+    if (const Key* key = near_without_unit(section, name)) {
         return {key, fmt::format("did you mean {}?", key->name)};
     }
     return {nullptr, words};
