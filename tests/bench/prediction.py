@@ -61,7 +61,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--program", default="build/gearpod")
     options = parser.parse_args()
-    studies = options.studies or [s for s in sorted(glob.glob("studies/*.toml")) if runs(s)]
+    studies = options.studies or [s for s in sorted(glob.glob("studies/**/*.toml", recursive=True)) if runs(s)]
 
     times: dict[str, list[float]] = {study: [] for study in studies}
     memory: dict[str, list[float]] = {study: [] for study in studies}

@@ -24,6 +24,7 @@
 #include <thread>
 
 #include "tests/mc/recording_bytes.hpp"
+#include "tests/shipped_studies.hpp"
 
 namespace {
 
@@ -237,12 +238,9 @@ bool arm(Arsenal& arsenal) {
         arsenal.inspections.push_back(
             bytes_of(std::string(GEARPOD_SOURCE_DIR "/tests/analysis/reference/") + table));
     }
-    for (const auto& entry : fs::directory_iterator(GEARPOD_SOURCE_DIR "/studies")) {
-        if (entry.path().extension() == ".toml") {
-            arsenal.studies.push_back(bytes_of(entry.path()));
-        }
+    for (const std::string& name : shipped_studies()) {
+        arsenal.studies.push_back(bytes_of(study_path(name)));
     }
-    std::sort(arsenal.studies.begin(), arsenal.studies.end());
     return good;
 }
 

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -25,6 +24,7 @@
 #include "mc/scene/scene.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mutation.hpp"
+#include "tests/shipped_studies.hpp"
 
 namespace {
 
@@ -40,18 +40,10 @@ struct Shared {
     std::atomic<std::uint64_t> tried, accepted, scenes;
 };
 
-std::vector<std::string> shipped_studies() {
+std::vector<std::string> study_texts() {
     std::vector<std::string> texts;
-    std::vector<std::filesystem::path> paths;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(GEARPOD_SOURCE_DIR) + "/studies")) {
-        if (entry.path().extension() == ".toml") {
-            paths.push_back(entry.path());
-        }
-    }
-    std::sort(paths.begin(), paths.end());
-    for (const auto& path : paths) {
-        std::ifstream stream(path);
+    for (const std::string& name : test::shipped_studies()) {
+        std::ifstream stream(test::study_path(name));
         texts.emplace_back(std::istreambuf_iterator<char>(stream),
                            std::istreambuf_iterator<char>());
     }
@@ -181,7 +173,7 @@ bool is_well(Child& child, const std::vector<std::string>& studies) {
 int main(int argc, char** argv) {
     const std::uint64_t seed = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
     const double seconds = argc > 2 ? std::atof(argv[2]) : 30.0;
-    const auto studies = shipped_studies();
+    const auto studies = study_texts();
     const std::uint64_t count = std::max(1u, std::thread::hardware_concurrency());
     std::vector<Child> children;
     for (std::uint64_t i = 0; i < count; ++i) {

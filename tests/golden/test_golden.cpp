@@ -44,7 +44,7 @@ TEST_CASE("A golden curve notices a value, a length and a column that changed, a
 TEST_CASE("A golden curve whose command fails or whose column is missing is an error") {
     CHECK_THROWS(compute({"x", "stiffness studies/no-such-study.toml --csv -", {}, {}, 1, 1e-6}));
     CHECK_THROWS(compute({"x",
-                          "stiffness studies/liang-fig-5-8.toml --csv - --points 2",
+                          "stiffness studies/published/liang-fig-5-8.toml --csv - --points 2",
                           Source::csv,
                           {"no such column"},
                           1,

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "mc/results/results_file.hpp"
+#include "tests/shipped_studies.hpp"
 
 namespace gearpod::test {
 
@@ -88,7 +89,7 @@ inline std::string mpirun(int ranks) {
 }
 
 inline std::string study(const std::string& name) {
-    return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
+    return study_path(name);
 }
 
 inline std::string bytes_of(const std::string& path) {

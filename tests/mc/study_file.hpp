@@ -11,12 +11,9 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/scene/scene.hpp"
+#include "tests/shipped_studies.hpp"
 
 namespace gearpod::test {
-
-inline std::string study_path(const std::string& name) {
-    return std::string(GEARPOD_SOURCE_DIR) + "/studies/" + name;
-}
 
 inline mc::Study shipped_study(const std::string& name,
                                const std::vector<std::string>& overrides = {}) {

@@ -50,7 +50,7 @@ class Published(unittest.TestCase):
     def test_one_command_draws_all(self):
         for figure in published.figures():
             with self.subTest(figure["name"]):
-                self.assertTrue((SOURCES / "studies" / figure["study"]).is_file())
+                self.assertTrue((SOURCES / "studies" / "published" / figure["study"]).is_file())
                 for kind in ("svg", "png"):
                     file = pathlib.Path(self.folder.name, f"{figure['name']}.{kind}")
                     self.assertGreater(file.stat().st_size, 5000)

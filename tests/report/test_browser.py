@@ -39,8 +39,8 @@ PAPER = (680, 960)  # what A4 leaves between the browser's margins, in CSS pixel
 STUDIES = {
     "planet": ["planet-crack-ideal.toml", "--instances", "350", "--set",
                "ensemble.threshold_instances=200"],
-    "quasi_static": ["park-fig-13.toml"],
-    "fixed_shaft": ["tian-fig-4-9.toml"]}
+    "quasi_static": ["published/park-fig-13.toml"],
+    "fixed_shaft": ["published/tian-fig-4-9.toml"]}
 # Of the cases made without a simulation, those whose pages differ most in what stands on them.
 SHOWN = ["usual", "many", "all_failed", "no_features", "none_detected", "nan_now_and_then",
          "continuous_size", "by_condition", "interrupted"]

@@ -83,7 +83,7 @@ TEST_CASE("The examples are the first healthy and the first worst gearbox, bit f
 }
 
 TEST_CASE("A changed feature in the file is noticed") {
-    Example example("park-fig-13.toml");
+    Example example("published/park-fig-13.toml");
     CHECK(example.gearbox(1)["same_bits"] == true);
     CHECK(example.gearbox(1)["sensor"].is_null());
     CHECK(example.gearbox(1)["engagements"].size() == 2);  // sun side and ring side
@@ -93,7 +93,7 @@ TEST_CASE("A changed feature in the file is noticed") {
 }
 
 TEST_CASE("Signals and lines are those of the simulated gearbox") {
-    const Example example("tian-fig-4-9.toml");
+    const Example example("published/tian-fig-4-9.toml");
     const Json& gearbox = example.gearbox(1);
     const long meshes = example.scene->span_meshes();
     const mc::Simulation whole =
@@ -121,7 +121,7 @@ TEST_CASE("Signals and lines are those of the simulated gearbox") {
 }
 
 TEST_CASE("The faulty pair is healthy before and after its faulty tooth, and softer meanwhile") {
-    const Example example("tian-fig-4-9.toml");
+    const Example example("published/tian-fig-4-9.toml");
     const Json& stiffness = example.json["stiffness"];
     REQUIRE(stiffness["refusal"].is_null());
     REQUIRE(stiffness["passages"].size() == 1);

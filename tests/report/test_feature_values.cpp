@@ -29,7 +29,8 @@ TEST_CASE("Values stand where there are no thresholds, and few gearboxes, only")
 TEST_CASE("A study without noise prints the values of its file, not dashes") {
     const Folder folder;
     const std::string file = folder.file("r.h5");
-    REQUIRE(program("run " + test::study("park-fig-13.toml") + " --quiet --out " + file).code == 0);
+    REQUIRE(program("run " + test::study("published/park-fig-13.toml") + " --quiet --out " + file)
+                .code == 0);
     const auto report = program("report " + file);
     REQUIRE(report.code == 0);
     CHECK(!report.mentions("-    "));

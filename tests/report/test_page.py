@@ -249,7 +249,7 @@ class Program(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.results = os.path.join(cls.folder.name, "r.h5")
-        cls.gearpod("run", SOURCES / "studies" / "park-fig-13.toml", "--quiet", "--out",
+        cls.gearpod("run", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet", "--out",
                     cls.results)
 
     @classmethod

@@ -102,7 +102,7 @@ class Program(unittest.TestCase):
                 return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True,
                                       check=False)
 
-            gearpod("run", SOURCES / "studies" / "park-fig-13.toml", "--quiet", "--out", results)
+            gearpod("run", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet", "--out", results)
             made = gearpod("report", results, "--pdf", sheet)
             self.assertEqual(made.returncode, 0, made.stderr)
             self.assertIn(f"sheet: {sheet}", made.stdout)

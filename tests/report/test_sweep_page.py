@@ -103,7 +103,7 @@ class Program(unittest.TestCase):
     def test_page_and_json_hold_the_same(self):
         with tempfile.TemporaryDirectory() as folder:
             html = os.path.join(folder, "s.html")
-            command = [PROGRAM, "sweep", SOURCES / "studies" / "park-fig-13.toml", "--quiet",
+            command = [PROGRAM, "sweep", SOURCES / "studies" / "published" / "park-fig-13.toml", "--quiet",
                        "--vary", "operation.torque_N_m=[90e3,180e3]", "--out",
                        os.path.join(folder, "s"), "--html"]
             made = subprocess.run([*command, html, "--json", "-"], capture_output=True, text=True,

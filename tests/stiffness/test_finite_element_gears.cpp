@@ -39,7 +39,8 @@ struct Case {
     double held_1, held_2;  // m
 };
 
-// 27/35/99 teeth of studies/bell-206b.toml, with fillets; 31/81 of studies/liang-fig-3-16.toml.
+// 27/35/99 teeth of studies/bell-206b.toml, with fillets; 31/81 of
+// studies/published/liang-fig-3-16.toml.
 Case case_named(const std::string& name) {
     if (name.starts_with("liang"))
         return {{test_pairs::external(31), test_pairs::internal(81)},

@@ -4,8 +4,8 @@
 
 Runs the study of each figure (all, or those named), draws FOLDER/NAME.svg and .png, and puts what
 the source prints beside what comes out, on the terminal and in FOLDER/published.csv. What is
-published, with its source, is in studies/published.json; studies/README.md says why some differ.
-matplotlib is needed.
+published, with its source, is in studies/published/figures.json; studies/README.md says why some
+differ. matplotlib is needed.
 """
 
 from __future__ import annotations
@@ -45,19 +45,19 @@ Figure = Dict[str, Any]
 
 
 def studies_folder() -> pathlib.Path:
-    """The studies beside the program: of its checkout or its installation."""
+    """Their studies beside the program: of its checkout or its installation."""
     program = pathlib.Path(find_program()).resolve()
     for folder in (*program.parents, *pathlib.Path(__file__).resolve().parents):
-        for place in ("studies", "share/gearpod/studies"):
-            if (folder / place / "published.json").is_file():
+        for place in ("studies/published", "share/gearpod/studies/published"):
+            if (folder / place / "figures.json").is_file():
                 return folder / place
-    raise FileNotFoundError("no studies/published.json beside the program; name the program of a "
-                            "checkout or an installation in GEARPOD_PROGRAM")
+    raise FileNotFoundError("no studies/published/figures.json beside the program; name the program "
+                            "of a checkout or an installation in GEARPOD_PROGRAM")
 
 
 def figures() -> List[Figure]:
-    """All figures, as studies/published.json has them."""
-    text = (studies_folder() / "published.json").read_text(encoding="utf-8")
+    """All figures, as studies/published/figures.json has them."""
+    text = (studies_folder() / "figures.json").read_text(encoding="utf-8")
     read: List[Figure] = json.loads(text)
     return read
 

@@ -27,7 +27,7 @@ const std::vector<std::string> kNarrow{"sensor.sampling_Hz=17100", "sensor.low_p
 
 Study tian(std::vector<std::string> more = {}) {
     more.insert(more.end(), kNarrow.begin(), kNarrow.end());
-    return shipped_study("tian-fig-4-9.toml", more);
+    return shipped_study("published/tian-fig-4-9.toml", more);
 }
 
 Reference tian_reference() {
@@ -79,7 +79,7 @@ TEST_CASE("the reference is what two independent methods converge to", "[accurac
 TEST_CASE("Singles march the gearboxes of doubles but for rounding", "[accuracy]") {
     const auto yang = [](std::vector<std::string> more) {
         more.insert(more.end(), {"numerics.integrator=rk4", "numerics.steps_per_mesh=384"});
-        return Scene(shipped_study("yang-fig-15.toml", more));
+        return Scene(shipped_study("published/yang-fig-15.toml", more));
     };
     const Scene doubles = yang({}), singles = yang({"numerics.precision=single"});
     const Pilot pilot(doubles);
@@ -229,7 +229,7 @@ TEST_CASE("accuracy lists every rung, marks the frontier and says what is refuse
         folder.file("peers.csv"),
         "name,command,march_s,mesh_s,sensor,te,te_rms\nother,\"a, b\",1,0.5,0.1,0.2,0.3\n");
     const test::Outcome run =
-        test::program("accuracy " + test::study("tian-fig-4-9.toml") + sets() +
+        test::program("accuracy " + test::study("published/tian-fig-4-9.toml") + sets() +
                       " --quiet --repeats 1 --gearboxes 0 --seconds 0 --peers " +
                       folder.file("peers.csv") + " --json " + folder.file("accuracy.json"));
     INFO(run.output);
@@ -297,14 +297,16 @@ TEST_CASE("accuracy leaves out what it has no time for, and says so", "[accuracy
 }
 
 TEST_CASE("accuracy says what it cannot do", "[accuracy]") {
-    const test::Outcome still = test::program("accuracy " + test::study("park-fig-13.toml"));
+    const test::Outcome still =
+        test::program("accuracy " + test::study("published/park-fig-13.toml"));
     CHECK(still.code == kBadInput);
     CHECK(still.mentions("effects.motion"));
     const test::Folder folder;
     test::write_bytes(folder.file("bad.csv"),
                       "name,command,march_s,mesh_s,sensor,te\nx,y,1,2,z,3\n");
-    const test::Outcome bad = test::program("accuracy " + test::study("tian-fig-4-9.toml") +
-                                            " --quiet --peers " + folder.file("bad.csv"));
+    const test::Outcome bad =
+        test::program("accuracy " + test::study("published/tian-fig-4-9.toml") +
+                      " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
     CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is no number >= 0"));
 }

@@ -45,7 +45,7 @@ TEST_CASE("A run ends with the table and a file that report reads to the same nu
 }
 
 TEST_CASE("Natural frequencies come as JSON, with the published value") {
-    const Outcome modes = program("modes " + study("lin-parker-n4.toml") + " --json -");
+    const Outcome modes = program("modes " + study("published/lin-parker-n4.toml") + " --json -");
     CHECK(modes.code == 0);
     const auto frequencies = nlohmann::json::parse(modes.output)["frequencies_Hz"];
     REQUIRE(frequencies.size() == 21);
@@ -54,14 +54,14 @@ TEST_CASE("Natural frequencies come as JSON, with the published value") {
 
 TEST_CASE("Stiffness curves have the contract's columns and the mean that the summary prints") {
     const Outcome csv =
-        program("stiffness " + study("liang-fig-5-8.toml") + " --csv - --points 500");
+        program("stiffness " + study("published/liang-fig-5-8.toml") + " --csv - --points 500");
     CHECK(csv.code == 0);
     CHECK(csv.output.rfind("phase,sp1,sp2,sp3,sp4,rp1,rp2,rp3,rp4,", 0) == 0);
     CHECK(std::count(csv.output.begin(), csv.output.end(), '\n') == 501);
 }
 
 TEST_CASE("A fixed-shaft gearbox has its own columns, frequencies and description") {
-    const std::string chip = study("tian-fig-4-6.toml");
+    const std::string chip = study("published/tian-fig-4-6.toml");
     const Outcome csv = program("stiffness " + chip + " --csv - --points 50");
     CHECK(csv.code == 0);
     CHECK(csv.output.rfind("phase,m1,m1_chip_8mm_period1,m1_chip_8mm_period2", 0) == 0);
@@ -130,7 +130,8 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
         {"run " + good + " --set gearbox.sun_mass_kg=-1 --out " + out, "sun_mass_kg"},
         {"run " + good + " --set gearbox.ring_teeth=80 --out " + out, "ring"},
         {"run " + good + " --set numerics.steps_per_mesh=500 --out " + out, "unstable"},
-        {"run " + study("tian-fig-4-3.toml") + " --set 'numerics.integrator=\"rk4\"' --out " + out,
+        {"run " + study("published/tian-fig-4-3.toml") +
+             " --set 'numerics.integrator=\"rk4\"' --out " + out,
          "damper of the motor coupling"},
         {"run " + good + " --instances none --out " + out, "instances"},
         {"run " + good + " --out " + folder.file("no/such/folder/r.h5"), "no/such/folder"},
@@ -139,7 +140,7 @@ TEST_CASE("Bad input of any kind exits with 2, says so and leaves nothing") {
         {"describ " + good, "describe"},
         {"report " + folder.file("missing.h5"), "missing.h5"},
         {"report " + good, "planet-crack-ideal.toml"},
-        {"stiffness " + study("lin-parker-n4.toml"), "teeth"},
+        {"stiffness " + study("published/lin-parker-n4.toml"), "teeth"},
         {"simulate " + good + " --instance 99999999 --out " + folder.file("s.csv"), "--instance"},
         {"simulate " + good + " --instance 1 --out " + folder.file("s.xyz"), ".csv"},
     };

@@ -161,7 +161,7 @@ TEST_CASE("Signals and the time limit finish, save and exit with 4") {
 TEST_CASE("Signals and the time limit end a batch that is in work, and nothing of it is kept") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
-    const std::string slow = "run " + study("yang-pitch-errors.toml") +
+    const std::string slow = "run " + study("published/yang-pitch-errors.toml") +
                              " --set numerics.steps_per_mesh=2000 --quiet --out " + out;
     const auto before = std::chrono::steady_clock::now();
     const auto took_s = [&] {

@@ -105,7 +105,7 @@ TEST_CASE("Reused mesh periods and the full march agree to 1e-6 in every noise-f
     // window_z is left out: it divides by the scatter of teeth that are alike but for rounding. The
     // carrier turns fast: fewer steps a mesh.
     const mc::Study planet = shipped_study(
-        "liang-fig-5-8.toml",
+        "published/liang-fig-5-8.toml",
         {R"(features.use=["te_rms","te_kurtosis","te_fc","te_fm0","sensor_rms","window_ratio"])",
          "operation.carrier_speed_rpm=45"});
     mc::Study sun = planet;

@@ -9,6 +9,7 @@
 #include "mc/study/fluctuations.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/shipped_studies.hpp"
 
 using namespace gearpod;
 using test::bits;
@@ -16,18 +17,13 @@ using test::shipped_study;
 
 namespace {
 
-std::vector<std::string> shipped_studies() {
-    std::vector<std::string> names;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(GEARPOD_SOURCE_DIR) + "/studies")) {
-        const std::string name = entry.path().filename().string();
-        // Those without teeth have modes only.
-        if (name.ends_with(".toml") && shipped_study(name).gearbox.has_teeth() &&
-            shipped_study(name).gearbox.module_m) {
-            names.push_back(name);
-        }
-    }
-    std::sort(names.begin(), names.end());
+// Those without teeth have modes only.
+std::vector<std::string> studies_with_teeth() {
+    std::vector<std::string> names = test::shipped_studies();
+    std::erase_if(names, [](const std::string& name) {
+        const mc::Study study = shipped_study(name);
+        return !study.gearbox.has_teeth() || !study.gearbox.module_m;
+    });
     return names;
 }
 
@@ -56,7 +52,7 @@ std::vector<std::string> small(const std::string& name) {
 // One other width suffices: tests/lockstep marches each mesh law by all. It is one lane, or four
 // where every mesh is marched.
 TEST_CASE("Every shipped study gives the same bits by eight lanes and by one or four") {
-    const auto names = shipped_studies();
+    const auto names = studies_with_teeth();
     REQUIRE(names.size() > 30);
     for (const std::string& name : names) {
         INFO(name);

@@ -3,7 +3,6 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "mc/forecast/forecast.hpp"
@@ -11,6 +10,7 @@
 #include "mc/study/gears.hpp"
 #include "tests/mc/program.hpp"
 #include "tests/mc/study_file.hpp"
+#include "tests/shipped_studies.hpp"
 
 using namespace gearpod;
 using namespace gearpod::mc;
@@ -142,22 +142,18 @@ TEST_CASE("The most memory is that of the gearboxes, or of the analysis after th
 
 TEST_CASE("Every shipped study is measured on no more than a tile a thread, if it must be quick") {
     int studies = 0, trials = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::study_path(""))) {
-        if (entry.path().extension() != ".toml") {
-            continue;
-        }
-        const Study study = test::shipped_study(entry.path().filename().string());
+    for (const std::string& name : test::shipped_studies()) {
+        const Study study = test::shipped_study(name);
         if (!has_gears(study)) {
             continue;
         }
-        INFO(entry.path());
+        INFO(name);
         const Scene scene(study);
         const BatchPlan plan(study.ensemble.threshold_instances, study.ensemble.instances);
         const RunCalibration calibration = calibrate_run(scene, plan, 1, kNoBudget_s);
         // The analysis of thousands of gearboxes takes seconds, whichever study made them: one will
         // do.
-        const bool tried =
-            plan.rows() < kTrialRows / 3 || entry.path().filename() == "reference-10k.toml";
+        const bool tried = plan.rows() < kTrialRows / 3 || name == "reference-10k.toml";
         const AnalysisTrial trial =
             tried ? try_analysis(study, calibration, plan, 1, kNoBudget_s) : AnalysisTrial{};
         const RunForecast forecast = forecast_run(scene, plan, calibration, trial, 0.0);
@@ -250,7 +246,8 @@ TEST_CASE("Made-up results have the run's gearboxes and values like those of com
 
 TEST_CASE("A study's description ends with a forecast and writes nothing") {
     const test::Folder folder;
-    for (const char* name : {"tian-fig-4-6.toml", "park-fig-11.toml", "liang-fig-5-8.toml"}) {
+    for (const char* name : {"published/tian-fig-4-6.toml", "published/park-fig-11.toml",
+                             "published/liang-fig-5-8.toml"}) {
         const test::Outcome described = test::shell(
             "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name));
         CHECK(described.code == 0);
@@ -265,7 +262,8 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
                              " --set sensor.encoder_sampling_Hz=20000"
                              " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
     CHECK(test::program("describe " + sure).mentions("less if ensemble.until ends it"));
-    const std::string stiff = test::study("tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
+    const std::string stiff =
+        test::study("published/tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
     const test::Outcome described = test::program("describe " + stiff);
     const test::Outcome run = test::program("run " + stiff + " --out " + folder.file("r.h5"));
     CHECK(described.code == 2);

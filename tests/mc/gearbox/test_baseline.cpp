@@ -136,7 +136,7 @@ TEST_CASE("A baseline is the same beside its record as before it") {
 
 TEST_CASE("The torque of baseline records is scattered as asked for, on both shafts") {
     const Study study = test::shipped_study(
-        "tian-fig-4-9.toml",
+        "published/tian-fig-4-9.toml",
         {"features.use=[\"own_te_rms\"]", "features.baseline_torque_scatter=0.05"});
     const Sampler sampler(study);
     double sum = 0.0, squares = 0.0;

@@ -59,13 +59,13 @@ TEST_CASE("An explicit integrator on a stiff gearbox is refused, naming what is 
 
 TEST_CASE("Steps by which central differences are unstable are refused, their own are stable") {
     const std::string by = "numerics.integrator=central-difference";
-    const Scene own(test::shipped_study("liang-fig-5-8.toml", {by}));
+    const Scene own(test::shipped_study("published/liang-fig-5-8.toml", {by}));
     CHECK(own.plan().integrator == lockstep::Integrator::central_difference);
     const int least = own.least_steps();
     CHECK(static_cast<int>(own.plan().grid.steps.size()) >= 1.04 * least);
     CHECK(run_one(own).status[0] == mc::Status::ok);
     const auto with_steps = [&](int steps) {
-        return test::shipped_study("liang-fig-5-8.toml",
+        return test::shipped_study("published/liang-fig-5-8.toml",
                                    {by, "numerics.steps_per_mesh=" + std::to_string(steps)});
     };
     CHECK(run_one(Scene(with_steps(least))).status[0] == mc::Status::ok);

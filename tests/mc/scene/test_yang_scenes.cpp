@@ -19,7 +19,7 @@ struct RingMesh {
 };
 
 RingMesh ring_mesh(int number, const std::vector<std::string>& overrides = {}) {
-    const mc::Scene scene(shipped_study("yang-separation.toml", overrides));
+    const mc::Scene scene(shipped_study("published/yang-separation.toml", overrides));
     const auto tile = run_one(scene, true, static_cast<std::uint64_t>(number));
     REQUIRE(tile.march.status[0] == lockstep::LaneStatus::ok);
     const int pair = scene.drive().pairs_per_mesh();
@@ -55,9 +55,10 @@ constexpr int kRigMeshes = 1120, kRigCarrier = 10, kRigSun = 35;
 
 // The first graded gearbox, whose teeth are the same at any depth of the crack.
 std::vector<double> rig_signal(double depth_mm, bool alike) {
-    mc::Study study = shipped_study(
-        "yang-test-rig.toml", {"random.fault.depth_mm={ distribution = \"levels\", values = [" +
-                               std::to_string(depth_mm) + "] }"});
+    mc::Study study =
+        shipped_study("published/yang-test-rig.toml",
+                      {"random.fault.depth_mm={ distribution = \"levels\", values = [" +
+                       std::to_string(depth_mm) + "] }"});
     if (alike) {
         study.errors.pitch_error_m = 0.0;
         study.numerics.horizon = mc::Horizon::reuse;
@@ -121,7 +122,7 @@ TEST_CASE("Separating teeth: the response jumps below the linear resonance, and 
 TEST_CASE("Separating teeth that never repeat are marched mesh by mesh, and only then") {
     const auto status = [](const char* horizon) {
         const mc::Scene scene(shipped_study(
-            "yang-separation.toml",
+            "published/yang-separation.toml",
             {"operation.sun_speed_rpm=5750", std::string("numerics.horizon=\"") + horizon + "\"",
              "numerics.max_meshes=400"}));
         return run_one(scene, false, 0);
@@ -140,7 +141,7 @@ TEST_CASE("Separating teeth that never repeat are marched mesh by mesh, and only
 }
 
 TEST_CASE("Yang, section 4.3: frequencies of the test rig") {
-    const mc::Scene scene(shipped_study("yang-test-rig.toml"));
+    const mc::Scene scene(shipped_study("published/yang-test-rig.toml"));
     const auto inputs = scene.inputs(mc::Sampler(scene.study()).nominal());
     const double mesh = 1.0 / dynamics::mesh_period_s(inputs);
     CHECK(mesh == Approx(248.89).margin(0.005));
@@ -175,7 +176,7 @@ TEST_CASE(
 
 TEST_CASE("Pitch errors make healthy teeth differ, by more than a crack of 2 mm does") {
     const auto ratios = [](const std::vector<std::string>& overrides) {
-        mc::Study study = shipped_study("yang-pitch-errors.toml", overrides);
+        mc::Study study = shipped_study("published/yang-pitch-errors.toml", overrides);
         study.ensemble.threshold_instances = 1;
         study.ensemble.instances = 3;
         const mc::Results results = test::run(study);
@@ -199,13 +200,13 @@ TEST_CASE("Tones of the drive blur the cracked tooth's windows, and little") {
         };
         return std::pair{values("window_ratio").back(), values("sensor_rms").back()};
     };
-    const auto [quiet, quiet_rms] = ratios("liang-fig-5-8.toml");
-    const auto [heard, heard_rms] = ratios("liang-test-rig.toml");
+    const auto [quiet, quiet_rms] = ratios("published/liang-fig-5-8.toml");
+    const auto [heard, heard_rms] = ratios("published/liang-test-rig.toml");
     CHECK(heard < quiet);
     CHECK(heard - 1.0 > 0.8 * (quiet - 1.0));
     // Their power adds: half the sum of the squared amplitudes below the low-pass.
     double power = 0.0;
-    for (const mc::Tone& tone : shipped_study("liang-test-rig.toml").sensor.tones) {
+    for (const mc::Tone& tone : shipped_study("published/liang-test-rig.toml").sensor.tones) {
         power += 0.5 * tone.amplitude_m_s2 * tone.amplitude_m_s2;
     }
     CHECK(heard_rms * heard_rms - quiet_rms * quiet_rms == Approx(power).epsilon(0.1));

@@ -15,7 +15,7 @@ namespace {
 // The study with one gearbox and no scatter; a crack of the given depth on the given member.
 mc::Study with_crack(mc::Member member, double depth_m,
                      const std::vector<std::string>& overrides = {}) {
-    mc::Study study = shipped_study("liang-fig-5-8.toml", overrides);
+    mc::Study study = shipped_study("published/liang-fig-5-8.toml", overrides);
     study.random.clear();
     study.fault.member = member;
     if (member != mc::Member::planet) {
@@ -28,7 +28,7 @@ mc::Study with_crack(mc::Member member, double depth_m,
 }  // namespace
 
 TEST_CASE("Fig. 5.8: the cracked tooth's RMS over the others' rises with depth as measured") {
-    const mc::Results results = test::run(shipped_study("liang-fig-5-8.toml"));
+    const mc::Results results = test::run(shipped_study("published/liang-fig-5-8.toml"));
     const auto& ratio = results.features[test::feature_index(results, "window_ratio")].values;
     REQUIRE(ratio.size() == 8);
     for (std::size_t i = 2; i < ratio.size(); ++i) {

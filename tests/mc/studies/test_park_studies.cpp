@@ -141,7 +141,7 @@ Spikes spikes(const mc::Scene& scene, std::uint64_t number) {
 }  // namespace
 
 TEST_CASE("The planets' phases: 2/3 and 4/3 of a mesh past both gears, 5/8 from sun to ring") {
-    const mc::Scene scene(shipped_study("park-fig-10.toml"));
+    const mc::Scene scene(shipped_study("published/park-fig-10.toml"));
     const auto phase = [&](int pair) {
         return lockstep::phase_in_period(scene.pairs().pitch_phase(pair));
     };
@@ -154,8 +154,8 @@ TEST_CASE("The planets' phases: 2/3 and 4/3 of a mesh past both gears, 5/8 from 
 }
 
 TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase of 78 only, and smaller") {
-    const mc::Scene in_phase(shipped_study("park-fig-9.toml"));
-    const mc::Scene phased(shipped_study("park-fig-10.toml"));
+    const mc::Scene in_phase(shipped_study("published/park-fig-9.toml"));
+    const mc::Scene phased(shipped_study("published/park-fig-10.toml"));
     const auto together = te_turn(in_phase), apart = te_turn(phased);
     CHECK(off_multiples(orders(together), 26) < 1e-10);
     CHECK(off_multiples(orders(apart), 78) < 1e-10);
@@ -166,7 +166,7 @@ TEST_CASE("Figs. 9, 10: multiples of 26 in phase; out of phase of 78 only, and s
 }
 
 TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and sidebands") {
-    const mc::Scene scene(shipped_study("park-fig-11.toml"));
+    const mc::Scene scene(shipped_study("published/park-fig-11.toml"));
     // Growing with the fault, each above its smaller one and the sun's above the ring's.
     Spikes before;
     for (std::uint64_t number = 1; number < 4; ++number) {
@@ -193,7 +193,7 @@ TEST_CASE("Fig. 11: two unequal spikes half a planet turn apart, low orders and 
 }
 
 TEST_CASE("The TE of every sample is the sun's force over the train's stiffness") {
-    const mc::Scene scene(shipped_study("park-fig-11.toml"));
+    const mc::Scene scene(shipped_study("published/park-fig-11.toml"));
     const mc::Study& study = scene.study();
     const double support = 1.0 / study.gearbox.support_stiffness_N_m;
     const double sizes[] = {0.0, 0.1, 0.2, 0.3};
@@ -233,7 +233,7 @@ TEST_CASE("All six working conditions: the TE is that of the output's radius and
         {Member::carrier, Member::ring, 1.0},
     };
     for (const auto& condition : conditions) {
-        mc::Study study = shipped_study("park-fig-11.toml");
+        mc::Study study = shipped_study("published/park-fig-11.toml");
         study.operation.fixed = condition.fixed;
         study.operation.input = condition.input;
         if (condition.fixed == Member::carrier) {
@@ -263,7 +263,7 @@ TEST_CASE("All six working conditions: the TE is that of the output's radius and
 }
 
 TEST_CASE("Fig. 12: RMS follows the torque; kurtosis, FC and FM0 tell 90 % at every torque alike") {
-    const FeatureTable table = feature_table(shipped_study("park-fig-12.toml"));
+    const FeatureTable table = feature_table(shipped_study("published/park-fig-12.toml"));
     // Rows go by torque (30, 60, 120, 180, 240 kN m), healthy and 90 % in turn.
     const double torque[] = {1, 2, 4, 6, 8};
     REQUIRE(table.rms.size() == 10);
@@ -284,7 +284,7 @@ TEST_CASE("Fig. 12: RMS follows the torque; kurtosis, FC and FM0 tell 90 % at ev
 }
 
 TEST_CASE("Fig. 13: RMS, kurtosis and FM0 rise and FC falls with the fault") {
-    const FeatureTable table = feature_table(shipped_study("park-fig-13.toml"));
+    const FeatureTable table = feature_table(shipped_study("published/park-fig-13.toml"));
     REQUIRE(table.rms.size() == 4);
     CHECK(rises(table.rms));
     CHECK(rises(table.kurtosis));
@@ -293,9 +293,9 @@ TEST_CASE("Fig. 13: RMS, kurtosis and FM0 rise and FC falls with the fault") {
 }
 
 TEST_CASE("With inertia the TE rings after each step, and a ratio of 0.07 hides it from kurtosis") {
-    const mc::Study study = shipped_study("park-dynamic.toml");
+    const mc::Study study = shipped_study("published/park-dynamic.toml");
     const FeatureTable ringing = feature_table(study),
-                       still = feature_table(shipped_study("park-fig-13.toml"));
+                       still = feature_table(shipped_study("published/park-fig-13.toml"));
     CHECK(rises(ringing.rms));
     CHECK(rises(ringing.fm0));
     CHECK(falls(ringing.fc));

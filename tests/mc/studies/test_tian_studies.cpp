@@ -17,8 +17,8 @@ constexpr double kMesh_Hz = 570.0;
 constexpr int kPinionTeeth = 19;
 
 // Each study's graded gearbox 0 is healthy, 1 faulty.
-const std::vector<std::string> kFaults{"tian-fig-4-6.toml", "tian-fig-4-9.toml",
-                                       "tian-fig-4-12.toml"};
+const std::vector<std::string> kFaults{"published/tian-fig-4-6.toml", "published/tian-fig-4-9.toml",
+                                       "published/tian-fig-4-12.toml"};
 
 // Frequency of the swings between two phases (mesh periods), from the signal's extremes.
 double ringing_Hz(const std::vector<double>& signal, int samples, double from, double to) {
@@ -78,7 +78,7 @@ double closed_form_Hz(const mc::Study& study, double stiffness_N_m) {
 }  // namespace
 
 TEST_CASE("Fig. 4.3: the sensor rings at 3788 Hz while two pairs touch and at 3049 Hz with one") {
-    const mc::Scene scene(shipped_study("tian-fig-4-3.toml"));
+    const mc::Scene scene(shipped_study("published/tian-fig-4-3.toml"));
     const int samples = scene.samples_per_mesh();
     const auto signal = sensor_signal(scene, 3);
     const double two = 1.0 + scene.pairs().start[0];
@@ -90,7 +90,7 @@ TEST_CASE("Fig. 4.3: the sensor rings at 3788 Hz while two pairs touch and at 30
 
 TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's frequency") {
     for (const double stiffness : {6e8, 9e8, 1.1e9}) {
-        mc::Study study = shipped_study("tian-fig-4-3.toml");
+        mc::Study study = shipped_study("published/tian-fig-4-3.toml");
         study.gearbox.tooth_profile = mc::ToothProfile::square_wave;
         study.gearbox.meshes[mc::MeshKind::pinion_gear] = {{}, 0.9999 * stiffness, stiffness, 1.9};
         const mc::Scene scene(study);
@@ -102,14 +102,14 @@ TEST_CASE("A mesh that hardly changes its stiffness rings at the closed form's f
 
 TEST_CASE("Figs. 4.4, 4.5: the 7th mesh harmonic dominates, without shear energy the 10th") {
     // The thesis reads the 6th and the 8th off its plots: see studies/README.md.
-    CHECK(dominant(spectrum(mc::Scene(shipped_study("tian-fig-4-3.toml")), 1)) == 7);
-    CHECK(dominant(spectrum(mc::Scene(shipped_study("tian-fig-4-5.toml")), 1)) == 10);
+    CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-3.toml")), 1)) == 7);
+    CHECK(dominant(spectrum(mc::Scene(shipped_study("published/tian-fig-4-5.toml")), 1)) == 10);
 }
 
 TEST_CASE("Coarse steps leave the dominant harmonic alone, or do not settle") {
     // 60 samples, and steps, a mesh period; see tests/peers/tian-loose-tolerances.
-    for (const auto& [name, expected] :
-         {std::pair{"tian-fig-4-3.toml", 7}, std::pair{"tian-fig-4-5.toml", 10}}) {
+    for (const auto& [name, expected] : {std::pair{"published/tian-fig-4-3.toml", 7},
+                                         std::pair{"published/tian-fig-4-5.toml", 10}}) {
         const std::vector<std::string> coarse{
             "sensor.sampling_Hz=34200", "sensor.encoder_sampling_Hz=34200",
             "sensor.low_pass_Hz=15390", "numerics.steps_per_mesh=10"};
@@ -139,7 +139,7 @@ TEST_CASE("Section 4.2.1: nothing moves along x") {
 }
 
 TEST_CASE("Fig. 4.7: the chipped tooth's signal leaves the healthy one at 22.4 degrees") {
-    const mc::Scene scene(shipped_study("tian-fig-4-6.toml"));
+    const mc::Scene scene(shipped_study("published/tian-fig-4-6.toml"));
     // Of the pinion's turn since the tooth came into contact.
     const auto degrees = [](double meshes) { return meshes * 360.0 / kPinionTeeth; };
     const auto& healthy = scene.pairs().curve(0);
@@ -210,7 +210,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Figs. 4.13, 4.14: the broken tooth's shock rings at 2530 Hz") {
-    const mc::Scene scene(shipped_study("tian-fig-4-12.toml"));
+    const mc::Scene scene(shipped_study("published/tian-fig-4-12.toml"));
     const auto signal = sensor_signal(scene, kPinionTeeth, 1);
     const auto shock = std::max_element(signal.begin(), signal.end()) - signal.begin();
     const double at = static_cast<double>(shock) / scene.samples_per_mesh();
@@ -223,7 +223,8 @@ TEST_CASE("Figs. 4.13, 4.14: the broken tooth's shock rings at 2530 Hz") {
 
 TEST_CASE("The Runge-Kutta method is refused: the motor coupling's damper is too stiff for it") {
     try {
-        const mc::Scene scene(shipped_study("tian-fig-4-3.toml", {"numerics.integrator=\"rk4\""}));
+        const mc::Scene scene(
+            shipped_study("published/tian-fig-4-3.toml", {"numerics.integrator=\"rk4\""}));
         FAIL("not refused");
     } catch (const mc::SceneError& error) {
         INFO(error.what() << "; " << error.remedy());

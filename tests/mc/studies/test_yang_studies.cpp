@@ -8,7 +8,7 @@ using test::shipped_study;
 
 namespace {
 
-constexpr const char* kStudy = "yang-fig-15.toml";
+constexpr const char* kStudy = "published/yang-fig-15.toml";
 constexpr int kSunTeeth = 28, kPlanets = 4;
 constexpr int kPassage = kSunTeeth / kPlanets;  // meshes from a planet's impulse to the next one's
 constexpr int kMeshes = 10 * kSunTeeth;         // of a spectrum: line i lies at i f_m / kMeshes

@@ -35,7 +35,7 @@ def bell(which):
 
 @functools.lru_cache
 def liang_ring():
-    """Of studies/liang-fig-3-16.toml: 31/81, straight feet; bores of studies/real-teeth.toml."""
+    """Of studies/published/liang-fig-3-16.toml: 31/81, straight feet; bores of studies/real-teeth.toml."""
     planet = Gear(31, MODULE, held=20.0, profile="root-circle")
     ring = Gear(81, MODULE, internal=True, held=155.0)
     return Pair(planet, ring, 25 * MODULE, STEEL, 450e3 / 4 / (19 * MODULE / 2 * math.cos(planet.angle)))

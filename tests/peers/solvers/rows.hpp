@@ -14,7 +14,7 @@ namespace gearpod::peers {
 using bench::median;
 
 struct Options {
-    std::string study = GEARPOD_SOURCE_DIR "/studies/liang-fig-5-8.toml";
+    std::string study = GEARPOD_SOURCE_DIR "/studies/published/liang-fig-5-8.toml";
     std::string csv;
     int rounds = 5;
     double error = 1e-3;  // of the worst feature
