@@ -47,11 +47,15 @@ file(CONFIGURE OUTPUT ${GEARPOD_GENERATED_DIR}/lockstep/integrators/all_integrat
   CONTENT "${includes}" @ONLY)
 
 # Kernels run with -O3; instrumented, or with all a debugger wants, they take minutes each for each
-# instruction set: there one set stands for all, unoptimised, which gives the same bits.
+# instruction set: there one set stands for all, hardly or not optimised, which gives the same bits.
 set(gearpod_kernel_options -O3)
 if(GEARPOD_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(gearpod_one_set ON)
-  set(gearpod_kernel_options -O0 -DGEARPOD_ONE_INSTRUCTION_SET)
+  set(gearpod_kernel_options -O0)
+  if(GEARPOD_SANITIZE)
+    set(gearpod_kernel_options -O1)
+  endif()
+  list(APPEND gearpod_kernel_options -DGEARPOD_ONE_INSTRUCTION_SET)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
     list(APPEND gearpod_kernel_options -march=x86-64-v3)
   endif()
