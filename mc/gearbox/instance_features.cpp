@@ -40,6 +40,7 @@ void InstanceFeatures::load(const LaneSignals& gearbox, const InstanceInputs& in
     InstanceInputs before = inputs;
     if (baseline_) {
         GearboxId earlier{id.group, id.index, Record::baseline};
+        earlier.repeat = id.repeat;
         earlier.exchanged = id.exchanged;
         before.noise_m_s2 = earlier_noise(scene_.study(), inputs, earlier);
         baseline_->load(*gearbox.baseline, before, earlier);

@@ -26,7 +26,7 @@ struct GearboxId {
     Group group = Group::graded;
     std::uint64_t index = 0;
     Record record = Record::judged;
-    std::uint64_t repeat = 0;  // of the judged record, with other noise
+    std::uint64_t repeat = 0;  // of the record, with other noise
     NoiseDraws draws = NoiseDraws::plain;
     // Of gearboxes that are split (analysis/detection/splitting.hpp): what it has exchanged with
     // others of the group, in this order; perhaps nothing yet. The maker's memory. All random

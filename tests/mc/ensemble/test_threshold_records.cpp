@@ -30,10 +30,11 @@ const std::vector<double>& parameter(const mc::Results& results, const std::stri
                         [&](const auto& p) { return p.name == name; })
         ->values;
 }
-double value_of(const mc::Results& results, const std::string& feature, std::size_t row) {
+double value_of(const mc::Results& results, const std::string& feature, std::size_t row,
+                std::size_t level = 1) {
     return std::find_if(results.features.begin(), results.features.end(),
                         [&](const auto& f) { return f.name == feature; })
-        ->values[2 * row + 1];
+        ->values[2 * row + level];
 }
 
 }  // namespace
@@ -62,6 +63,24 @@ TEST_CASE("Records of a gearbox differ in their noise alone, and the first is as
     }
     for (const analysis::FeatureDetection& feature : mc::detect_all(several)) {
         CHECK(feature.levels[1].threshold_sample == kGearboxes * kRecords);
+    }
+}
+
+TEST_CASE("Every record of a gearbox has a baseline with noise of its own, of the same motion") {
+    const mc::Results results = test::run(
+        study_of(kRecords, "8",
+                 {"features.use=[\"te_rms\",\"own_te_rms\",\"sensor_rms\",\"own_sensor_rms\"]"}));
+    for (const std::string feature : {"te_rms", "sensor_rms"}) {
+        const auto baseline = [&](std::size_t row, std::size_t level) {
+            return value_of(results, feature, row, level) /
+                   value_of(results, "own_" + feature, row, level);
+        };
+        for (std::size_t row = 0; row < kGearboxes * kRecords; ++row) {
+            const std::size_t first = row - row % kRecords;
+            INFO(feature << " " << row);
+            CHECK(baseline(row, 0) == Approx(baseline(first, 0)).epsilon(1e-9));
+            CHECK((std::abs(baseline(row, 1) / baseline(first, 1) - 1.0) > 1e-9) == (row != first));
+        }
     }
 }
 
