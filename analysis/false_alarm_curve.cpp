@@ -75,16 +75,15 @@ RatePoint point_of(const HealthyThresholds& healthy, double rate, const Threshol
     return point;
 }
 
-// A threshold that is farther away finds no smaller fault.
+// A threshold that is farther away finds no smaller fault: what bounds one of a nearer threshold
+// from below bounds its own too, however little the sample says of rarer alarms.
 void make_monotone(std::vector<RatePoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
-        SizeBounds &before = points[i - 1].a90, &here = points[i].a90;
+        const SizeBounds& before = points[i - 1].a90;
+        SizeBounds& here = points[i].a90;
         here.estimate = std::max(before.estimate, here.estimate, nearer);
+        here.lower = std::max(before.lower, here.lower, nearer);
         here.upper = std::max(before.upper, here.upper, nearer);
-    }
-    for (std::size_t i = points.size(); i-- > 1;) {
-        SizeBounds &here = points[i - 1].a90, &after = points[i].a90;
-        here.lower = std::min(here.lower, after.lower, nearer);
     }
 }
 

@@ -97,6 +97,25 @@ TEST_CASE("Bounds of a90 hold the threshold's scatter over 100 studies") {
     CHECK(narrow > kStudies / 2);  // and not by being open
 }
 
+TEST_CASE("Alarms that a sample says nothing of leave the bounds of a90 at others as they are") {
+    // 40 recordings each of 50 gearboxes: the rarest threshold may lie nearer than the first.
+    const Study study(2000, 3000, 4);
+    std::vector<std::size_t> gearbox;
+    for (std::size_t i = 0; i < study.healthy.size(); ++i) {
+        gearbox.push_back(i / 40);
+    }
+    const GradedValues values{Alarm::high, {study.healthy, gearbox}, study.size, study.value};
+    const auto points = false_alarm_curve(values, {&kProbit, 1}, 0.95).points;
+    REQUIRE(points.size() > 5);
+    REQUIRE(points.back().threshold_bounds.lower < points.front().threshold_bounds.lower);
+    for (const RatePoint& point : points) {
+        INFO(point.false_alarm_rate);
+        REQUIRE(point.a90.lower.where == SizeEstimate::Where::reached);
+        CHECK(point.a90.lower.size > true_a90(0.1) - 0.4);
+        CHECK(point.a90.lower.size < true_a90(point.false_alarm_rate));
+    }
+}
+
 TEST_CASE("The threshold of least cost is where the laws' likelihoods are as the costs ask") {
     // Faults of one size, 3: the optimum of a normal pair is at 1.5 + log(odds) / 3 with odds of
     // (1 - share) alarm to share miss.
