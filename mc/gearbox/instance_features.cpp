@@ -39,9 +39,9 @@ void InstanceFeatures::load(const LaneSignals& gearbox, const InstanceInputs& in
     InstanceSignals::load(gearbox, inputs, id);
     InstanceInputs before = inputs;
     if (baseline_) {
-        GearboxId earlier{id.group, id.index, Record::baseline};
-        earlier.repeat = id.repeat;
-        earlier.exchanged = id.exchanged;
+        GearboxId earlier = id;
+        earlier.record = Record::baseline;
+        earlier.draws = NoiseDraws::plain;
         before.noise_m_s2 = earlier_noise(scene_.study(), inputs, earlier);
         baseline_->load(*gearbox.baseline, before, earlier);
     }
