@@ -84,10 +84,6 @@ TEST_CASE("A forecast is one of the run's threads") {
             test::study("planet-crack-ideal.toml") + " --set operation.carrier_speed_rpm=60" +
             " --set sensor.sampling_Hz=20000 --set sensor.encoder_sampling_Hz=20000");
         INFO(forecast.output);
-        if (forecast.output.find(" s are over") != std::string::npos) {
-            WARN("too slow a program or machine for a forecast");
-            continue;
-        }
         const std::string entry = "\n  threads ";
         const auto at = forecast.output.find(entry);
         REQUIRE(at != std::string::npos);
