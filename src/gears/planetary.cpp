@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -12,10 +13,17 @@ using std::numbers::pi;
 
 namespace {
 
+constexpr int kCountless = std::numeric_limits<int>::max();
+
 // Largest number of equally spaced planets whose tip circles stay apart.
 int planets_with_room(const PlanetRoom& room) {
     const double ratio = room.tip_diameter / (2 * room.centre_distance);
-    return ratio >= 1 ? 1 : static_cast<int>(std::ceil(pi / std::asin(ratio))) - 1;
+    if (ratio >= 1) {
+        return 1;
+    }
+    const double most = std::ceil(pi / std::asin(ratio)) - 1;
+    // Next to no tips, or none at all: more than can be counted.
+    return ratio > 0 && most < kCountless ? static_cast<int>(most) : kCountless;
 }
 
 // More planets than have room wherever they are: one problem, not one of every two that touch.

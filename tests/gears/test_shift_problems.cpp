@@ -130,6 +130,9 @@ TEST_CASE("planets that would touch are refused by their own tip circles") {
     const PlanetaryTrain train{27, 35, 99, 5};
     CHECK(says(assembly_problems(train, {31.5, 37.1}), "axes 37.03 modules apart, tip diameter"));
     CHECK(!says(assembly_problems(train, {31.5, 37.0}), "touch"));
+    // However small they are.
+    CHECK(!says(assembly_problems(train, {31.5, 1e-9}), "touch"));
+    CHECK(!says(assembly_problems(train, {31.5, 0.0}), "touch"));
 }
 
 // Bell 206B: 126 places for four planets; DSTG's description has them at 88.57 and 91.43 degrees.
