@@ -72,7 +72,7 @@ std::vector<ListedRung> listed_rungs(const Study& study) {
             all.push_back({flight.rung(i, settle_tolerances().front()), ""});
         }
     }
-    if (why_no_mesh_repeats(study).empty()) {
+    if (study.numerics.horizon == Horizon::superpose || why_no_mesh_repeats(study).empty()) {
         all.push_back({own_rung(study), ""});
         all.back().rung.other.push_back("numerics.horizon=march");
     }

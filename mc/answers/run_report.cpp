@@ -147,6 +147,13 @@ void print_times(const EnsembleOutcome& outcome) {
     for (const TimeRow& row : kTimeRows) {
         print_row(row.name, spread_of(outcome.crews, row));
     }
+    const Seconds work = outcome.work();
+    if (const long records = work.superposed + work.marched_instead; records > 0) {
+        fmt::print(
+            "  (march: {} of {} records superposed; {} marched whole, for a tooth pair may lose "
+            "contact, or a fault's passages fill the span)\n",
+            work.superposed, records, work.marched_instead);
+    }
     fmt::print("  (output: checkpoints, written by rank 0's main thread beside the others)\n");
 }
 

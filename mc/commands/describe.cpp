@@ -131,8 +131,11 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
                                 settle_tolerance(study), study.numerics.settle_tolerance));
     }
     print_entry("mesh periods marched",
-                fmt::format("about {:.0f} of the {} looked at{}", marched_meshes(scene),
+                fmt::format("about {:.0f} of the {} looked at{}{}", marched_meshes(scene),
                             scene.span_meshes(),
+                            superposition(scene).healthy
+                                ? fmt::format(", {:.0f} without the fault", healthy_meshes(scene))
+                                : "",
                             compares_records(study) ? ", and those of the baseline record" : ""));
     print_entry(
         "gearboxes",

@@ -182,7 +182,7 @@ void print_meshes(const Study& study) {
                                               : "harmonics of the mesh period");
     }
     if (has_tooth_errors(study)) {
-        print_entry("tooth errors", tooth_errors(study) + "; every mesh is marched");
+        print_entry("tooth errors", tooth_errors(study));
         print_entry("tooth pairs", "each pushes for itself and none pulls");
     }
     if (has_unlike_planets(study)) {
@@ -225,7 +225,14 @@ void print_driving(const Study& study) {
                                 gravity_turns(study) ? ", turning in the carrier's frame" : ""));
     }
     if (const std::string why = why_no_mesh_repeats(study); !why.empty()) {
-        print_entry("every mesh", fmt::format("marched or solved, because {}", why));
+        print_entry("every mesh", study.numerics.horizon == Horizon::superpose
+                                      ? "superposed of what the errors of each gear do; marched "
+                                        "where a tooth pair may lose contact"
+                                      : fmt::format("marched or solved, because {}{}", why,
+                                                    why_not_superposed(study).empty()
+                                                        ? " (numerics.horizon = \"superpose\": "
+                                                          "fewer where no tooth pair loses contact)"
+                                                        : ""));
     }
 }
 

@@ -23,7 +23,7 @@ struct MarchedMeshes {
 
 // Whether a depth marches but what differs from the march without.
 bool changes_alone(const Scene& scene) {
-    return scene.study().numerics.horizon == Horizon::march &&
+    return scene.study().numerics.horizon != Horizon::reuse &&
            scene.recorded_meshes() == scene.span_meshes();
 }
 

@@ -17,6 +17,8 @@ Seconds& Seconds::operator+=(const Seconds& other) {
     noise += other.noise;
     features += other.features;
     meshes += other.meshes;
+    superposed += other.superposed;
+    marched_instead += other.marched_instead;
     gearboxes += other.gearboxes;
     records += other.records;
     return *this;
@@ -78,9 +80,15 @@ void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, 
     }
     const double spent_s = seconds_since(start);
     const double noise = features_.noise_s() - noise_before;
-    seconds +=
-        {computed.sampling_s, computed.stiffness_s, computed.march_s, computed.signals_s, noise,
-         spent_s - noise,     computed.meshes};
+    seconds += {computed.sampling_s,
+                computed.stiffness_s,
+                computed.march_s,
+                computed.signals_s,
+                noise,
+                spent_s - noise,
+                computed.meshes,
+                computed.superposed,
+                computed.marched_instead};
 }
 
 void BatchWorker::add_features(const GearboxId& id, const GearboxTile& computed, std::size_t lane,

@@ -17,7 +17,8 @@ namespace gearpod::mc {
 struct Seconds {
     double sampling = 0.0, stiffness = 0.0, march = 0.0, signals = 0.0, noise = 0.0, features = 0.0;
     long meshes = 0;  // no time: mesh periods marched, each of as many gearboxes as there are lanes
-    long gearboxes = 0, records = 0;  // of lives, no time: how many were computed
+    long superposed = 0, marched_instead = 0;  // no time: records (GearboxTile)
+    long gearboxes = 0, records = 0;           // of lives, no time: how many were computed
 
     Seconds& operator+=(const Seconds& other);
     double sum() const { return sampling + stiffness + march + signals + noise + features; }

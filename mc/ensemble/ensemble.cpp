@@ -106,10 +106,16 @@ std::vector<Timing> timing_of(const EnsembleOutcome& outcome) {
     for (const CrewTimes& crew : outcome.crews) {
         waiting += crew.waiting;
     }
-    return {{"sampling_thread_s", work.sampling}, {"stiffness_thread_s", work.stiffness},
-            {"march_thread_s", work.march},       {"signals_thread_s", work.signals},
-            {"noise_thread_s", work.noise},       {"features_thread_s", work.features},
-            {"waiting_thread_s", waiting},        {"ensemble_s", outcome.wall_s}};
+    std::vector<Timing> all{
+        {"sampling_thread_s", work.sampling}, {"stiffness_thread_s", work.stiffness},
+        {"march_thread_s", work.march},       {"signals_thread_s", work.signals},
+        {"noise_thread_s", work.noise},       {"features_thread_s", work.features},
+        {"waiting_thread_s", waiting},        {"ensemble_s", outcome.wall_s}};
+    if (work.superposed + work.marched_instead > 0) {
+        all.push_back({"superposed_records", static_cast<double>(work.superposed), "1"});
+        all.push_back({"marched_instead_records", static_cast<double>(work.marched_instead), "1"});
+    }
+    return all;
 }
 
 }  // namespace gearpod::mc

@@ -217,7 +217,7 @@ void complete(TileCost& cost, const Scene& measured, const Scene& whole) {
 // Meshes that a tile may record.
 int choose_recorded(const Scene& scene, double mesh_s, double budget_s) {
     const int all = scene.recorded_meshes();
-    if (scene.study().numerics.horizon != Horizon::march || mesh_s == 0.0) {
+    if (scene.study().numerics.horizon == Horizon::reuse || mesh_s == 0.0) {
         return all;
     }
     const double before = marched_meshes(scene) - all;

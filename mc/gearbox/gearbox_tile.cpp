@@ -1,6 +1,7 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "lockstep/kernels/built_kernels.hpp"
 #include "lockstep/steps/instability.hpp"
@@ -9,6 +10,7 @@
 #include "machine/wall_clock.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/march_cache.hpp"
+#include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 #include "mc/gearbox/tooth_draws.hpp"
 #include "mc/scene/feature_needs.hpp"
@@ -23,9 +25,7 @@ namespace {
 // Seconds since `start`, which moves on to now.
 double lap(WallClock::time_point& start) {
     const auto now = WallClock::now();
-    const double seconds = std::chrono::duration<double>(now - start).count();
-    start = now;
-    return seconds;
+    return std::chrono::duration<double>(now - std::exchange(start, now)).count();
 }
 
 // What of a march is wanted besides its records, and what it may start from.
@@ -36,12 +36,14 @@ struct MarchWishes {
 };
 
 lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wishes) {
-    const Numerics& n = scene.study().numerics;
     lockstep::TileSettings settings;
     settings.tolerance = settle_tolerance(scene.study());
     settings.max_meshes = scene.max_meshes();
-    settings.march_meshes = n.horizon == Horizon::march ? scene.recorded_meshes() : 0;
+    settings.march_meshes =
+        scene.study().numerics.horizon == Horizon::reuse ? 0 : scene.recorded_meshes();
     settings.run_in_meshes = run_in_meshes(scene);
+    settings.compose = superposition(scene).healthy && wishes.healthy == nullptr;
+    settings.compose_faulty = superposition(scene).faulty;
     settings.with_motion = wishes.with_motion;
     settings.keep_states = wishes.keep_states;
     settings.healthy = wishes.healthy;
@@ -78,6 +80,9 @@ void march(const Scene& scene, std::span<const GearboxId> ids, const MarchWishes
     }
     tile.march_s = lap(start);
     tile.meshes = tile.march.marched;
+    const std::size_t asked = std::min(ids.size(), tile.march.composed.size());
+    tile.superposed = std::ranges::count(std::span(tile.march.composed).first(asked), true);
+    tile.marched_instead = settings.compose ? std::ssize(ids) - tile.superposed : 0;
     tile.march_cpu_s = thread_processor_s() - processor_start;
 }
 
@@ -252,6 +257,8 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
     tile.signals_s += earlier.signals_s;
     tile.march_cpu_s += earlier.march_cpu_s;
     tile.meshes += earlier.meshes;
+    tile.superposed += earlier.superposed;
+    tile.marched_instead += earlier.marched_instead;
 }
 
 // Of gearboxes that fill at most half of the lanes: their baseline records in other lanes of the

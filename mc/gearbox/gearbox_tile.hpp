@@ -38,6 +38,9 @@ struct GearboxTile {
     std::vector<LaneSignals> baseline;
 
     double sampling_s = 0.0, stiffness_s = 0.0, march_s = 0.0, signals_s = 0.0;
+    // Records of the gearboxes asked for, baselines among them, that were superposed, and those
+    // that were to be but were marched.
+    std::ptrdiff_t superposed = 0, marched_instead = 0;
     int meshes = 0;            // mesh periods marched for it, 0 if `march` was there before
     double march_cpu_s = 0.0;  // the march's share of this thread's processor time
 };

@@ -9,7 +9,7 @@ namespace gearpod::mc {
 namespace {
 
 bool marches_all(const Scene& scene) {
-    return scene.study().numerics.horizon == Horizon::march &&
+    return scene.study().numerics.horizon != Horizon::reuse &&
            scene.recorded_meshes() == scene.span_meshes();
 }
 

@@ -9,12 +9,14 @@
 #include "lockstep/integrators/facts.hpp"
 #include "lockstep/plan/transmission_error.hpp"
 #include "lockstep/steps/step_pilot.hpp"
+#include "lockstep/tile/composition.hpp"
 #include "lockstep/tile/driven_march.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/tile_draws.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -72,10 +74,36 @@ lockstep::MarchPlan explicit_plan(const Scene& scene, int steps) {
 
 // Mesh periods recorded beside the healthy one: all, or the passages of the fault.
 double recorded_beside_orbit(const Scene& scene) {
-    if (scene.study().numerics.horizon == Horizon::march) {
+    if (scene.study().numerics.horizon != Horizon::reuse) {
         return scene.recorded_meshes();
     }
     return passage_meshes(scene);
+}
+
+std::vector<int> part_periods(const Scene& scene) {
+    const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
+    std::vector<int> teeth;
+    for (const Member member : planetary ? std::vector{Member::sun, Member::planet, Member::ring}
+                                         : std::vector{Member::pinion, Member::gear}) {
+        teeth.push_back(teeth_of(scene.study(), member).value());
+    }
+    return lockstep::part_periods(std::move(teeth));
+}
+
+// Where every mesh is marched.
+double meshes_of_march(const Scene& scene) {
+    return approach_meshes(scene) + run_in_meshes(scene) + scene.recorded_meshes();
+}
+
+// Of superposed gearboxes without a fault.
+double meshes_of_parts(const Scene& scene) {
+    return approach_meshes(scene) +
+           lockstep::part_meshes(part_periods(scene), run_in_meshes(scene));
+}
+
+double superposed_passages(const Scene& scene) {
+    const double span = run_in_meshes(scene) + scene.recorded_meshes();
+    return std::min(passage_meshes(scene) * span / scene.pattern().length, span);
 }
 
 }  // namespace
@@ -88,10 +116,25 @@ double approach_meshes(const Scene& scene) {
                     static_cast<double>(scene.max_meshes()));
 }
 
+Superposition superposition(const Scene& scene) {
+    if (scene.study().numerics.horizon != Horizon::superpose) {
+        return {};
+    }
+    const double all = meshes_of_march(scene), parts = meshes_of_parts(scene);
+    return {parts < all, parts + superposed_passages(scene) < all};
+}
+
+double healthy_meshes(const Scene& scene) {
+    return scene.study().numerics.horizon == Horizon::reuse ? approach_meshes(scene)
+           : superposition(scene).healthy                   ? meshes_of_parts(scene)
+                                                            : meshes_of_march(scene);
+}
+
 double marched_meshes(const Scene& scene) {
-    const bool marches_all = scene.study().numerics.horizon == Horizon::march;
-    return approach_meshes(scene) + (marches_all ? run_in_meshes(scene) : 0) +
-           recorded_beside_orbit(scene);
+    return scene.study().numerics.horizon == Horizon::reuse
+               ? approach_meshes(scene) + passage_meshes(scene)
+           : superposition(scene).faulty ? meshes_of_parts(scene) + superposed_passages(scene)
+                                         : meshes_of_march(scene);
 }
 
 double passage_meshes(const Scene& scene) {
@@ -108,7 +151,8 @@ double motion_bytes(const Scene& scene) {
     const lockstep::MeshRecord record =
         lockstep::make_record(scene.plan(), scene.study().numerics.lanes, false);
     return 8.0 * static_cast<double>(record.acceleration.size() + record.te.size()) *
-           (1.0 + recorded_beside_orbit(scene));
+           (1.0 + recorded_beside_orbit(scene) +
+            (superposition(scene).healthy ? lockstep::part_meshes(part_periods(scene), 0) : 0));
 }
 
 double mesh_period_s(const Scene& scene) {

@@ -15,6 +15,16 @@ double marched_meshes(const Scene& scene);
 // Mesh periods that a fault of theirs changes: its passages, until the motion is back.
 double passage_meshes(const Scene& scene);
 
+// Likewise without the fault.
+double healthy_meshes(const Scene& scene);
+
+// Which gearboxes are superposed while they keep contact: where the study asks for it and it
+// marches fewer meshes.
+struct Superposition {
+    bool healthy = false, faulty = false;
+};
+Superposition superposition(const Scene& scene);
+
 // Bytes of what a tile records of its motion.
 double motion_bytes(const Scene& scene);
 

@@ -79,6 +79,7 @@ struct FeatureResult {
 struct Timing {
     std::string name;
     double seconds = 0.0;
+    const char* unit = "s";  // or "1" of a count
 };
 
 // One value a sample.

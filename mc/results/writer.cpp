@@ -218,7 +218,7 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         const Hdf5Handle timing = create_group(root.get(), "timing");
         for (const Timing& entry : frame.timing) {
             write_numbers(timing.get(), entry.name, {}, {entry.seconds});
-            write_text(timing.get(), entry.name, "unit", "s");
+            write_text(timing.get(), entry.name, "unit", entry.unit);
         }
     }
     file.close_now("file");

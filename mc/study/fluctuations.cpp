@@ -48,4 +48,11 @@ std::string why_no_mesh_repeats(const Study& study) {
                                      : "";
 }
 
+std::string why_not_superposed(const Study& study) {
+    return study.effects.quasi_static() ? "a gearbox without inertia is solved, not marched"
+           : driven_unevenly(study)     ? "torque, speed or weight vary"
+           : !has_tooth_errors(study)   ? "no tooth has errors of its own"
+                                        : "";
+}
+
 }  // namespace gearpod::mc

@@ -33,5 +33,8 @@ inline bool driven_unevenly(const Study& study) {
 // Why no mesh repeats the one before, as "the torque fluctuates"; empty if nothing of this prevents
 // it.
 std::string why_no_mesh_repeats(const Study& study);
+// Why its meshes cannot be superposed of what the teeth of each gear do; empty if they can where no
+// tooth pair loses contact.
+std::string why_not_superposed(const Study& study);
 
 }  // namespace gearpod::mc

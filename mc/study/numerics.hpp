@@ -10,7 +10,9 @@ namespace gearpod::mc {
 
 using lockstep::Precision;
 enum class StepGrid { uniform, graded };
-enum class Horizon { reuse, march };
+// What of the span is marched: the orbit and a fault's passages; what each gear's tooth errors do for
+// itself, where no tooth pair leaves contact; every mesh.
+enum class Horizon { reuse, superpose, march };
 
 // As many as fill a 512-bit register.
 constexpr int full_lanes(Precision precision) {

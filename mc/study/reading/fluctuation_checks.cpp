@@ -35,7 +35,17 @@ void check_gravity(StudyDraft& draft) {
     }
 }
 
+void check_superposition(StudyDraft& draft) {
+    const std::string why = why_not_superposed(draft.study);
+    if (draft.study.numerics.horizon == Horizon::superpose && !why.empty() &&
+        draft.all_usable({"numerics.horizon", "effects.gravity", "effects.motion"})) {
+        draft.reject("numerics.horizon", fmt::format("is \"superpose\", but {}", why),
+                     "leave the key out");
+    }
+}
+
 void check_horizon(StudyDraft& draft) {
+    check_superposition(draft);
     const std::string why = why_no_mesh_repeats(draft.study);
     if (draft.study.numerics.horizon == Horizon::reuse && !why.empty() &&
         draft.all_usable({"numerics.horizon", "effects.gravity", "operation.fixed"})) {

@@ -16,7 +16,9 @@ constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision
                                       name("single", Precision::single_precision)};
 constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
                                      name("sobol", SamplingKind::sobol)};
-constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse), name("march", Horizon::march)};
+constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse),
+                                     name("superpose", Horizon::superpose),
+                                     name("march", Horizon::march)};
 // "auto", and all of them by their own names.
 template <class Enum>
 std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {
@@ -112,7 +114,7 @@ const Key kRunKeys[] = {
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
     {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "share of the largest value that the stiffness curves' terms may leave out; 0: 1e-13, of a faulty tooth pair 4e-10"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
-    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, or march them all"},
+    {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, superpose what each gear's tooth errors do, or march all"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},
     {"numerics", "threads", integer<&Numerics::threads>, kNone, from_to(0, 65536), may, kShared, "threads; 0 for what OMP_NUM_THREADS says, else for all"},
     {"numerics", "instruction_set", choice_or_auto<&Numerics::instruction_set>(kInstructionSets), kNone, kAny, may, kShared, "instruction set of the kernels"},

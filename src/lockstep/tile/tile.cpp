@@ -3,72 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <stdexcept>
 
-#include "lockstep/integrators/sensor_filter.hpp"
-#include "lockstep/plan/fault_schedule.hpp"
-#include "lockstep/tile/driven_march.hpp"
-#include "lockstep/tile/mesh_march.hpp"
-#include "lockstep/tile/rigid_rotation.hpp"
+#include "lockstep/tile/composed_tile.hpp"
 
 namespace gearpod::lockstep {
 namespace {
 
-// A motion this large is no gearbox any more; it only grows from there.
-constexpr double kDivergedMotion_m = 1.0;
-
 template <int W>
-void copy_lane(const machine::AlignedVector& from, machine::AlignedVector& to, int lane) {
-    for (std::size_t i = static_cast<std::size_t>(lane); i < from.size(); i += W) {
-        to[i] = from[i];
-    }
-}
-
-template <int W>
-void fill_lane(machine::AlignedVector& values, int lane, double value) {
-    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
-        values[i] = value;
-    }
-}
-
-template <int W>
-double largest(const machine::AlignedVector& values, int lane) {
-    double result = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(lane); i < values.size(); i += W) {
-        result = std::isfinite(values[i]) ? std::max(result, std::abs(values[i])) : INFINITY;
-    }
-    return result;
-}
-
-template <int W>
-double largest_difference(const machine::AlignedVector& a, const machine::AlignedVector& b,
-                          int lane) {
-    double result = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(lane); i < a.size(); i += W) {
-        result = std::max(result, std::abs(a[i] - b[i]));
-    }
-    return result;
-}
-
-template <int W>
-class TileMarch {
+class TileMarch : MarchedTile<W> {
   public:
     TileMarch(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
               const FaultCurves& faults, const TileSettings& settings)
-        : plan_(plan),
-          faults_(faults),
-          schedule_(plan, faults),
-          settings_(settings),
-          march_mesh_(make_mesh_march<W>(plan, inputs)),
-          driven_(make_driven(plan, inputs, settings.excitation)),
-          rotation_(plan.layout, inputs),
-          state_(rest_state(plan, inputs)) {
-        result_.status.assign(W, LaneStatus::ok);
-    }
+        : Base(plan, inputs, faults, settings) {}
 
     TileResult run() {
-        result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
         if (settings_.healthy != nullptr) {
             march_changes();
             return std::move(result_);
@@ -83,147 +32,11 @@ class TileMarch {
     }
 
   private:
-    bool faulty(int lane) const {
-        return faults_.faulty(lane) &&
-               result_.status[static_cast<std::size_t>(lane)] == LaneStatus::ok;
-    }
-
-    static std::unique_ptr<DrivenMarch<W>> make_driven(
-        const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-        const Excitation* excitation) {
-        if (excitation == nullptr) {
-            return nullptr;
-        }
-        if constexpr (W <= 8) {
-            return make_driven_march<W>(plan, *excitation, inputs);
-        } else {
-            throw std::invalid_argument("gearboxes that are driven unevenly march in doubles");
-        }
-    }
-
-    // Mesh period `mesh` as it is driven.
-    void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
-        if (driven_ != nullptr) {
-            (*driven_)(mesh, overrides, state_, record);
-        } else {
-            (*march_mesh_)(overrides, state_, record);
-        }
-        after_mesh();
-    }
-
-    // A healthy mesh period that is like all others.
-    void march_settling(MeshRecord& record) {
-        if (driven_ != nullptr && settings_.excitation->repeats()) {
-            (*driven_)(0, {}, state_, record);
-        } else {
-            (*march_mesh_)({}, state_, record);
-        }
-        after_mesh();
-    }
-
-    void after_mesh() {
-        ++result_.marched;
-        rotation_.remove(state_);
-    }
-
-    MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
-
-    void copy_record_lane(const MeshRecord& from, MeshRecord& to, int lane) const {
-        copy_lane<W>(from.acceleration, to.acceleration, lane);
-        copy_lane<W>(from.te, to.te, lane);
-        copy_lane<W>(from.motion, to.motion, lane);
-    }
-
-    static void copy_state_lane(const TileState& from, TileState& to, int lane) {
-        copy_lane<W>(from.q, to.q, lane);
-        copy_lane<W>(from.v, to.v, lane);
-        copy_lane<W>(from.filter, to.filter, lane);
-    }
-
-    // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
-    // edge, filtered accelerations against the largest recorded one.
-    double distance(const TileState& a, const TileState& b, const MeshRecord& record,
-                    int lane) const {
-        const double scale = largest<W>(b.q, lane);
-        // Where the sensor sees next to nothing, rounding must not count as motion.
-        const double acceleration =
-            std::max(largest<W>(record.acceleration, lane),
-                     0.01 * scale * plan_.low_pass_rad_s * plan_.low_pass_rad_s);
-        const double dq = largest_difference<W>(a.q, b.q, lane);
-        const double dv = largest_difference<W>(a.v, b.v, lane) / plan_.low_pass_rad_s;
-        double df = 0.0;
-        for (std::size_t i = static_cast<std::size_t>(lane); i < a.filter.size();
-             i += 2 * W) {  // the sections' outputs; their rates follow
-            df = std::max(df, std::abs(a.filter[i] - b.filter[i]));
-        }
-        const double motion = scale > 0.0 ? std::max(dq, dv) / scale : 0.0;
-        return std::max(motion, acceleration > 0.0 ? df / acceleration : 0.0);
-    }
-
-    bool diverged(int lane) const {
-        return !(largest<W>(state_.q, lane) < kDivergedMotion_m) ||
-               !std::isfinite(largest<W>(state_.v, lane)) ||
-               !std::isfinite(largest<W>(state_.filter, lane));
-    }
-
-    // Takes a lane that diverged out of the march: its records say NaN, its state rests at zero.
-    void retire(int lane) {
-        result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
-        for (MeshRecord& record : result_.records) {
-            fill_lane<W>(record.acceleration, lane, NAN);
-            fill_lane<W>(record.te, lane, NAN);
-            fill_lane<W>(record.motion, lane, NAN);
-        }
-        fill_lane<W>(orbit_.q, lane, 0.0);
-        fill_lane<W>(orbit_.v, lane, 0.0);
-        fill_lane<W>(orbit_.filter, lane, 0.0);
-    }
-
-    // Lanes that did not get back to their orbit in the mesh periods they had.
-    void mark_unsettled(const std::array<bool, W>& settled) {
-        for (std::size_t l = 0; l < W; ++l) {
-            if (!settled[l]) {
-                result_.status[l] = LaneStatus::unsettled;
-            }
-        }
-    }
-
-    // Marches until every lane's mesh period repeats the one before, and keeps that one.
-    void settle() {
-        result_.records.push_back(new_record());
-        orbit_ = state_;
-        MeshRecord record = new_record();
-        std::array<bool, W> settled{};
-        for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
-            const TileState before = state_;
-            march_settling(record);
-            bool waiting = false;
-            for (int l = 0; l < W; ++l) {
-                if (settled[static_cast<std::size_t>(l)]) {
-                    continue;
-                }
-                copy_record_lane(record, result_.records[0], l);
-                copy_state_lane(state_, orbit_, l);
-                const bool lost = diverged(l);
-                if (lost) {
-                    retire(l);
-                }
-                const bool done =
-                    lost || distance(state_, before, record, l) <= settings_.tolerance;
-                settled[static_cast<std::size_t>(l)] = done;
-                waiting = waiting || !done;
-            }
-            if (!waiting) {
-                break;
-            }
-        }
-        // Teeth that separate may move without ever repeating; marched mesh by mesh they need not.
-        const bool may_wander = settings_.march_meshes > 0 && dynamics::separates(plan_.mesh_law);
-        if (!may_wander) {
-            mark_unsettled(settled);
-        }
-        state_ = orbit_;
-    }
+    using Base = MarchedTile<W>;
+    using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
+        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::only,
+        Base::orbit_, Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle,
+        Base::state_;
 
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,
@@ -248,13 +61,13 @@ class TileMarch {
         for (int l = 0; l < W; ++l) {
             auto& q = quiet[static_cast<std::size_t>(l)];
             if (q) {
-                copy_state_lane(orbit_, state_, l);
+                copy_lanes<W>(orbit_, state_, only(l));
                 continue;
             }
             if (finished[static_cast<std::size_t>(l)]) {
                 continue;
             }
-            copy_record_lane(record, result_.records[static_cast<std::size_t>(id)], l);
+            copy_lanes<W>(record, result_.records[static_cast<std::size_t>(id)], only(l));
             if (diverged(l)) {
                 retire(l);
                 q = true;
@@ -263,7 +76,7 @@ class TileMarch {
                 q = true;
             }
             if (q) {
-                copy_state_lane(orbit_, state_, l);
+                copy_lanes<W>(orbit_, state_, only(l));
             }
         }
     }
@@ -299,32 +112,6 @@ class TileMarch {
         mark_unsettled(finished);
     }
 
-    // Where mesh k of the span is recorded.
-    MeshRecord& add_record(int k) {
-        result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
-        return result_.records.emplace_back(new_record());
-    }
-
-    // Every mesh of the span for itself.
-    void march_everything() {
-        MeshRecord unseen = new_record();
-        const auto keep_state = [&] {
-            if (settings_.keep_states) {
-                result_.states.push_back(state_);
-            }
-        };
-        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
-            keep_state();
-            march(k, schedule_.all_overrides(k), k < 0 ? unseen : add_record(k));
-        }
-        keep_state();
-        for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
-                retire(l);
-            }
-        }
-    }
-
     // From the healthy march's states: what a fault's passages change, until it has decayed.
     void march_changes() {
         MeshRecord unseen = new_record();
@@ -353,17 +140,6 @@ class TileMarch {
             }
         }
     }
-
-    const MarchPlan& plan_;
-    const FaultCurves& faults_;
-    FaultSchedule schedule_;
-    const TileSettings& settings_;
-    const std::unique_ptr<const MeshMarch<W>> march_mesh_;
-    const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
-    const RigidRotation rotation_;
-    TileState state_;
-    TileState orbit_;  // the healthy orbit at an integer phase
-    TileResult result_;
 };
 
 }  // namespace
@@ -382,7 +158,12 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
         throw std::invalid_argument(
             "changes are marched from the states of as many steadily driven meshes");
     }
-    return TileMarch<W>(plan, inputs, faults, settings).run();
+    if (settings.compose && (faults.tooth_errors == nullptr || settings.excitation != nullptr ||
+                             settings.healthy != nullptr)) {
+        throw std::invalid_argument("meshes are composed of tooth errors under a steady drive");
+    }
+    return settings.compose ? ComposedTile<W>(plan, inputs, faults, settings).run()
+                            : TileMarch<W>(plan, inputs, faults, settings).run();
 }
 
 #define GEARPOD_RUN_TILE(W)                                                                     \

@@ -1,0 +1,200 @@
+#include "lockstep/tile/composition.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/gearbox.hpp"
+
+namespace gearpod::lockstep {
+namespace {
+
+constexpr int kStretches = 24;  // of a mesh period
+
+std::size_t place(int k, std::size_t period) {
+    const auto length = static_cast<int>(period);
+    return static_cast<std::size_t>((k % length + length) % length);
+}
+
+// sum = first of the parts + ... - (their number - 1) orbit
+void compose(std::span<const machine::AlignedVector* const> parts,
+             const machine::AlignedVector& orbit, machine::AlignedVector& sum) {
+    const double less = static_cast<double>(parts.size()) - 1.0;
+    const std::size_t size = sum.size();
+    const double* __restrict base = orbit.data();
+    double* __restrict out = sum.data();
+    if (parts.size() == 3) {
+        const double* __restrict a = parts[0]->data();
+        const double* __restrict b = parts[1]->data();
+        const double* __restrict c = parts[2]->data();
+        for (std::size_t i = 0; i < size; ++i) {
+            out[i] = (a[i] - less * base[i]) + (b[i] + c[i]);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        out[i] = -less * base[i];
+    }
+    for (const machine::AlignedVector* part : parts) {
+        const double* __restrict own = part->data();
+        for (std::size_t i = 0; i < size; ++i) {
+            out[i] += own[i];
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<int> part_periods(std::vector<int> teeth) {
+    std::ranges::sort(teeth);
+    teeth.erase(std::ranges::unique(teeth).begin(), teeth.end());
+    return teeth;
+}
+
+std::vector<int> part_periods(const ToothErrors& errors) {
+    std::vector<int> teeth;
+    for (const GearErrors& gear : errors.gears) {
+        teeth.push_back(gear.teeth);
+    }
+    return part_periods(std::move(teeth));
+}
+
+ToothErrors errors_of_part(ToothErrors errors, int teeth) {
+    for (GearErrors& gear : errors.gears) {
+        if (gear.teeth != teeth) {
+            std::ranges::fill(gear.error_m, 0.0);
+            std::ranges::fill(gear.slope_m, 0.0);
+        }
+    }
+    return errors;
+}
+
+int part_meshes(std::span<const int> periods, int run_in_meshes) {
+    int meshes = 1;
+    for (const int period : periods) {
+        meshes += period + run_in_meshes;
+    }
+    return meshes;
+}
+
+Pressing::Pressing(const MarchPlan& plan) : plan_(plan) {
+    const auto nodes = plan.grid.stage_nodes.size();
+    const StiffnessNodes& table = plan.nodes;
+    for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
+        if (plan.grid.steps[s].sample < 0) {
+            continue;
+        }
+        for (int j = 0; j < table.tooth_pairs; ++j) {
+            for (int pair = 0; pair < table.pairs; ++pair) {
+                const auto at = ((s * nodes) * static_cast<std::size_t>(table.tooth_pairs) +
+                                 static_cast<std::size_t>(j)) *
+                                    static_cast<std::size_t>(table.pairs) +
+                                static_cast<std::size_t>(pair);
+                if (table.tooth_stiffness[at] > 0.0) {
+                    touching_.push_back({plan.grid.steps[s].sample, pair, j, static_cast<int>(s)});
+                }
+            }
+        }
+    }
+    for (int pair = 0; pair < table.pairs; ++pair) {
+        const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
+        row_.emplace_back(row.data(), row.data() + row.size());
+    }
+}
+
+machine::AlignedVector Pressing::least(const MeshRecord& record, std::span<const PairGaps> gaps,
+                                       const MeshRecord* orbit) const {
+    const auto samples = plan_.samples();
+    const auto degrees = row_.front().size();
+    const std::size_t lanes = record.te.size() / samples;
+    const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
+    const auto slots = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
+    machine::AlignedVector least(kStretches * pairs * slots * lanes, INFINITY);
+    for (const Touching& t : touching_) {
+        const auto sample = static_cast<std::size_t>(t.sample);
+        const auto stretch = sample * kStretches / samples;
+        const auto at = ((stretch * pairs + static_cast<std::size_t>(t.pair)) * slots +
+                         static_cast<std::size_t>(t.slot)) *
+                        lanes;
+        const std::vector<double>& row = row_[static_cast<std::size_t>(t.pair)];
+        for (std::size_t l = 0; l < lanes; ++l) {
+            double d = -tooth_gap(plan_, gaps, t.pair, t.step, 0, t.slot, static_cast<int>(l));
+            for (std::size_t i = 0; i < degrees; ++i) {
+                const std::size_t from = (sample * degrees + i) * lanes + l;
+                d +=
+                    row[i] * (record.motion[from] - (orbit != nullptr ? orbit->motion[from] : 0.0));
+            }
+            if (orbit == nullptr && !plan_.nodes.error.empty()) {
+                d -= plan_.nodes.error[static_cast<std::size_t>(t.step) *
+                                           plan_.grid.stage_nodes.size() * pairs +
+                                       static_cast<std::size_t>(t.pair)];
+            }
+            least[at + l] = std::isfinite(d) ? std::min(least[at + l], d) : -INFINITY;
+        }
+    }
+    return least;
+}
+
+void Composition::record(int k, MeshRecord& record) const {
+    std::vector<const MeshRecord*> own;
+    for (const ComposedPart& part : parts) {
+        own.push_back(&part.records[place(k, part.records.size())]);
+    }
+    const auto one = [&](machine::AlignedVector MeshRecord::*what) {
+        std::vector<const machine::AlignedVector*> all;
+        for (const MeshRecord* part : own) {
+            all.push_back(&(part->*what));
+        }
+        compose(all, orbit.*what, record.*what);
+    };
+    one(&MeshRecord::acceleration);
+    one(&MeshRecord::te);
+    if (!record.motion.empty()) {
+        one(&MeshRecord::motion);
+    }
+}
+
+void Composition::state(int k, TileState& state) const {
+    const auto one = [&](machine::AlignedVector TileState::*what) {
+        std::vector<const machine::AlignedVector*> all;
+        for (const ComposedPart& part : parts) {
+            all.push_back(&(part.states[place(k, part.states.size())].*what));
+        }
+        compose(all, orbit_state.*what, state.*what);
+    };
+    one(&TileState::q);
+    one(&TileState::v);
+    one(&TileState::filter);
+}
+
+std::vector<char> Composition::keeps_contact(int meshes, std::size_t lanes) const {
+    std::vector<char> kept(lanes, 1);
+    const std::size_t values = orbit_pressing.size();
+    const auto look = [&](const auto& pressing_at) {
+        for (std::size_t i = 0; i < values; i += lanes) {
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const double pressing = pressing_at(i + l);
+                kept[l] = static_cast<char>(kept[l] & (pressing > 0.0));
+            }
+        }
+    };
+    for (const ComposedPart& part : parts) {
+        for (const machine::AlignedVector& own : part.pressing) {
+            look([&](std::size_t i) { return orbit_pressing[i] + own[i]; });
+        }
+    }
+    machine::AlignedVector sum(values);
+    for (int k = 0; k < meshes; ++k) {
+        sum = orbit_pressing;
+        for (const ComposedPart& part : parts) {
+            const machine::AlignedVector& own = part.pressing[place(k, part.pressing.size())];
+            for (std::size_t i = 0; i < values; ++i) {
+                sum[i] += own[i];
+            }
+        }
+        look([&](std::size_t i) { return sum[i]; });
+    }
+    return kept;
+}
+
+}  // namespace gearpod::lockstep
