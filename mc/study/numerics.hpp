@@ -10,8 +10,8 @@ namespace gearpod::mc {
 
 using lockstep::Precision;
 enum class StepGrid { uniform, graded };
-// What of the span is marched: the orbit and a fault's passages; what each gear's tooth errors do for
-// itself, where no tooth pair leaves contact; every mesh.
+// What of the span is marched: the orbit and a fault's passages; what each gear's tooth errors do
+// for itself, where no tooth pair leaves contact; every mesh.
 enum class Horizon { reuse, superpose, march };
 
 // As many as fill a 512-bit register.

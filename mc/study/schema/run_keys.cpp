@@ -17,8 +17,8 @@ constexpr ChoiceName kPrecisions[] = {name("double", Precision::double_precision
 constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
                                      name("sobol", SamplingKind::sobol)};
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse),
-                                     name("superpose", Horizon::superpose),
-                                     name("march", Horizon::march)};
+                                    name("superpose", Horizon::superpose),
+                                    name("march", Horizon::march)};
 // "auto", and all of them by their own names.
 template <class Enum>
 std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {

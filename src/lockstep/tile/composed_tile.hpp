@@ -99,7 +99,8 @@ class ComposedTile : MarchedTile<W> {
         }
         LaneMask<W> kept;
         const Composition whole = march_parts(kept);
-        const std::vector<char> touching = whole.keeps_contact(settings_.march_meshes, W);
+        const std::vector<char> touching =
+            whole.keeps_contact(-settings_.run_in_meshes, settings_.march_meshes, W);
         bool all = true;
         for (std::size_t l = 0; l < W; ++l) {
             kept[l] = kept[l] && touching[l] && may_compose(static_cast<int>(l));

@@ -167,7 +167,7 @@ void Composition::state(int k, TileState& state) const {
     one(&TileState::filter);
 }
 
-std::vector<char> Composition::keeps_contact(int meshes, std::size_t lanes) const {
+std::vector<char> Composition::keeps_contact(int from, int to, std::size_t lanes) const {
     std::vector<char> kept(lanes, 1);
     const std::size_t values = orbit_pressing.size();
     const auto look = [&](const auto& pressing_at) {
@@ -178,13 +178,14 @@ std::vector<char> Composition::keeps_contact(int meshes, std::size_t lanes) cons
             }
         }
     };
+    look([&](std::size_t i) { return orbit_pressing[i]; });
     for (const ComposedPart& part : parts) {
         for (const machine::AlignedVector& own : part.pressing) {
             look([&](std::size_t i) { return orbit_pressing[i] + own[i]; });
         }
     }
     machine::AlignedVector sum(values);
-    for (int k = 0; k < meshes; ++k) {
+    for (int k = from; k < to; ++k) {
         sum = orbit_pressing;
         for (const ComposedPart& part : parts) {
             const machine::AlignedVector& own = part.pressing[place(k, part.pressing.size())];
