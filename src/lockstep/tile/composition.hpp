@@ -58,8 +58,8 @@ struct Composition {
     // k counts from any integer. `record` and `state` have their sizes.
     void record(int k, MeshRecord& record) const;
     void state(int k, TileState& state) const;
-    // [lane]: whether at all samples of the meshes from `from` until before `to`, of each part and of
-    // the orbit tooth pairs are pressed together: true is sure, by the least over stretches.
+    // [lane]: whether at all samples of the meshes from `from` until before `to`, of each part and
+    // of the orbit tooth pairs are pressed together: true is sure, by the least over stretches.
     std::vector<char> keeps_contact(int from, int to, std::size_t lanes) const;
 };
 
