@@ -11,9 +11,7 @@ template <int W>
 class ComposedTile : MarchedTile<W> {
   public:
     // The gearboxes must have tooth errors and be driven evenly.
-    ComposedTile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-                 const FaultCurves& faults, const TileSettings& settings)
-        : Base(plan, inputs, faults, settings) {}
+    using MarchedTile<W>::MarchedTile;
 
     TileResult run() {
         settle();
@@ -23,20 +21,18 @@ class ComposedTile : MarchedTile<W> {
 
   private:
     using Base = MarchedTile<W>;
-    using Base::add_record, Base::after_mesh, Base::distance, Base::diverged, Base::faults_,
-        Base::faulty, Base::march, Base::march_everything, Base::march_mesh_, Base::new_record,
-        Base::orbit_, Base::plan_, Base::record_of, Base::result_, Base::retire, Base::schedule_,
-        Base::settings_, Base::settle, Base::settled_, Base::state_;
+    using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
+        Base::march, Base::march_everything, Base::new_record, Base::orbit_, Base::plan_,
+        Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
+        Base::settle, Base::settled_, Base::state_;
 
-    // One mesh period with its motion, and how its tooth pairs are pressed.
-    machine::AlignedVector march_part_mesh(const Pressing& pressing, MeshOverrides overrides,
-                                           const MeshRecord* orbit, MeshRecord& kept) {
-        MeshRecord record = make_record(plan_, W, true);
-        (*march_mesh_)(overrides, state_, record);
-        after_mesh();
-        machine::AlignedVector least = pressing.least(record, overrides.gaps, orbit);
-        kept = std::move(record);
-        return least;
+    // Mesh period k with its motion, and how its tooth pairs are pressed.
+    machine::AlignedVector march_part_mesh(const Pressing& pressing, int k,
+                                           const MeshOverrides& overrides, const MeshRecord* orbit,
+                                           MeshRecord& record) {
+        record = make_record(plan_, W, true);
+        march(k, overrides, record);
+        return pressing.least(record, overrides.gaps, orbit);
     }
 
     ComposedPart march_part(const Pressing& pressing, const Composition& whole, int teeth,
@@ -46,13 +42,12 @@ class ComposedTile : MarchedTile<W> {
         ComposedPart part;
         state_ = whole.orbit_state;
         for (int k = -settings_.run_in_meshes; k < 0; ++k) {
-            (*march_mesh_)({{}, tooth_gaps(plan_, errors, k)}, state_, unseen);
-            after_mesh();
+            march(k, {{}, tooth_gaps(plan_, errors, k)}, unseen);
         }
         for (int k = 0; k < teeth; ++k) {
             part.states.push_back(state_);
             MeshRecord& record = part.records.emplace_back();
-            part.pressing.push_back(march_part_mesh(pressing, {{}, tooth_gaps(plan_, errors, k)},
+            part.pressing.push_back(march_part_mesh(pressing, k, {{}, tooth_gaps(plan_, errors, k)},
                                                     &whole.orbit, record));
             if (!settings_.with_motion) {
                 record.motion = {};
@@ -72,7 +67,7 @@ class ComposedTile : MarchedTile<W> {
         Composition whole;
         whole.orbit_state = orbit_;
         state_ = orbit_;
-        whole.orbit_pressing = march_part_mesh(pressing, {}, nullptr, whole.orbit);
+        whole.orbit_pressing = march_part_mesh(pressing, 0, {}, nullptr, whole.orbit);
         periodic = settled_;
         for (const int teeth : part_periods(*faults_.tooth_errors)) {
             whole.parts.push_back(march_part(pressing, whole, teeth, periodic));

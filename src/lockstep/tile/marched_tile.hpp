@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "lockstep/integrators/sensor_filter.hpp"
@@ -19,10 +20,7 @@ namespace gearpod::lockstep {
 
 template <int W>
 class MarchedTile {
-  protected:
-    // A motion this large is no gearbox any more; it only grows from there.
-    static constexpr double kDivergedMotion_m = 1.0;
-
+  public:
     MarchedTile(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
                 const FaultCurves& faults, const TileSettings& settings)
         : plan_(plan),
@@ -36,6 +34,10 @@ class MarchedTile {
         result_.status.assign(W, LaneStatus::ok);
         result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
     }
+
+  protected:
+    // A motion this large is no gearbox any more; it only grows from there.
+    static constexpr double kDivergedMotion_m = 1.0;
 
     bool faulty(int lane) const {
         return faults_.faulty(lane) &&
@@ -81,12 +83,6 @@ class MarchedTile {
     }
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
-
-    static LaneMask<W> only(int lane) {
-        LaneMask<W> mask{};
-        mask[static_cast<std::size_t>(lane)] = true;
-        return mask;
-    }
 
     // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
     // edge, filtered accelerations against the largest recorded one.
@@ -145,13 +141,15 @@ class MarchedTile {
         for (int mesh = 0; mesh < settings_.max_meshes; ++mesh) {
             const TileState before = state_;
             march_settling(record);
+            LaneMask<W> moving;
+            std::ranges::transform(settled, moving.begin(), std::logical_not());
+            copy_lanes<W>(record, result_.records[0], moving);
+            copy_lanes<W>(state_, orbit_, moving);
             bool waiting = false;
             for (int l = 0; l < W; ++l) {
                 if (settled[static_cast<std::size_t>(l)]) {
                     continue;
                 }
-                copy_lanes<W>(record, result_.records[0], only(l));
-                copy_lanes<W>(state_, orbit_, only(l));
                 const bool lost = diverged(l);
                 if (lost) {
                     retire(l);

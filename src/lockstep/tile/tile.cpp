@@ -13,9 +13,7 @@ namespace {
 template <int W>
 class TileMarch : MarchedTile<W> {
   public:
-    TileMarch(const MarchPlan& plan, std::span<const dynamics::GearboxInputs> inputs,
-              const FaultCurves& faults, const TileSettings& settings)
-        : Base(plan, inputs, faults, settings) {}
+    using MarchedTile<W>::MarchedTile;
 
     TileResult run() {
         if (settings_.healthy != nullptr) {
@@ -34,9 +32,8 @@ class TileMarch : MarchedTile<W> {
   private:
     using Base = MarchedTile<W>;
     using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::only,
-        Base::orbit_, Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle,
-        Base::state_;
+        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_,
+        Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
 
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,
@@ -58,16 +55,15 @@ class TileMarch : MarchedTile<W> {
             id = static_cast<int>(result_.records.size());
             result_.records.push_back(result_.records[0]);
         }
+        LaneMask<W> away;
+        std::ranges::transform(quiet, finished, away.begin(),
+                               [](bool still, bool done) { return !still && !done; });
+        copy_lanes<W>(record, result_.records[static_cast<std::size_t>(id)], away);
         for (int l = 0; l < W; ++l) {
             auto& q = quiet[static_cast<std::size_t>(l)];
-            if (q) {
-                copy_lanes<W>(orbit_, state_, only(l));
+            if (q || finished[static_cast<std::size_t>(l)]) {
                 continue;
             }
-            if (finished[static_cast<std::size_t>(l)]) {
-                continue;
-            }
-            copy_lanes<W>(record, result_.records[static_cast<std::size_t>(id)], only(l));
             if (diverged(l)) {
                 retire(l);
                 q = true;
@@ -75,10 +71,8 @@ class TileMarch : MarchedTile<W> {
                        distance(state_, orbit_, result_.records[0], l) <= settings_.tolerance) {
                 q = true;
             }
-            if (q) {
-                copy_lanes<W>(orbit_, state_, only(l));
-            }
         }
+        copy_lanes<W>(orbit_, state_, quiet);
     }
 
     // Marches the pattern from the healthy orbit; where a disturbance outlives the pattern, again
