@@ -10,6 +10,7 @@
 #include "mc/description/describe_effects.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/memory.hpp"
+#include "mc/gearbox/healthy_march.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/lives/life_rows.hpp"
 
@@ -21,15 +22,9 @@ struct MarchedMeshes {
     double healthy, depth;
 };
 
-// Whether a depth marches but what differs from the march without.
-bool changes_alone(const Scene& scene) {
-    return scene.study().numerics.horizon != Horizon::reuse &&
-           scene.recorded_meshes() == scene.span_meshes();
-}
-
 MarchedMeshes meshes_of(const Scene& scene) {
     const double all = marched_meshes(scene);
-    return {all, changes_alone(scene) ? std::min(passage_meshes(scene), all) : all};
+    return {all, marches_changes_alone(scene) ? std::min(passage_meshes(scene), all) : all};
 }
 
 // Seconds of a tile of a batch.
@@ -68,7 +63,7 @@ double tile_bytes(const LifeTiles& tiles) {
     const double samples = static_cast<double>(scene.span_meshes()) * scene.samples_per_mesh();
     const auto lanes = static_cast<double>(tiles.lanes()),
                loads = static_cast<double>(tiles.load_count());
-    const double signals = (changes_alone(scene) ? 5.0 : 4.0) * loads + 2.0;
+    const double signals = (marches_changes_alone(scene) ? 5.0 : 4.0) * loads + 2.0;
     const double basis = 3.0 * loads + 1.0;
     const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
     return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +

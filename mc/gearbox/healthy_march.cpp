@@ -6,12 +6,13 @@
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
-namespace {
 
-bool marches_all(const Scene& scene) {
+bool marches_changes_alone(const Scene& scene) {
     return scene.study().numerics.horizon != Horizon::reuse &&
            scene.recorded_meshes() == scene.span_meshes();
 }
+
+namespace {
 
 void remove_mean(std::vector<double>& values) {
     const double mean =
@@ -54,7 +55,7 @@ HealthyMarch::HealthyMarch(const Scene& scene, const signals::PathGrid& path,
     for (InstanceInputs& one : inputs_) {
         one.gain = 1.0;
     }
-    const bool keep = marches_all(scene);
+    const bool keep = marches_changes_alone(scene);
     GearboxTile tile = run_given(scene, path, ids, inputs_of(0.0), fewest, keep);
     healthy_ = signals_of(tile);
     inputs_.resize(tile.inputs.size(), inputs_.back());

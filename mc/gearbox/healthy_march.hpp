@@ -10,6 +10,9 @@
 
 namespace gearpod::mc {
 
+// Whether a fault marches but what differs from the march without; otherwise all of it.
+bool marches_changes_alone(const Scene& scene);
+
 // The scene, the path and the ids must outlive it.
 class HealthyMarch {
   public:
