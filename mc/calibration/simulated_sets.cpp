@@ -49,7 +49,8 @@ class Simulator {
             inputs.push_back(sampler_.sample(ids.back(), item.given.front()));
             inputs.back().gain = inputs.back().tone_level = 1.0;  // each background has its own
         }
-        const GearboxTile tile = run_given(scene_, path_, ids, inputs, lanes());
+        const GearboxTile tile =
+            run_given(scene_, path_, ids, inputs, lanes(), {.with_records = true});
         std::vector<RecordValues> values(items.size());
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             if (tile.status[lane] == Status::ok) {

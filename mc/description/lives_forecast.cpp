@@ -67,7 +67,7 @@ double tile_bytes(const LifeTiles& tiles) {
     const double basis = 3.0 * loads + 1.0;
     const double bins = static_cast<double>(scene.span().planet_teeth) * scene.samples_per_mesh();
     return 8.0 * (signals * lanes * samples + 0.5 * basis * (basis + 1.0) * bins) +
-           motion_bytes(scene);
+           record_bytes(scene);
 }
 
 double file_bytes(const Study& study) {

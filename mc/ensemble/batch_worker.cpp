@@ -56,13 +56,14 @@ BatchRows BatchWorker::compute(std::span<const GearboxId> ids, std::size_t recor
 // As many gearboxes as there are lanes.
 void BatchWorker::add_rows(std::span<const GearboxId> ids, std::size_t records, BatchRows& rows,
                            Seconds& seconds) {
-    const GearboxTile computed =
-        run_gearboxes(task_.scene, task_.sampler, task_.path, ids,
-                      task_.scene.study().numerics.lanes, false, &task_.marches);
+    GearboxTile computed = run_gearboxes(
+        task_.scene, task_.sampler, task_.path, ids, task_.scene.study().numerics.lanes,
+        {.signal_meshes = features_.meshes(), .marches = &task_.marches});
     const auto start = WallClock::now();
     const double noise_before = features_.noise_s();
     std::vector<LaneSignals> signals =
         all_lane_signals(task_.scene, task_.path, computed, features_.meshes());
+    computed.heard = nullptr;  // as much again
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         machine::leave_if_stopped();
         const LaneSignals own = std::move(signals[lane]);  // freed when its row is done

@@ -1,6 +1,7 @@
 #include "mc/gearbox/gearbox_tile.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "lockstep/kernels/built_kernels.hpp"
@@ -8,12 +9,12 @@
 #include "lockstep/tile/quasi_static.hpp"
 #include "machine/thread_clock.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/gearbox/ears.hpp"
 #include "mc/gearbox/lane_count.hpp"
 #include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/mesh_time.hpp"
 #include "mc/gearbox/tile_draws.hpp"
 #include "mc/gearbox/tooth_draws.hpp"
-#include "mc/scene/feature_needs.hpp"
 #include "signals/path/path_window.hpp"
 #include "signals/sensor/sensor.hpp"
 #include "signals/spectra/averaged_te.hpp"
@@ -33,6 +34,7 @@ struct MarchWishes {
     bool with_motion = false;
     bool keep_states = false;
     const std::vector<lockstep::TileState>* healthy = nullptr;
+    std::function<void(int, const lockstep::MeshRecord&)> hear;
 };
 
 lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wishes) {
@@ -47,6 +49,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wish
     settings.with_motion = wishes.with_motion;
     settings.keep_states = wishes.keep_states;
     settings.healthy = wishes.healthy;
+    settings.hear = wishes.hear;
     return settings;
 }
 
@@ -145,23 +148,21 @@ GearboxTile sampled_tile(const Sampler& sampler, std::span<const GearboxId> ids,
     return tile;
 }
 
-// The sensor's gain, into what was recorded of each lane's motion.
-void amplify(std::span<const InstanceInputs> inputs, lockstep::TileResult& march) {
-    if (std::ranges::all_of(inputs, [](const InstanceInputs& one) { return one.gain == 1.0; })) {
-        return;
-    }
-    const std::size_t lanes = inputs.size();
-    for (lockstep::MeshRecord& record : march.records) {
-        for (std::size_t i = 0; i < record.acceleration.size(); ++i) {
-            record.acceleration[i] *= inputs[i % lanes].gain;
-        }
-    }
-}
-
 void add_status(const Scene& scene, std::span<const GearboxId> ids, GearboxTile& tile) {
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
         tile.status.push_back(status_of(scene, tile.inputs[lane], tile.march.status[lane]));
     }
+}
+
+void march_and_hear(const Scene& scene, const signals::PathGrid& path,
+                    std::span<const GearboxId> ids, int signal_meshes, MarchWishes wishes,
+                    GearboxTile& tile) {
+    Ears ears(scene, path, ids, signal_meshes, tile);
+    wishes.hear = std::ref(ears);
+    march(scene, ids, wishes, tile);
+    tile.march_s -= ears.spent_s();
+    tile.march_cpu_s -= ears.spent_s();
+    tile.signals_s += ears.spent_s();
 }
 
 // What the sensors see of a tile that has been marched.
@@ -169,30 +170,42 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
                  GearboxTile& tile) {
     add_status(scene, ids, tile);
     auto start = WallClock::now();
-    amplify(tile.inputs, tile.march);
+    if (tile.heard != nullptr) {
+        tile.views = views_of(scene, tile);
+        tile.folded = tile.heard->folded();
+        tile.te_turn = tile.heard->averaged_te();
+        tile.signals_s += lap(start);
+        return;
+    }
+    if (has_gain(tile.inputs)) {
+        for (lockstep::MeshRecord& record : tile.march.records) {
+            amplify(tile.inputs, record.acceleration);
+        }
+    }
     tile.views = views_of(scene, tile);
     // A gearbox without inertia shakes no sensor.
     if (!scene.study().effects.quasi_static()) {
-        std::vector<double> exponents;
-        for (const InstanceInputs& instance : tile.inputs) {
-            exponents.push_back(instance.path_exponent);
-        }
         tile.tones = draw_tones(scene, ids, tile.inputs);
         const signals::FoldPlan plan(tile.march.content, scene.span());
-        signals::fold_squares(tile.views, plan, path, exponents, tile.tones, tile.folded);
+        signals::fold_squares(tile.views, plan, path, path_exponents(tile.inputs), tile.tones,
+                              tile.folded);
     }
     signals::average_te(tile.views, tile.march.content, scene.span(), scene.te_samples_per_mesh(),
                         tile.te_turn);
-    tile.signals_s = lap(start);
+    tile.signals_s += lap(start);
 }
 
 void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-                 const MarchWishes& wishes, const MarchCache* marches, GearboxTile& tile) {
-    const MarchCache* const kept = wishes.with_motion ? nullptr : marches;
+                 const TileWishes& wanted, GearboxTile& tile) {
+    const MarchCache* const kept = wanted.with_motion ? nullptr : wanted.marches;
+    const MarchWishes wishes{.with_motion = wanted.with_motion, .keep_states = wanted.keep_states};
+    const bool recorded = wanted.with_motion || wanted.keep_states || wanted.with_records;
     auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {
         tile.march = *before;
         tile.march_s = lap(start);
+    } else if (hears_march(scene) && !recorded) {
+        march_and_hear(scene, path, ids, wanted.signal_meshes, wishes, tile);
     } else {
         march(scene, ids, wishes, tile);
         if (kept != nullptr) {
@@ -203,11 +216,10 @@ void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<co
 }
 
 GearboxTile run_records(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                        std::span<const GearboxId> ids, int fewest, bool with_motion,
-                        const MarchCache* marches) {
+                        std::span<const GearboxId> ids, int fewest, const TileWishes& wishes) {
     GearboxTile tile =
         sampled_tile(sampler, ids, lockstep::lanes_for(scene.plan().precision, fewest));
-    run_sampled(scene, path, ids, {.with_motion = with_motion}, marches, tile);
+    run_sampled(scene, path, ids, wishes, tile);
     return tile;
 }
 
@@ -219,19 +231,17 @@ std::vector<GearboxId> baselines_of(std::span<const GearboxId> ids) {
     return earlier;
 }
 
-// Of the samples that features look at.
-int baseline_meshes(const Scene& scene) {
-    return needs_samples(needs_of(used_features(scene.study()))) ? scene.signal_meshes() : 0;
-}
-
 // The baseline records' signals, status and times; their motion is freed before the judged ones are
 // marched.
 GearboxTile run_baselines(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, int fewest, const MarchCache* marches) {
-    GearboxTile tile = run_records(scene, sampler, path, baselines_of(ids), fewest, false, marches);
+    const int meshes = looked_at_meshes(scene);
+    GearboxTile tile = run_records(scene, sampler, path, baselines_of(ids), fewest,
+                                   {.signal_meshes = meshes, .marches = marches});
     auto start = WallClock::now();
-    tile.baseline = all_lane_signals(scene, path, tile, baseline_meshes(scene));
+    tile.baseline = all_lane_signals(scene, path, tile, meshes);
     tile.signals_s += lap(start);
+    tile.heard = nullptr;
     tile.march = {};
     tile.views = {};
     tile.folded = {};
@@ -265,16 +275,19 @@ void add_baselines(GearboxTile earlier, GearboxTile& tile) {
 // same tile, behind the judged ones.
 GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
                              const signals::PathGrid& path, std::span<const GearboxId> ids,
-                             int lanes, bool with_motion, const MarchCache* marches) {
+                             int lanes, TileWishes wishes) {
     std::vector<GearboxId> both(ids.begin(), ids.end());
     const std::vector<GearboxId> earlier = baselines_of(ids);
     both.insert(both.end(), earlier.begin(), earlier.end());
-    GearboxTile tile = run_records(scene, sampler, path, both, lanes, with_motion, marches);
+    if (wishes.signal_meshes >= 0) {
+        wishes.signal_meshes = std::max(wishes.signal_meshes, looked_at_meshes(scene));
+    }
+    GearboxTile tile = run_records(scene, sampler, path, both, lanes, wishes);
     auto start = WallClock::now();
     std::vector<LaneSignals> baseline;
     for (std::size_t lane = ids.size(); lane < both.size(); ++lane) {
         baseline.push_back(
-            lane_signals(scene, path, tile, static_cast<int>(lane), baseline_meshes(scene)));
+            lane_signals(scene, path, tile, static_cast<int>(lane), looked_at_meshes(scene)));
     }
     tile.baseline = std::move(baseline);
     tile.signals_s += lap(start);
@@ -287,44 +300,30 @@ GearboxTile run_side_by_side(const Scene& scene, const Sampler& sampler,
 }  // namespace
 
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int fewest, bool with_motion,
-                          const MarchCache* marches) {
+                          std::span<const GearboxId> ids, int fewest, const TileWishes& wishes) {
     if (!compares_records(scene.study())) {
-        return run_records(scene, sampler, path, ids, fewest, with_motion, marches);
+        return run_records(scene, sampler, path, ids, fewest, wishes);
     }
     const int lanes = lockstep::lanes_for(scene.plan().precision, fewest);
     if (2 * ids.size() <= static_cast<std::size_t>(lanes)) {
-        return run_side_by_side(scene, sampler, path, ids, lanes, with_motion, marches);
+        return run_side_by_side(scene, sampler, path, ids, lanes, wishes);
     }
-    GearboxTile earlier = run_baselines(scene, sampler, path, ids, fewest, marches);
-    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, with_motion, marches);
+    GearboxTile earlier = run_baselines(scene, sampler, path, ids, fewest, wishes.marches);
+    GearboxTile tile = run_records(scene, sampler, path, ids, fewest, wishes);
     add_baselines(std::move(earlier), tile);
     return tile;
 }
 
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                      int fewest, bool keep_states) {
+                      int fewest, const TileWishes& wishes) {
     GearboxTile tile;
     tile.inputs = std::move(inputs);
     tile.inputs.resize(
         static_cast<std::size_t>(lockstep::lanes_for(scene.plan().precision, fewest)),
         tile.inputs.back());
-    run_sampled(scene, path, ids, {.keep_states = keep_states}, nullptr, tile);
+    run_sampled(scene, path, ids, wishes, tile);
     return tile;
-}
-
-signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
-    signals::TileSignals views{static_cast<int>(tile.inputs.size()),
-                               dynamics::sources(scene.plan().layout),
-                               scene.samples_per_mesh(),
-                               {},
-                               {}};
-    for (const lockstep::MeshRecord& record : tile.march.records) {
-        views.accel.push_back(record.acceleration.data());
-        views.te.push_back(record.te.data());
-    }
-    return views;
 }
 
 GearboxTile run_changes(const Scene& scene, std::span<const GearboxId> ids,
@@ -348,53 +347,6 @@ GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const sign
             tile);
     }
     return tile;
-}
-
-namespace {
-
-// All but the sensor's samples.
-LaneSignals folded_lane(const GearboxTile& tile, int lane) {
-    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
-    LaneSignals own;
-    own.folded.resize(tile.folded.size() / lanes);
-    own.te_turn.resize(tile.te_turn.size() / lanes);
-    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
-    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
-    if (!tile.baseline.empty()) {
-        own.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
-    }
-    return own;
-}
-
-}  // namespace
-
-LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
-                         int lane, int meshes) {
-    LaneSignals own = folded_lane(tile, lane);
-    if (meshes > 0) {
-        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
-                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
-                                         0, meshes, tile.tones);
-    }
-    return own;
-}
-
-std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
-                                          const GearboxTile& tile, int meshes) {
-    std::vector<LaneSignals> all;
-    std::vector<double> exponents;
-    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
-        all.push_back(folded_lane(tile, static_cast<int>(lane)));
-        exponents.push_back(tile.inputs[lane].path_exponent);
-    }
-    if (meshes > 0) {
-        auto sensor = signals::synthesize(tile.views, tile.march.content, scene.span(), path,
-                                          exponents, 0, meshes, tile.tones);
-        for (std::size_t lane = 0; lane < all.size(); ++lane) {
-            all[lane].sensor = std::move(sensor[lane]);
-        }
-    }
-    return all;
 }
 
 }  // namespace gearpod::mc

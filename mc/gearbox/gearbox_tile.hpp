@@ -1,6 +1,7 @@
 // W gearboxes of a study from their sampled inputs to recorded motion and folded signals.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "mc/scene/scene.hpp"
 #include "signals/noise/tones.hpp"
 #include "signals/path/transmission_path.hpp"
+#include "signals/sensor/heard_span.hpp"
 #include "signals/tile_signals.hpp"
 
 namespace gearpod::mc {
@@ -25,13 +27,15 @@ struct LaneSignals {
     const LaneSignals* baseline = nullptr;
 };
 
-// A tile's results; `march.records` owns what `views` shows.
+// A tile's results; `march.records` owns what `views` shows: the healthy mesh alone where `heard`
+// has taken the others.
 struct GearboxTile {
     std::vector<InstanceInputs> inputs;  // one per lane
     lockstep::TileResult march;
     std::vector<Status> status;  // of the gearboxes asked for
     signals::TileSignals views;
-    signals::Tones tones;            // interfering; empty without
+    std::unique_ptr<signals::HeardSpan> heard;  // or null
+    signals::Tones tones;                       // interfering; empty without
     machine::AlignedVector folded;   // [bin][lane], (m/s^2)^2; empty for a quasi-static gearbox
     machine::AlignedVector te_turn;  // [sample][lane], rad
     // Of the gearboxes asked for; none unless features compare with it.
@@ -48,20 +52,30 @@ struct GearboxTile {
 // The path's tables for a scene.
 signals::PathGrid path_grid(const Scene& scene);
 
+// What is wanted of a tile beside its signals.
+struct TileWishes {
+    // With either, or for its own sake, the records of every mesh.
+    bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
+    bool with_records = false;
+    // Mesh periods of the sensor's samples that will be looked at where these are heard; -1: all.
+    int signal_meshes = -1;
+    const MarchCache* marches = nullptr;  // what was marched before is not marched again
+};
+
 // Runs the gearboxes in `ids` (and before them, or beside them where half of the lanes are free,
 // their baseline records, where features compare with them: a gearbox whose baseline fails has
 // failed), at most as many as there are lanes: `fewest` (16, 8, 4 or 1) or the next number that the
-// program has kernels for. Missing lanes repeat the last one. With `marches`, what was marched
-// before is not marched again.
+// program has kernels for. Missing lanes repeat the last one. Where every mesh is marched, the
+// sensors hear it as it comes, and it is not kept.
 GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
-                          std::span<const GearboxId> ids, int fewest, bool with_motion = false,
-                          const MarchCache* marches = nullptr);
+                          std::span<const GearboxId> ids, int fewest,
+                          const TileWishes& wishes = {});
 
 // The judged records of gearboxes with these inputs, whatever the study's distributions say,
-// without baselines. `keep_states` as in lockstep::TileSettings.
+// without baselines.
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
-                      int fewest, bool keep_states = false);
+                      int fewest, const TileWishes& wishes = {});
 
 // Of gearboxes with these inputs, as many as there were lanes, the meshes that their faults change,
 // marched from the states that were kept of the same without: inputs, march and status alone.

@@ -56,7 +56,7 @@ HealthyMarch::HealthyMarch(const Scene& scene, const signals::PathGrid& path,
         one.gain = 1.0;
     }
     const bool keep = marches_changes_alone(scene);
-    GearboxTile tile = run_given(scene, path, ids, inputs_of(0.0), fewest, keep);
+    GearboxTile tile = run_given(scene, path, ids, inputs_of(0.0), fewest, {.keep_states = keep});
     healthy_ = signals_of(tile);
     inputs_.resize(tile.inputs.size(), inputs_.back());
     if (keep) {

@@ -71,7 +71,8 @@ HealthyReference simulated_reference(const Scene& scene, const Sampler& sampler,
         for (int i = first; i < std::min(first + lanes, HealthyReference::kRecords); ++i) {
             ids.push_back({Group::threshold, static_cast<std::uint64_t>(i)});
         }
-        const GearboxTile tile = run_gearboxes(scene, sampler, path, ids, lanes);
+        const GearboxTile tile =
+            run_gearboxes(scene, sampler, path, ids, lanes, {.signal_meshes = records.meshes()});
         const auto signals = all_lane_signals(scene, path, tile, records.meshes());
         for (std::size_t lane = 0; lane < ids.size(); ++lane) {
             machine::leave_if_stopped();

@@ -15,8 +15,11 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "machine/thread_clock.hpp"
 #include "mc/gearbox/lane_count.hpp"
+#include "mc/gearbox/march_cache.hpp"
 #include "mc/gearbox/tile_draws.hpp"
+#include "mc/scene/feature_needs.hpp"
 #include "mc/study/gears.hpp"
+#include "mc/study/noise.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -78,6 +81,12 @@ double recorded_beside_orbit(const Scene& scene) {
         return scene.recorded_meshes();
     }
     return passage_meshes(scene);
+}
+
+double mesh_record_bytes(const Scene& scene) {
+    const lockstep::MeshRecord record =
+        lockstep::make_record(scene.plan(), scene.study().numerics.lanes, false);
+    return 8.0 * static_cast<double>(record.acceleration.size() + record.te.size());
 }
 
 std::vector<int> part_periods(const Scene& scene) {
@@ -147,10 +156,30 @@ double passage_meshes(const Scene& scene) {
                     static_cast<double>(scene.pattern().length));
 }
 
+bool hears_march(const Scene& scene) {
+    return scene.study().numerics.horizon != Horizon::reuse &&
+           !scene.study().effects.quasi_static() && !distinct_marches(scene);
+}
+
+int looked_at_meshes(const Scene& scene) {
+    return needs_samples(needs_of(used_features(scene.study()))) ? scene.signal_meshes()
+           : noise_by_density(scene.study())                     ? scene.span_meshes()
+                                                                 : 0;
+}
+
 double motion_bytes(const Scene& scene) {
-    const lockstep::MeshRecord record =
-        lockstep::make_record(scene.plan(), scene.study().numerics.lanes, false);
-    return 8.0 * static_cast<double>(record.acceleration.size() + record.te.size()) *
+    if (!hears_march(scene)) {
+        return record_bytes(scene);
+    }
+    // Samples as they are heard and lane by lane, and of the baseline records.
+    const double copies = compares_records(scene.study()) ? 3.0 : 2.0;
+    const double samples = static_cast<double>(looked_at_meshes(scene)) * scene.samples_per_mesh();
+    return copies * 8.0 * samples * scene.study().numerics.lanes +
+           (superposition(scene).healthy ? record_bytes(scene) : 2.0 * mesh_record_bytes(scene));
+}
+
+double record_bytes(const Scene& scene) {
+    return mesh_record_bytes(scene) *
            (1.0 + recorded_beside_orbit(scene) +
             (superposition(scene).healthy ? lockstep::part_meshes(part_periods(scene), 0) : 0));
 }

@@ -25,8 +25,16 @@ struct Superposition {
 };
 Superposition superposition(const Scene& scene);
 
-// Bytes of what a tile records of its motion.
+// Whether the sensors hear the meshes of a tile as they are marched, which are not kept then: where
+// every mesh is marched and no other tile can use them.
+bool hears_march(const Scene& scene);
+
+// Mesh periods of the sensor's samples that a study's features look at, one by one.
+int looked_at_meshes(const Scene& scene);
+
+// Bytes of what a tile of a run keeps of its motion; and of the records of all its meshes.
 double motion_bytes(const Scene& scene);
+double record_bytes(const Scene& scene);
 
 // Seconds of one thread for one healthy mesh period of as many gearboxes as there are lanes, driven
 // as the study says: the least of some marches from rest.

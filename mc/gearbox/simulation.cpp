@@ -109,7 +109,7 @@ Simulation simulate(const Scene& scene, const GearboxId& id, long meshes) {
     const signals::PathGrid path = path_grid(scene);
     const Sampler sampler(scene.study());
     const GearboxTile tile =
-        run_gearboxes(scene, sampler, path, std::span(&id, 1), 1, /*with_motion=*/true);
+        run_gearboxes(scene, sampler, path, std::span(&id, 1), 1, {.with_motion = true});
     if (tile.status[0] != Status::ok) {
         throw std::runtime_error(fmt::format("this gearbox {}", failure_text(tile.status[0])));
     }

@@ -124,7 +124,8 @@ PilotRecord Pilot::run(const Scene& scene) const {
     const lockstep::Precision precision = scene.plan().precision;
     const int lanes = lockstep::lanes_for(precision, full_lanes(precision));
     return record(scene, lanes, [&](std::span<const GearboxId> some) {
-        return run_gearboxes(scene, sampler_, path_, filled(some, lanes), lanes);
+        return run_gearboxes(scene, sampler_, path_, filled(some, lanes), lanes,
+                             {.with_records = true});
     });
 }
 

@@ -17,7 +17,8 @@ inline mc::GearboxTile run_one(const mc::Scene& scene, bool with_motion = false,
                                std::uint64_t number = 0) {
     const mc::GearboxId id{mc::Group::graded, number};
     return mc::run_gearboxes(scene, mc::Sampler(scene.study()), mc::path_grid(scene),
-                             std::span(&id, 1), 1, with_motion);
+                             std::span(&id, 1), 1,
+                             {.with_motion = with_motion, .with_records = true});
 }
 
 // Its sensor signal over the first `meshes` mesh periods, m/s^2.

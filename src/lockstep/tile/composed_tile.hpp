@@ -22,9 +22,9 @@ class ComposedTile : MarchedTile<W> {
   private:
     using Base = MarchedTile<W>;
     using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::march, Base::march_everything, Base::new_record, Base::orbit_, Base::plan_,
-        Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
-        Base::settle, Base::settled_, Base::state_;
+        Base::hear_everything, Base::hear_records, Base::march, Base::march_everything,
+        Base::new_record, Base::orbit_, Base::plan_, Base::record_of, Base::result_, Base::retire,
+        Base::schedule_, Base::settings_, Base::settle, Base::settled_, Base::state_;
 
     // Mesh period k with its motion, and how its tooth pairs are pressed.
     machine::AlignedVector march_part_mesh(const Pressing& pressing, int k,
@@ -89,7 +89,7 @@ class ComposedTile : MarchedTile<W> {
         }
         if (!any) {
             state_ = orbit_;
-            march_everything();
+            settings_.hear ? hear_everything() : march_everything();
             return;
         }
         LaneMask<W> kept;
@@ -100,6 +100,11 @@ class ComposedTile : MarchedTile<W> {
         for (std::size_t l = 0; l < W; ++l) {
             kept[l] = kept[l] && touching[l] && may_compose(static_cast<int>(l));
             all = all && kept[l];
+        }
+        result_.composed.assign(kept.begin(), kept.end());
+        if (all && settings_.hear && !settings_.keep_states) {
+            hear_composed(whole, kept);
+            return;
         }
         if (!all) {
             state_ = orbit_;
@@ -128,43 +133,85 @@ class ComposedTile : MarchedTile<W> {
                 }
             }
         }
-        result_.composed.assign(kept.begin(), kept.end());
-        change_composed(whole, kept);
+        Changes changes(*this, whole, kept);
+        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
+            changes.change(k, k >= 0 ? &record_of(k) : nullptr);
+        }
+        if (settings_.hear) {
+            hear_records();
+        }
     }
 
-    // What faults change in composed lanes.
-    void change_composed(const Composition& whole, const LaneMask<W>& kept) {
-        MeshRecord record = new_record();
-        TileState healthy = state_;
-        LaneMask<W> away{};
-        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
-            const bool passes = schedule_.passes(k);
-            bool any = false;
+    // What faults change in composed lanes, mesh by mesh from the run-in's first.
+    class Changes {
+      public:
+        Changes(ComposedTile& tile, const Composition& whole, const LaneMask<W>& kept)
+            : tile_(tile),
+              whole_(whole),
+              kept_(kept),
+              record_(tile.new_record()),
+              healthy_(tile.state_) {}
+
+        // Into the record of mesh k, of the run-in none.
+        void change(int k, MeshRecord* into) {
+            const LaneMask<W> quiet = leave(k);
+            if (std::ranges::none_of(away_, std::identity())) {
+                return;
+            }
+            whole_.state(k, healthy_);
+            copy_lanes<W>(healthy_, tile_.state_, quiet);
+            tile_.march(k, tile_.schedule_.all_overrides(k), record_);
+            whole_.state(k + 1, healthy_);
+            if (into != nullptr) {
+                copy_lanes<W>(record_, *into, away_);
+            }
+            come_back(k);
+        }
+
+      private:
+        // Lanes leave what was composed where a fault passes; returns those that had not before.
+        LaneMask<W> leave(int k) {
+            const bool passes = tile_.schedule_.passes(k);
             LaneMask<W> quiet;
+            for (std::size_t l = 0; l < W; ++l) {
+                quiet[l] = !away_[l];
+                away_[l] = away_[l] || (passes && kept_[l] && tile_.faulty(static_cast<int>(l)));
+            }
+            return quiet;
+        }
+
+        void come_back(int k) {
             for (int l = 0; l < W; ++l) {
-                auto& own = away[static_cast<std::size_t>(l)];
-                quiet[static_cast<std::size_t>(l)] = !own;
-                own = own || (passes && kept[static_cast<std::size_t>(l)] && faulty(l));
-                any = any || own;
-            }
-            if (!any) {
-                continue;
-            }
-            whole.state(k, healthy);
-            copy_lanes<W>(healthy, state_, quiet);
-            march(k, schedule_.all_overrides(k), record);
-            whole.state(k + 1, healthy);
-            if (k >= 0) {
-                copy_lanes<W>(record, record_of(k), away);
-            }
-            for (int l = 0; l < W; ++l) {
-                auto& own = away[static_cast<std::size_t>(l)];
-                if (own && diverged(l)) {
-                    retire(l);
+                auto& own = away_[static_cast<std::size_t>(l)];
+                if (own && tile_.diverged(l)) {
+                    tile_.retire(l);
                     own = false;
-                } else if (own && !schedule_.continues_after(k)) {
-                    own = distance(state_, healthy, record, l) > settings_.tolerance;
+                } else if (own && !tile_.schedule_.continues_after(k)) {
+                    own = tile_.distance(tile_.state_, healthy_, record_, l) >
+                          tile_.settings_.tolerance;
                 }
+            }
+        }
+
+        ComposedTile& tile_;
+        const Composition& whole_;
+        const LaneMask<W>& kept_;
+        MeshRecord record_;
+        TileState healthy_;
+        LaneMask<W> away_{};
+    };
+
+    // Of lanes that all keep contact.
+    void hear_composed(const Composition& whole, const LaneMask<W>& kept) {
+        Changes changes(*this, whole, kept);
+        MeshRecord composed = new_record();
+        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
+            if (k >= 0) {
+                whole.record(k, composed);
+            }
+            changes.change(k, k >= 0 ? &composed : nullptr);
+            if (k >= 0) {
+                settings_.hear(k, composed);
             }
         }
     }

@@ -183,8 +183,30 @@ class MarchedTile {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Every mesh of the span for itself.
+    // Every mesh of the span for itself, into a record of its own.
     void march_everything() {
+        march_span([&](int k) -> MeshRecord& { return add_record(k); }, [](int) {});
+    }
+
+    // The same, none of which is kept.
+    void hear_everything() {
+        MeshRecord heard = new_record();
+        march_span([&](int) -> MeshRecord& { return heard; },
+                   [&](int k) { settings_.hear(k, heard); });
+    }
+
+    // Gives what was kept to who hears it.
+    void hear_records() {
+        for (int k = 0; k < settings_.march_meshes; ++k) {
+            settings_.hear(k, record_of(k));
+        }
+        result_.records.resize(1);
+        std::ranges::fill(result_.content, kUnchanged);
+    }
+
+  private:
+    template <class Place, class Use>
+    void march_span(Place&& place, Use&& use) {
         MeshRecord unseen = new_record();
         const auto keep_state = [&] {
             if (settings_.keep_states) {
@@ -193,7 +215,10 @@ class MarchedTile {
         };
         for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
             keep_state();
-            march(k, schedule_.all_overrides(k), k < 0 ? unseen : add_record(k));
+            march(k, schedule_.all_overrides(k), k < 0 ? unseen : place(k));
+            if (k >= 0) {
+                use(k);
+            }
         }
         keep_state();
         for (int l = 0; l < W; ++l) {
@@ -203,6 +228,7 @@ class MarchedTile {
         }
     }
 
+  protected:
     const MarchPlan& plan_;
     const FaultCurves& faults_;
     FaultSchedule schedule_;

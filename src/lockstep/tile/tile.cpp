@@ -21,7 +21,9 @@ class TileMarch : MarchedTile<W> {
             return std::move(result_);
         }
         settle();
-        if (settings_.march_meshes > 0) {
+        if (settings_.hear) {
+            hear_everything();
+        } else if (settings_.march_meshes > 0) {
             march_everything();
         } else {
             march_pattern();
@@ -32,8 +34,9 @@ class TileMarch : MarchedTile<W> {
   private:
     using Base = MarchedTile<W>;
     using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_,
-        Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
+        Base::hear_everything, Base::march, Base::march_everything, Base::mark_unsettled,
+        Base::new_record, Base::orbit_, Base::result_, Base::retire, Base::schedule_,
+        Base::settings_, Base::settle, Base::state_;
 
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,
@@ -151,6 +154,9 @@ TileResult run_tile(const MarchPlan& plan, std::span<const dynamics::GearboxInpu
              static_cast<std::size_t>(settings.run_in_meshes + settings.march_meshes + 1))) {
         throw std::invalid_argument(
             "changes are marched from the states of as many steadily driven meshes");
+    }
+    if (settings.hear && (settings.march_meshes == 0 || settings.healthy != nullptr)) {
+        throw std::invalid_argument("only meshes that are marched one by one are heard");
     }
     if (settings.compose && (faults.tooth_errors == nullptr || settings.excitation != nullptr ||
                              settings.healthy != nullptr)) {

@@ -1,6 +1,7 @@
 // What a tile is asked for, and what it leaves.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lockstep/plan/excitation.hpp"
@@ -28,16 +29,20 @@ struct TileSettings {
     // States that were kept of the same gearboxes without faults and with the same settings, or
     // null: what the faults leave as it was is not marched again.
     const std::vector<TileState>* healthy = nullptr;
+    // Takes the record of each mesh k that is marched one by one, in order; it is not kept then.
+    // Null: all of them are.
+    std::function<void(int k, const MeshRecord&)> hear;
     // What drives these gearboxes unevenly, or null. One that does not repeat every mesh period
     // needs march_meshes.
     const Excitation* excitation = nullptr;
 };
 
-// In place of a record: the mesh is as it was without faults, to the tolerance.
+// In place of a record: the mesh is as it was without faults, to the tolerance, or was heard.
 inline constexpr int kUnchanged = -1;
 
 // Recorded mesh periods: 0 is the healthy one; mesh k of the span shows records[content[k mod L]].
-// With TileSettings::healthy the records are those of the changed meshes.
+// With TileSettings::healthy the records are those of the changed meshes, with `hear` the healthy
+// one alone.
 struct TileResult {
     std::vector<MeshRecord> records;
     std::vector<int> content;        // L = content.size()

@@ -31,6 +31,8 @@ std::vector<Place> places_of_tooth(int j, const Timeline& timeline, const SpanLa
     return places;
 }
 
+}  // namespace
+
 void remove_lane_means(machine::AlignedVector& values, int lanes) {
     std::vector<double> mean(lanes, 0.0);
     const std::size_t points = values.size() / lanes;
@@ -46,7 +48,15 @@ void remove_lane_means(machine::AlignedVector& values, int lanes) {
     }
 }
 
-}  // namespace
+void add_te_mesh(std::span<const double> te, double share, int te_phases, std::span<double> sum) {
+    const std::size_t phases = static_cast<std::size_t>(te_phases);
+    const std::size_t lanes = sum.size() / phases, stride = te.size() / phases;
+    for (std::size_t p = 0; p < phases; ++p) {
+        for (std::size_t l = 0; l < lanes; ++l) {
+            sum[p * lanes + l] += share * te[p * stride + l];
+        }
+    }
+}
 
 void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLayout& layout,
                 int te_phases, machine::AlignedVector& te_turn) {
@@ -58,17 +68,14 @@ void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLay
                         te_phases, tile.phases, layout.meshes()));
     }
     const int lanes = tile.lanes;
-    const int stride = tile.phases / te_phases * lanes;
-    te_turn.assign(static_cast<std::size_t>(layout.planet_teeth) * te_phases * lanes, 0.0);
+    const std::size_t per_mesh = static_cast<std::size_t>(te_phases) * lanes;
+    const std::size_t mesh = static_cast<std::size_t>(tile.phases) * lanes;
+    te_turn.assign(static_cast<std::size_t>(layout.planet_teeth) * per_mesh, 0.0);
     for (int j = 0; j < layout.planet_teeth; ++j) {
-        double* out = te_turn.data() + static_cast<std::size_t>(j) * te_phases * lanes;
+        double* out = te_turn.data() + static_cast<std::size_t>(j) * per_mesh;
         for (const auto& [place, share] : places_of_tooth(j, timeline, layout)) {
             const double* te = tile.te[static_cast<std::size_t>(timeline[place])];
-            for (int p = 0; p < te_phases; ++p) {
-                for (int l = 0; l < lanes; ++l) {
-                    out[p * lanes + l] += share * te[p * stride + l];
-                }
-            }
+            add_te_mesh({te, mesh}, share, te_phases, {out, per_mesh});
         }
     }
     remove_lane_means(te_turn, lanes);

@@ -12,4 +12,10 @@ namespace gearpod::signals {
 void average_te(const TileSignals& tile, const Timeline& timeline, const SpanLayout& layout,
                 int te_phases, machine::AlignedVector& te_turn);
 
+// Adds a share of one mesh period's te[p][lane] at the encoders' phases to sum[p'][lane].
+void add_te_mesh(std::span<const double> te, double share, int te_phases, std::span<double> sum);
+
+// Takes from each lane of values[..][lane] its own mean.
+void remove_lane_means(machine::AlignedVector& values, int lanes);
+
 }  // namespace gearpod::signals

@@ -67,7 +67,7 @@ TEST_CASE("Counts beyond their ceilings are refused with the ceiling") {
 TEST_CASE("A run that cannot fit the memory says so before it begins") {
     const Folder folder;
     const std::string run = "run " + test::study("crack-in-sun.toml") +
-                            " --set numerics.horizon=march --set sensor.sampling_Hz=20000 --set "
+                            " --set numerics.horizon=march --set sensor.sampling_Hz=60000 --set "
                             "numerics.threads=2 --out " +
                             folder.file("r.h5");
     const Outcome refused = bounded(run, 1500000);

@@ -45,7 +45,8 @@ TEST_CASE("Few meshes are marched for a further size of a fault") {
     const GearboxId id{Group::graded, 5};
     InstanceInputs inputs = Sampler(scene.study()).sample(id.group, id.index);
     inputs.fault_size = 0.0;
-    const GearboxTile healthy = run_given(scene, path, std::span(&id, 1), {inputs}, 1, true);
+    const GearboxTile healthy =
+        run_given(scene, path, std::span(&id, 1), {inputs}, 1, {.keep_states = true});
     // A healthy tooth changes nothing.
     const GearboxTile none = run_changes(scene, std::span(&id, 1), {inputs}, healthy.march.states);
     CHECK(none.march.records.size() <= static_cast<std::size_t>(scene.span_meshes()) / 5);

@@ -1,0 +1,58 @@
+#include "mc/gearbox/ears.hpp"
+
+#include <algorithm>
+
+#include "machine/wall_clock.hpp"
+#include "mc/gearbox/tile_draws.hpp"
+
+namespace gearpod::mc {
+
+bool has_gain(std::span<const InstanceInputs> inputs) {
+    return std::ranges::any_of(inputs, [](const InstanceInputs& one) { return one.gain != 1.0; });
+}
+
+// The sensor's gain, into what was recorded of each lane's motion.
+void amplify(std::span<const InstanceInputs> inputs, machine::AlignedVector& acceleration) {
+    for (std::size_t i = 0; i < acceleration.size(); ++i) {
+        acceleration[i] *= inputs[i % inputs.size()].gain;
+    }
+}
+
+std::vector<double> path_exponents(std::span<const InstanceInputs> inputs) {
+    std::vector<double> exponents;
+    for (const InstanceInputs& instance : inputs) {
+        exponents.push_back(instance.path_exponent);
+    }
+    return exponents;
+}
+
+Ears::Ears(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
+           int signal_meshes, GearboxTile& tile)
+    : tile_(tile),
+      amplified_(has_gain(tile.inputs)),
+      heard_meshes_(scene.signal_meshes()),
+      recorded_meshes_(scene.recorded_meshes()) {
+    tile.tones = draw_tones(scene, ids, tile.inputs);
+    const std::vector<double> exponents = path_exponents(tile.inputs);
+    tile.heard = std::make_unique<signals::HeardSpan>(
+        path, scene.span(),
+        signals::HeardSpan::Tile{static_cast<int>(tile.inputs.size()), exponents, &tile.tones,
+                                 scene.te_samples_per_mesh(), heard_meshes_,
+                                 signal_meshes < 0 ? heard_meshes_ : signal_meshes});
+}
+
+void Ears::operator()(int k, const lockstep::MeshRecord& record) {
+    const auto start = WallClock::now();
+    const double* acceleration = record.acceleration.data();
+    if (amplified_) {
+        louder_ = record.acceleration;
+        amplify(tile_.inputs, louder_);
+        acceleration = louder_.data();
+    }
+    for (int at = k; at < heard_meshes_; at += recorded_meshes_) {
+        tile_.heard->hear(at, acceleration, record.te.data());
+    }
+    spent_s_ += seconds_since(start);
+}
+
+}  // namespace gearpod::mc

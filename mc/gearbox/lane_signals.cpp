@@ -1,0 +1,71 @@
+// What one gearbox of a tile, or all of them, give to the features.
+#include "mc/gearbox/gearbox_tile.hpp"
+#include "signals/sensor/sensor.hpp"
+
+namespace gearpod::mc {
+
+signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile) {
+    signals::TileSignals views{static_cast<int>(tile.inputs.size()),
+                               dynamics::sources(scene.plan().layout),
+                               scene.samples_per_mesh(),
+                               {},
+                               {}};
+    for (const lockstep::MeshRecord& record : tile.march.records) {
+        views.accel.push_back(record.acceleration.data());
+        views.te.push_back(record.te.data());
+    }
+    return views;
+}
+
+namespace {
+
+// All but the sensor's samples.
+LaneSignals folded_lane(const GearboxTile& tile, int lane) {
+    const auto lanes = static_cast<std::size_t>(tile.views.lanes);
+    LaneSignals own;
+    own.folded.resize(tile.folded.size() / lanes);
+    own.te_turn.resize(tile.te_turn.size() / lanes);
+    signals::copy_lane(tile.folded, tile.views.lanes, lane, own.folded);
+    signals::copy_lane(tile.te_turn, tile.views.lanes, lane, own.te_turn);
+    if (!tile.baseline.empty()) {
+        own.baseline = &tile.baseline[static_cast<std::size_t>(lane)];
+    }
+    return own;
+}
+
+}  // namespace
+
+LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
+                         int lane, int meshes) {
+    LaneSignals own = folded_lane(tile, lane);
+    if (meshes > 0 && tile.heard != nullptr) {
+        own.sensor = tile.heard->signal(lane, meshes);
+    } else if (meshes > 0) {
+        own.sensor = signals::synthesize(tile.views, lane, tile.march.content, scene.span(), path,
+                                         tile.inputs[static_cast<std::size_t>(lane)].path_exponent,
+                                         0, meshes, tile.tones);
+    }
+    return own;
+}
+
+std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
+                                          const GearboxTile& tile, int meshes) {
+    std::vector<LaneSignals> all;
+    std::vector<double> exponents;
+    for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
+        all.push_back(folded_lane(tile, static_cast<int>(lane)));
+        exponents.push_back(tile.inputs[lane].path_exponent);
+    }
+    if (meshes > 0) {
+        auto sensor = tile.heard != nullptr
+                          ? tile.heard->signals(all.size(), meshes)
+                          : signals::synthesize(tile.views, tile.march.content, scene.span(), path,
+                                                exponents, 0, meshes, tile.tones);
+        for (std::size_t lane = 0; lane < all.size(); ++lane) {
+            all[lane].sensor = std::move(sensor[lane]);
+        }
+    }
+    return all;
+}
+
+}  // namespace gearpod::mc
