@@ -89,21 +89,29 @@ std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& error
     return all;
 }
 
-double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int slot, int lane) {
-    const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
-    const int slots = plan.nodes.tooth_pairs;
+const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step) {
     for (const PairGaps& g : gaps) {
         if (g.pair == pair && g.first_step <= step && step < g.last_step) {
-            const auto own =
-                static_cast<std::size_t>(slot) * (g.gap.size() / static_cast<std::size_t>(slots)) +
-                static_cast<std::size_t>(lane);
-            const double place = plan.nodes.tooth_place[static_cast<std::size_t>(
-                ((step * nodes + node) * slots + slot) * plan.nodes.pairs + pair)];
-            return std::fma(place, g.growth[own], g.gap[own]);
+            return &g;
         }
     }
-    return 0.0;
+    return nullptr;
+}
+
+double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
+                 int node, int slot, int lane) {
+    const PairGaps* const own = gaps_of_pair(gaps, pair, step);
+    if (own == nullptr) {
+        return 0.0;
+    }
+    const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    const int slots = plan.nodes.tooth_pairs;
+    const auto i =
+        static_cast<std::size_t>(slot) * (own->gap.size() / static_cast<std::size_t>(slots)) +
+        static_cast<std::size_t>(lane);
+    const double place = plan.nodes.tooth_place[static_cast<std::size_t>(
+        ((step * nodes + node) * slots + slot) * plan.nodes.pairs + pair)];
+    return std::fma(place, own->growth[i], own->gap[i]);
 }
 
 }  // namespace gearpod::lockstep

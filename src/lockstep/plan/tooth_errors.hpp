@@ -52,6 +52,9 @@ void check_tooth_errors(const MarchPlan& plan, const ToothErrors* errors, int ma
 // The gaps of all pairs' tooth pairs in mesh k, which counts from any integer.
 std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& errors, int k);
 
+// Those of a pair in a step, or null: none.
+const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step);
+
 // The gap of one of a pair's tooth pairs at a stage node, m, as the march sees it.
 double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int slot, int lane);

@@ -16,6 +16,40 @@ std::size_t place(int k, std::size_t period) {
     return static_cast<std::size_t>((k % length + length) % length);
 }
 
+// Of the first stage node of a step, in the tables of tooth pairs.
+std::size_t first_node(const MarchPlan& plan, int step, int slot, int pair) {
+    const std::size_t node = static_cast<std::size_t>(step) * plan.grid.stage_nodes.size();
+    return (node * static_cast<std::size_t>(plan.nodes.tooth_pairs) +
+            static_cast<std::size_t>(slot)) *
+               static_cast<std::size_t>(plan.nodes.pairs) +
+           static_cast<std::size_t>(pair);
+}
+
+// What a pair's static transmission error takes from its deflection there, m.
+double static_error(const MarchPlan& plan, int step, int pair) {
+    return plan.nodes.error.empty()
+               ? 0.0
+               : plan.nodes.error[static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() *
+                                      static_cast<std::size_t>(plan.nodes.pairs) +
+                                  static_cast<std::size_t>(pair)];
+}
+
+// d += weight times the motion, or times what it lacks of the orbit's.
+void add_motion(std::size_t lanes, double weight, const double* __restrict motion,
+                const double* __restrict orbit, double* __restrict d) {
+    if (orbit == nullptr) {
+#pragma omp simd
+        for (std::size_t l = 0; l < lanes; ++l) {
+            d[l] += weight * motion[l];
+        }
+        return;
+    }
+#pragma omp simd
+    for (std::size_t l = 0; l < lanes; ++l) {
+        d[l] += weight * (motion[l] - orbit[l]);
+    }
+}
+
 // sum = first of the parts + ... - (their number - 1) orbit
 void compose(std::span<const machine::AlignedVector* const> parts,
              const machine::AlignedVector& orbit, machine::AlignedVector& sum) {
@@ -78,58 +112,68 @@ int part_meshes(std::span<const int> periods, int run_in_meshes) {
 }
 
 Pressing::Pressing(const MarchPlan& plan) : plan_(plan) {
-    const auto nodes = plan.grid.stage_nodes.size();
     const StiffnessNodes& table = plan.nodes;
     for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
         if (plan.grid.steps[s].sample < 0) {
             continue;
         }
-        for (int j = 0; j < table.tooth_pairs; ++j) {
-            for (int pair = 0; pair < table.pairs; ++pair) {
-                const auto at = ((s * nodes) * static_cast<std::size_t>(table.tooth_pairs) +
-                                 static_cast<std::size_t>(j)) *
-                                    static_cast<std::size_t>(table.pairs) +
-                                static_cast<std::size_t>(pair);
-                if (table.tooth_stiffness[at] > 0.0) {
-                    touching_.push_back({plan.grid.steps[s].sample, pair, j, static_cast<int>(s)});
+        const auto step = static_cast<int>(s);
+        for (int pair = 0; pair < table.pairs; ++pair) {
+            Touching touching{plan.grid.steps[s].sample, pair, step, table.tooth_pairs, 0};
+            for (int j = 0; j < table.tooth_pairs; ++j) {
+                if (table.tooth_stiffness[first_node(plan, step, j, pair)] > 0.0) {
+                    touching.first_slot = std::min(touching.first_slot, j);
+                    touching.last_slot = j + 1;
                 }
             }
+            touching_.push_back(touching);
         }
     }
     for (int pair = 0; pair < table.pairs; ++pair) {
         const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
-        row_.emplace_back(row.data(), row.data() + row.size());
+        row_.emplace_back();
+        for (Eigen::Index i = 0; i < row.size(); ++i) {
+            if (row(i) != 0.0) {
+                row_.back().push_back({static_cast<std::size_t>(i), row(i)});
+            }
+        }
     }
 }
 
 machine::AlignedVector Pressing::least(const MeshRecord& record, std::span<const PairGaps> gaps,
                                        const MeshRecord* orbit) const {
     const auto samples = plan_.samples();
-    const auto degrees = row_.front().size();
     const std::size_t lanes = record.te.size() / samples;
+    const std::size_t motion = record.motion.size() / samples;  // of a sample
     const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
     const auto slots = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
-    machine::AlignedVector least(kStretches * pairs * slots * lanes, INFINITY);
+    machine::AlignedVector least(kStretches * pairs * slots * lanes, INFINITY), d(lanes);
     for (const Touching& t : touching_) {
         const auto sample = static_cast<std::size_t>(t.sample);
-        const auto stretch = sample * kStretches / samples;
-        const auto at = ((stretch * pairs + static_cast<std::size_t>(t.pair)) * slots +
-                         static_cast<std::size_t>(t.slot)) *
-                        lanes;
-        const std::vector<double>& row = row_[static_cast<std::size_t>(t.pair)];
-        for (std::size_t l = 0; l < lanes; ++l) {
-            double d = -tooth_gap(plan_, gaps, t.pair, t.step, 0, t.slot, static_cast<int>(l));
-            for (std::size_t i = 0; i < degrees; ++i) {
-                const std::size_t from = (sample * degrees + i) * lanes + l;
-                d +=
-                    row[i] * (record.motion[from] - (orbit != nullptr ? orbit->motion[from] : 0.0));
+        std::ranges::fill(d, orbit == nullptr ? -static_error(plan_, t.step, t.pair) : 0.0);
+        for (const auto& [degree, weight] : row_[static_cast<std::size_t>(t.pair)]) {
+            const std::size_t at = sample * motion + degree * lanes;
+            add_motion(lanes, weight, record.motion.data() + at,
+                       orbit != nullptr ? orbit->motion.data() + at : nullptr, d.data());
+        }
+        const PairGaps* const own = gaps_of_pair(gaps, t.pair, t.step);
+        for (int slot = t.first_slot; slot < t.last_slot; ++slot) {
+            const std::size_t stretch = sample * kStretches / samples;
+            const auto j = static_cast<std::size_t>(slot);
+            const std::size_t row =
+                ((stretch * pairs + static_cast<std::size_t>(t.pair)) * slots + j) * lanes;
+            const double place = plan_.nodes.tooth_place[first_node(plan_, t.step, slot, t.pair)];
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const std::size_t i = j * lanes + l;
+                const double gap =
+                    own != nullptr ? std::fma(place, own->growth[i], own->gap[i]) : 0.0;
+                const double pressed = d[l] - gap;
+                double& least_here = least[row + l];
+                // NaN is no contact.
+                least_here = pressed > least_here     ? least_here
+                             : std::isfinite(pressed) ? pressed
+                                                      : -INFINITY;
             }
-            if (orbit == nullptr && !plan_.nodes.error.empty()) {
-                d -= plan_.nodes.error[static_cast<std::size_t>(t.step) *
-                                           plan_.grid.stage_nodes.size() * pairs +
-                                       static_cast<std::size_t>(t.pair)];
-            }
-            least[at + l] = std::isfinite(d) ? std::min(least[at + l], d) : -INFINITY;
         }
     }
     return least;

@@ -34,12 +34,19 @@ class Pressing {
                                  const MeshRecord* orbit) const;
 
   private:
+    // The tooth pairs of a pair that are in contact at a sample: slots are a range.
     struct Touching {
-        int sample = 0, pair = 0, slot = 0, step = 0;
+        int sample = 0, pair = 0, step = 0;
+        int first_slot = 0, last_slot = 0;  // one past the last
+    };
+    // Of a pair's deflection.
+    struct Entry {
+        std::size_t degree = 0;
+        double weight = 0.0;
     };
     const MarchPlan& plan_;
     std::vector<Touching> touching_;
-    std::vector<std::vector<double>> row_;  // of each pair's deflection
+    std::vector<std::vector<Entry>> row_;
 };
 
 // One part, [mesh of its period].
