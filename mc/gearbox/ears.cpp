@@ -27,18 +27,18 @@ std::vector<double> path_exponents(std::span<const InstanceInputs> inputs) {
 }
 
 Ears::Ears(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-           int signal_meshes, GearboxTile& tile)
-    : tile_(tile),
-      amplified_(has_gain(tile.inputs)),
+           std::span<const InstanceInputs> inputs, int kept_meshes)
+    : inputs_(inputs),
+      amplified_(has_gain(inputs)),
       heard_meshes_(scene.signal_meshes()),
       recorded_meshes_(scene.recorded_meshes()) {
-    tile.tones = draw_tones(scene, ids, tile.inputs);
-    const std::vector<double> exponents = path_exponents(tile.inputs);
-    tile.heard = std::make_unique<signals::HeardSpan>(
+    const signals::Tones tones = draw_tones(scene, ids, inputs);
+    const std::vector<double> exponents = path_exponents(inputs);
+    heard_ = std::make_unique<signals::HeardSpan>(
         path, scene.span(),
-        signals::HeardSpan::Tile{static_cast<int>(tile.inputs.size()), exponents, &tile.tones,
+        signals::HeardSpan::Tile{static_cast<int>(inputs.size()), exponents, &tones,
                                  scene.te_samples_per_mesh(), heard_meshes_,
-                                 signal_meshes < 0 ? heard_meshes_ : signal_meshes});
+                                 kept_meshes < 0 ? heard_meshes_ : kept_meshes});
 }
 
 void Ears::operator()(int k, const lockstep::MeshRecord& record) {
@@ -46,11 +46,11 @@ void Ears::operator()(int k, const lockstep::MeshRecord& record) {
     const double* acceleration = record.acceleration.data();
     if (amplified_) {
         louder_ = record.acceleration;
-        amplify(tile_.inputs, louder_);
+        amplify(inputs_, louder_);
         acceleration = louder_.data();
     }
     for (int at = k; at < heard_meshes_; at += recorded_meshes_) {
-        tile_.heard->hear(at, acceleration, record.te.data());
+        heard_->hear(at, acceleration, record.te.data());
     }
     spent_s_ += seconds_since(start);
 }

@@ -1,10 +1,14 @@
 // The sensor and encoders of a tile that is marched mesh by mesh, and the sensor's gain.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "mc/gearbox/gearbox_tile.hpp"
+#include "lockstep/plan/march.hpp"
+#include "mc/scene/sampling.hpp"
+#include "mc/scene/scene.hpp"
+#include "signals/sensor/heard_span.hpp"
 
 namespace gearpod::mc {
 
@@ -14,23 +18,25 @@ void amplify(std::span<const InstanceInputs> inputs, machine::AlignedVector& acc
 
 std::vector<double> path_exponents(std::span<const InstanceInputs> inputs);
 
-// Gives the tile its tones and what the sensors hear, tile.heard, mesh by mesh.
 class Ears {
   public:
-    // `signal_meshes` as in TileWishes. `path` and the tile must outlive it.
+    // Of the sensor's samples the first `kept_meshes` are kept; -1: all. `inputs`, one a lane, must
+    // outlive it, and `path` the march.
     Ears(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
-         int signal_meshes, GearboxTile& tile);
+         std::span<const InstanceInputs> inputs, int kept_meshes);
 
     // Recorded mesh k, as lockstep::TileSettings::hear. Where fewer are recorded than the signal
     // has, it repeats them.
     void operator()(int k, const lockstep::MeshRecord& record);
 
+    std::unique_ptr<signals::HeardSpan> take_heard() { return std::move(heard_); }
     double spent_s() const { return spent_s_; }
 
   private:
-    GearboxTile& tile_;
+    const std::span<const InstanceInputs> inputs_;
     const bool amplified_;
     const int heard_meshes_, recorded_meshes_;
+    std::unique_ptr<signals::HeardSpan> heard_;
     machine::AlignedVector louder_;
     double spent_s_ = 0.0;
 };

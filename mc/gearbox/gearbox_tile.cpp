@@ -157,9 +157,10 @@ void add_status(const Scene& scene, std::span<const GearboxId> ids, GearboxTile&
 void march_and_hear(const Scene& scene, const signals::PathGrid& path,
                     std::span<const GearboxId> ids, int signal_meshes, MarchWishes wishes,
                     GearboxTile& tile) {
-    Ears ears(scene, path, ids, signal_meshes, tile);
+    Ears ears(scene, path, ids, tile.inputs, signal_meshes);
     wishes.hear = std::ref(ears);
     march(scene, ids, wishes, tile);
+    tile.heard = ears.take_heard();
     tile.march_s -= ears.spent_s();
     tile.march_cpu_s -= ears.spent_s();
     tile.signals_s += ears.spent_s();

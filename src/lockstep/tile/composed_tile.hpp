@@ -72,6 +72,7 @@ class ComposedTile : MarchedTile<W> {
         for (const int teeth : part_periods(*faults_.tooth_errors)) {
             whole.parts.push_back(march_part(pressing, whole, teeth, periodic));
         }
+        whole.take_orbit_once();
         return whole;
     }
 

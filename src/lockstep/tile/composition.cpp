@@ -50,30 +50,32 @@ void add_motion(std::size_t lanes, double weight, const double* __restrict motio
     }
 }
 
-// sum = first of the parts + ... - (their number - 1) orbit
-void compose(std::span<const machine::AlignedVector* const> parts,
-             const machine::AlignedVector& orbit, machine::AlignedVector& sum) {
-    const double less = static_cast<double>(parts.size()) - 1.0;
+void add_up(std::span<const machine::AlignedVector* const> parts, machine::AlignedVector& sum) {
     const std::size_t size = sum.size();
-    const double* __restrict base = orbit.data();
     double* __restrict out = sum.data();
-    if (parts.size() == 3) {
+    if (parts.size() == 3) {  // a planetary train's: read and written once
         const double* __restrict a = parts[0]->data();
         const double* __restrict b = parts[1]->data();
         const double* __restrict c = parts[2]->data();
+#pragma omp simd
         for (std::size_t i = 0; i < size; ++i) {
-            out[i] = (a[i] - less * base[i]) + (b[i] + c[i]);
+            out[i] = a[i] + (b[i] + c[i]);
         }
         return;
     }
-    for (std::size_t i = 0; i < size; ++i) {
-        out[i] = -less * base[i];
-    }
+    std::fill_n(out, size, 0.0);
     for (const machine::AlignedVector* part : parts) {
         const double* __restrict own = part->data();
+#pragma omp simd
         for (std::size_t i = 0; i < size; ++i) {
             out[i] += own[i];
         }
+    }
+}
+
+void subtract(const machine::AlignedVector& less, machine::AlignedVector& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] -= less[i];
     }
 }
 
@@ -189,7 +191,7 @@ void Composition::record(int k, MeshRecord& record) const {
         for (const MeshRecord* part : own) {
             all.push_back(&(part->*what));
         }
-        compose(all, orbit.*what, record.*what);
+        add_up(all, record.*what);
     };
     one(&MeshRecord::acceleration);
     one(&MeshRecord::te);
@@ -204,11 +206,28 @@ void Composition::state(int k, TileState& state) const {
         for (const ComposedPart& part : parts) {
             all.push_back(&(part.states[place(k, part.states.size())].*what));
         }
-        compose(all, orbit_state.*what, state.*what);
+        add_up(all, state.*what);
     };
     one(&TileState::q);
     one(&TileState::v);
     one(&TileState::filter);
+}
+
+void Composition::take_orbit_once() {
+    for (std::size_t s = 1; s < parts.size(); ++s) {
+        for (MeshRecord& record : parts[s].records) {
+            subtract(orbit.acceleration, record.acceleration);
+            subtract(orbit.te, record.te);
+            if (!record.motion.empty()) {
+                subtract(orbit.motion, record.motion);
+            }
+        }
+        for (TileState& state : parts[s].states) {
+            subtract(orbit_state.q, state.q);
+            subtract(orbit_state.v, state.v);
+            subtract(orbit_state.filter, state.filter);
+        }
+    }
 }
 
 std::vector<char> Composition::keeps_contact(int from, int to, std::size_t lanes) const {

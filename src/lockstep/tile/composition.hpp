@@ -62,6 +62,8 @@ struct Composition {
     machine::AlignedVector orbit_pressing;
     std::vector<ComposedPart> parts;
 
+    // Makes all parts but the first what they lack of the orbit, so that parts add up to the mesh.
+    void take_orbit_once();
     // k counts from any integer. `record` and `state` have their sizes.
     void record(int k, MeshRecord& record) const;
     void state(int k, TileState& state) const;
