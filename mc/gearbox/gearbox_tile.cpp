@@ -34,7 +34,7 @@ struct MarchWishes {
     bool with_motion = false;
     bool keep_states = false;
     const std::vector<lockstep::TileState>* healthy = nullptr;
-    std::function<void(int, const lockstep::MeshRecord&)> hear;
+    std::function<void(int, const lockstep::MeshRecord&)> hear = nullptr;
 };
 
 lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wishes) {
