@@ -11,7 +11,6 @@ bool has_gain(std::span<const InstanceInputs> inputs) {
     return std::ranges::any_of(inputs, [](const InstanceInputs& one) { return one.gain != 1.0; });
 }
 
-// The sensor's gain, into what was recorded of each lane's motion.
 void amplify(std::span<const InstanceInputs> inputs, machine::AlignedVector& acceleration) {
     for (std::size_t i = 0; i < acceleration.size(); ++i) {
         acceleration[i] *= inputs[i % inputs.size()].gain;

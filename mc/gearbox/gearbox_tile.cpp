@@ -171,8 +171,8 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
                  GearboxTile& tile) {
     add_status(scene, ids, tile);
     auto start = WallClock::now();
+    tile.views = views_of(scene, tile);
     if (tile.heard != nullptr) {
-        tile.views = views_of(scene, tile);
         tile.folded = tile.heard->folded();
         tile.te_turn = tile.heard->averaged_te();
         tile.signals_s += lap(start);
@@ -183,7 +183,6 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
             amplify(tile.inputs, record.acceleration);
         }
     }
-    tile.views = views_of(scene, tile);
     // A gearbox without inertia shakes no sensor.
     if (!scene.study().effects.quasi_static()) {
         tile.tones = draw_tones(scene, ids, tile.inputs);

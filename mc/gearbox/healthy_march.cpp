@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mc/gearbox/ears.hpp"
 #include "signals/sensor/sensor.hpp"
 
 namespace gearpod::mc {
@@ -134,12 +135,9 @@ void HealthyMarch::change_sensor(const GearboxTile& changed,
         return;
     }
     const int phases = scene_.samples_per_mesh();
-    std::vector<double> exponents;
-    for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
-        exponents.push_back(inputs_[lane].path_exponent);
-    }
-    const auto sensor = signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(),
-                                            path_, exponents, span.meshes);
+    const auto sensor =
+        signals::synthesize(views_of(scene_, changed), span.timeline, scene_.span(), path_,
+                            path_exponents(std::span(inputs_).first(ids_.size())), span.meshes);
     for (std::size_t lane = 0; lane < ids_.size(); ++lane) {
         if (lanes[lane].sensor.empty()) {
             continue;

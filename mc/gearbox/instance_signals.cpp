@@ -5,6 +5,7 @@
 
 #include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
+#include "mc/gearbox/mesh_time.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/scene/feature_needs.hpp"
 #include "mc/study/noise.hpp"
@@ -61,12 +62,6 @@ void add_noise(std::span<const double> unit, double sigma, std::span<double> sam
     }
 }
 
-int InstanceSignals::meshes() const {
-    return needs_samples_                     ? scene_.signal_meshes()
-           : noise_by_density(scene_.study()) ? scene_.span_meshes()
-                                              : 0;
-}
-
 InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs)
     : InstanceSignals(scene, needs, scene.span().ring_teeth) {}
 
@@ -78,6 +73,7 @@ InstanceSignals::InstanceSignals(const Scene& scene, unsigned needs, int turns)
       spectrum_(scene.span().planet_teeth * scene.te_samples_per_mesh()),
       analysis_(scene, needs),
       needs_samples_(needs_samples(needs)),
+      meshes_(looked_at_meshes(scene, needs)),
       highest_level_(std::ranges::max(scene.study().sensor.noise_levels)),
       amplitude_(static_cast<std::size_t>(spectrum_.orders())),
       tooth_rms_(static_cast<std::size_t>(scene.span().planet_teeth)) {}

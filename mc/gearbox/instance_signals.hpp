@@ -47,7 +47,7 @@ class InstanceSignals {
     InstanceSignals(const Scene& scene, unsigned needs, int turns);
 
     // Mesh periods of sensor signal that LaneSignals must hold, perhaps none.
-    int meshes() const;
+    int meshes() const { return meshes_; }
 
     // The next gearbox, which must live as long as at() is asked for it: with noise drawn for it,
     // or with that noise.
@@ -87,6 +87,7 @@ class InstanceSignals {
     signals::OrderSpectrum spectrum_;
     SpanAnalysis analysis_;
     bool needs_samples_;
+    int meshes_;
     const double highest_level_;
     const LaneSignals* gearbox_ = nullptr;
     double sensor_rms_ = 0.0, encoder_rms_ = 0.0;  // of the noise at level 1, m/s^2 and rad

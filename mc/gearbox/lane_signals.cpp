@@ -1,4 +1,5 @@
 // What one gearbox of a tile, or all of them, give to the features.
+#include "mc/gearbox/ears.hpp"
 #include "mc/gearbox/gearbox_tile.hpp"
 #include "signals/sensor/sensor.hpp"
 
@@ -51,16 +52,16 @@ LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, cons
 std::vector<LaneSignals> all_lane_signals(const Scene& scene, const signals::PathGrid& path,
                                           const GearboxTile& tile, int meshes) {
     std::vector<LaneSignals> all;
-    std::vector<double> exponents;
     for (std::size_t lane = 0; lane < tile.status.size(); ++lane) {
         all.push_back(folded_lane(tile, static_cast<int>(lane)));
-        exponents.push_back(tile.inputs[lane].path_exponent);
     }
     if (meshes > 0) {
-        auto sensor = tile.heard != nullptr
-                          ? tile.heard->signals(all.size(), meshes)
-                          : signals::synthesize(tile.views, tile.march.content, scene.span(), path,
-                                                exponents, 0, meshes, tile.tones);
+        auto sensor =
+            tile.heard != nullptr
+                ? tile.heard->signals(all.size(), meshes)
+                : signals::synthesize(tile.views, tile.march.content, scene.span(), path,
+                                      path_exponents(std::span(tile.inputs).first(all.size())), 0,
+                                      meshes, tile.tones);
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             all[lane].sensor = std::move(sensor[lane]);
         }

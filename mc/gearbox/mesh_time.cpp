@@ -161,10 +161,14 @@ bool hears_march(const Scene& scene) {
            !scene.study().effects.quasi_static() && !distinct_marches(scene);
 }
 
+int looked_at_meshes(const Scene& scene, unsigned needs) {
+    return needs_samples(needs)              ? scene.signal_meshes()
+           : noise_by_density(scene.study()) ? scene.span_meshes()
+                                             : 0;
+}
+
 int looked_at_meshes(const Scene& scene) {
-    return needs_samples(needs_of(used_features(scene.study()))) ? scene.signal_meshes()
-           : noise_by_density(scene.study())                     ? scene.span_meshes()
-                                                                 : 0;
+    return looked_at_meshes(scene, needs_of(used_features(scene.study())));
 }
 
 double motion_bytes(const Scene& scene) {

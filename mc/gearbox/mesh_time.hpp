@@ -29,7 +29,9 @@ Superposition superposition(const Scene& scene);
 // every mesh is marched and no other tile can use them.
 bool hears_march(const Scene& scene);
 
-// Mesh periods of the sensor's samples that a study's features look at, one by one.
+// Mesh periods of the sensor's samples that are looked at one by one: by features with these needs
+// (features::Need), or by all of the study's.
+int looked_at_meshes(const Scene& scene, unsigned needs);
 int looked_at_meshes(const Scene& scene);
 
 // Bytes of what a tile of a run keeps of its motion; and of the records of all its meshes.

@@ -98,19 +98,22 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
     return nullptr;
 }
 
+std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int slot, int pair) {
+    const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
+    return static_cast<std::size_t>(
+        ((step * nodes + node) * plan.nodes.tooth_pairs + slot) * plan.nodes.pairs + pair);
+}
+
 double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int slot, int lane) {
     const PairGaps* const own = gaps_of_pair(gaps, pair, step);
     if (own == nullptr) {
         return 0.0;
     }
-    const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
-    const int slots = plan.nodes.tooth_pairs;
+    const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
     const auto i =
-        static_cast<std::size_t>(slot) * (own->gap.size() / static_cast<std::size_t>(slots)) +
-        static_cast<std::size_t>(lane);
-    const double place = plan.nodes.tooth_place[static_cast<std::size_t>(
-        ((step * nodes + node) * slots + slot) * plan.nodes.pairs + pair)];
+        static_cast<std::size_t>(slot) * (own->gap.size() / slots) + static_cast<std::size_t>(lane);
+    const double place = plan.nodes.tooth_place[tooth_pair_at(plan, step, node, slot, pair)];
     return std::fma(place, own->growth[i], own->gap[i]);
 }
 

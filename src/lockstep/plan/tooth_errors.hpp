@@ -55,6 +55,9 @@ std::vector<PairGaps> tooth_gaps(const MarchPlan& plan, const ToothErrors& error
 // Those of a pair in a step, or null: none.
 const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step);
 
+// Where StiffnessNodes::tooth_stiffness and tooth_place have one of a pair's tooth pairs.
+std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int slot, int pair);
+
 // The gap of one of a pair's tooth pairs at a stage node, m, as the march sees it.
 double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
                  int node, int slot, int lane);

@@ -22,9 +22,9 @@ class ComposedTile : MarchedTile<W> {
   private:
     using Base = MarchedTile<W>;
     using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::hear_everything, Base::hear_records, Base::march, Base::march_everything,
-        Base::new_record, Base::orbit_, Base::plan_, Base::record_of, Base::result_, Base::retire,
-        Base::schedule_, Base::settings_, Base::settle, Base::settled_, Base::state_;
+        Base::hear_records, Base::march, Base::march_everything, Base::new_record, Base::orbit_,
+        Base::plan_, Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
+        Base::settle, Base::settled_, Base::state_;
 
     // Mesh period k with its motion, and how its tooth pairs are pressed.
     machine::AlignedVector march_part_mesh(const Pressing& pressing, int k,
@@ -90,7 +90,7 @@ class ComposedTile : MarchedTile<W> {
         }
         if (!any) {
             state_ = orbit_;
-            settings_.hear ? hear_everything() : march_everything();
+            march_everything(settings_.hear != nullptr);
             return;
         }
         LaneMask<W> kept;
@@ -109,7 +109,7 @@ class ComposedTile : MarchedTile<W> {
         }
         if (!all) {
             state_ = orbit_;
-            march_everything();
+            march_everything(false);
         }
         MeshRecord composed = new_record();
         for (int k = 0; k < settings_.march_meshes; ++k) {

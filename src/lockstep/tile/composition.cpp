@@ -16,15 +16,6 @@ std::size_t place(int k, std::size_t period) {
     return static_cast<std::size_t>((k % length + length) % length);
 }
 
-// Of the first stage node of a step, in the tables of tooth pairs.
-std::size_t first_node(const MarchPlan& plan, int step, int slot, int pair) {
-    const std::size_t node = static_cast<std::size_t>(step) * plan.grid.stage_nodes.size();
-    return (node * static_cast<std::size_t>(plan.nodes.tooth_pairs) +
-            static_cast<std::size_t>(slot)) *
-               static_cast<std::size_t>(plan.nodes.pairs) +
-           static_cast<std::size_t>(pair);
-}
-
 // What a pair's static transmission error takes from its deflection there, m.
 double static_error(const MarchPlan& plan, int step, int pair) {
     return plan.nodes.error.empty()
@@ -123,7 +114,7 @@ Pressing::Pressing(const MarchPlan& plan) : plan_(plan) {
         for (int pair = 0; pair < table.pairs; ++pair) {
             Touching touching{plan.grid.steps[s].sample, pair, step, table.tooth_pairs, 0};
             for (int j = 0; j < table.tooth_pairs; ++j) {
-                if (table.tooth_stiffness[first_node(plan, step, j, pair)] > 0.0) {
+                if (table.tooth_stiffness[tooth_pair_at(plan, step, 0, j, pair)] > 0.0) {
                     touching.first_slot = std::min(touching.first_slot, j);
                     touching.last_slot = j + 1;
                 }
@@ -164,7 +155,8 @@ machine::AlignedVector Pressing::least(const MeshRecord& record, std::span<const
             const auto j = static_cast<std::size_t>(slot);
             const std::size_t row =
                 ((stretch * pairs + static_cast<std::size_t>(t.pair)) * slots + j) * lanes;
-            const double place = plan_.nodes.tooth_place[first_node(plan_, t.step, slot, t.pair)];
+            const double place =
+                plan_.nodes.tooth_place[tooth_pair_at(plan_, t.step, 0, slot, t.pair)];
             for (std::size_t l = 0; l < lanes; ++l) {
                 const std::size_t i = j * lanes + l;
                 const double gap =

@@ -183,16 +183,27 @@ class MarchedTile {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Every mesh of the span for itself, into a record of its own.
-    void march_everything() {
-        march_span([&](int k) -> MeshRecord& { return add_record(k); }, [](int) {});
-    }
-
-    // The same, none of which is kept.
-    void hear_everything() {
-        MeshRecord heard = new_record();
-        march_span([&](int) -> MeshRecord& { return heard; },
-                   [&](int k) { settings_.hear(k, heard); });
+    // Every mesh of the span for itself, into a record of its own or to who hears it.
+    void march_everything(bool heard) {
+        MeshRecord unkept = new_record();
+        const auto keep_state = [&] {
+            if (settings_.keep_states) {
+                result_.states.push_back(state_);
+            }
+        };
+        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
+            keep_state();
+            march(k, schedule_.all_overrides(k), k < 0 || heard ? unkept : add_record(k));
+            if (k >= 0 && heard) {
+                settings_.hear(k, unkept);
+            }
+        }
+        keep_state();
+        for (int l = 0; l < W; ++l) {
+            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
+                retire(l);
+            }
+        }
     }
 
     // Gives what was kept to who hears it.
@@ -204,31 +215,6 @@ class MarchedTile {
         std::ranges::fill(result_.content, kUnchanged);
     }
 
-  private:
-    template <class Place, class Use>
-    void march_span(Place&& place, Use&& use) {
-        MeshRecord unseen = new_record();
-        const auto keep_state = [&] {
-            if (settings_.keep_states) {
-                result_.states.push_back(state_);
-            }
-        };
-        for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
-            keep_state();
-            march(k, schedule_.all_overrides(k), k < 0 ? unseen : place(k));
-            if (k >= 0) {
-                use(k);
-            }
-        }
-        keep_state();
-        for (int l = 0; l < W; ++l) {
-            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::ok && diverged(l)) {
-                retire(l);
-            }
-        }
-    }
-
-  protected:
     const MarchPlan& plan_;
     const FaultCurves& faults_;
     FaultSchedule schedule_;

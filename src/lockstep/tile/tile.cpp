@@ -21,10 +21,8 @@ class TileMarch : MarchedTile<W> {
             return std::move(result_);
         }
         settle();
-        if (settings_.hear) {
-            hear_everything();
-        } else if (settings_.march_meshes > 0) {
-            march_everything();
+        if (settings_.march_meshes > 0) {
+            march_everything(settings_.hear != nullptr);
         } else {
             march_pattern();
         }
@@ -34,9 +32,8 @@ class TileMarch : MarchedTile<W> {
   private:
     using Base = MarchedTile<W>;
     using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::hear_everything, Base::march, Base::march_everything, Base::mark_unsettled,
-        Base::new_record, Base::orbit_, Base::result_, Base::retire, Base::schedule_,
-        Base::settings_, Base::settle, Base::state_;
+        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_,
+        Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
 
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,

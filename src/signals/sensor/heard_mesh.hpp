@@ -1,4 +1,5 @@
-// The kernels behind HeardSpan; see heard_span.hpp.
+// The kernels behind HeardSpan, and of one lane behind synthesize; see heard_span.hpp and
+// sensor.hpp.
 #pragma once
 
 #include "signals/noise/tones.hpp"

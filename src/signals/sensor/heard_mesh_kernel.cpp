@@ -76,12 +76,12 @@ GEARPOD_INLINE void hear(const HeardMesh& a) {
 
 }  // namespace
 
-GEARPOD_SPARE_KERNEL(heard_weights_1, (const PathWeights& a), (a), all_weights<1>(a))
+GEARPOD_KERNEL(heard_weights_1, (const PathWeights& a), (a), all_weights<1>(a))
 GEARPOD_SPARE_KERNEL(heard_weights_4, (const PathWeights& a), (a), all_weights<4>(a))
 GEARPOD_KERNEL(heard_weights_8, (const PathWeights& a), (a), all_weights<8>(a))
 GEARPOD_KERNEL(heard_weights_16, (const PathWeights& a), (a), all_weights<16>(a))
 
-GEARPOD_SPARE_KERNEL(heard_mesh_1, (const HeardMesh& a), (a), hear<1>(a))
+GEARPOD_KERNEL(heard_mesh_1, (const HeardMesh& a), (a), hear<1>(a))
 GEARPOD_SPARE_KERNEL(heard_mesh_4, (const HeardMesh& a), (a), hear<4>(a))
 GEARPOD_KERNEL(heard_mesh_8, (const HeardMesh& a), (a), hear<8>(a))
 GEARPOD_KERNEL(heard_mesh_16, (const HeardMesh& a), (a), hear<16>(a))

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "signals/sensor/time_signal.hpp"
+#include "signals/sensor/heard_mesh.hpp"
 
 namespace gearpod::signals {
 namespace {
@@ -49,13 +49,15 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
         throw std::invalid_argument("sensor signal: tile, path and layout disagree in shape");
     }
     const std::size_t values = static_cast<std::size_t>(tile.phases) * tile.channels();
-    std::vector<double> whole_steps(path.positions() / 2 + 1), accel(values * lanes);
+    const std::size_t turn = static_cast<std::size_t>(path.positions()) * tile.planets;
+    std::vector<double> whole_steps(path.positions() / 2 + 1), of_phase(turn);
+    std::vector<double> accel(values * lanes);
     std::vector<std::vector<double>> weight, signal;
     std::vector<ToneTable> table;
     for (int n = 0; n < lanes; ++n) {
-        weight.emplace_back(static_cast<std::size_t>(path.positions()) * tile.phases *
-                            tile.planets);
-        all_path_weights(path, path_exponent[n], whole_steps.data(), weight.back().data());
+        weight.emplace_back(turn * tile.phases);
+        heard_weights_1(
+            {&path, &path_exponent[n], whole_steps.data(), of_phase.data(), weight.back().data()});
         signal.emplace_back(static_cast<std::size_t>(mesh_count) * tile.phases);
         table.emplace_back(of_lane(tones, tile.lanes, first + n), 1, first_mesh, mesh_count,
                            tile.phases);
@@ -65,12 +67,17 @@ std::vector<std::vector<double>> signals_of(const TileSignals& tile, int first,
         const double* mesh = tile.accel[timeline[k % static_cast<long>(timeline.size())]];
         copy_lanes({mesh, values * tile.lanes}, tile.lanes, first, accel);
         for (int n = 0; n < lanes; ++n) {
-            double* samples = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
-            mesh_signal(path, weight[n].data(), static_cast<int>(k % path.positions()),
-                        accel.data() + n * values, samples);
-            if (table[n].tones() > 0) {
-                add_tones(table[n], i, mesh_count, tile.phases, samples);
-            }
+            HeardMesh one;
+            one.path = &path;
+            one.carrier = static_cast<int>(k % path.positions());
+            one.weight = weight[n].data() +
+                         static_cast<std::size_t>(one.carrier) * tile.phases * tile.planets;
+            one.accel = accel.data() + n * values;
+            one.tones = table[n].tones() > 0 ? &table[n] : nullptr;
+            one.mesh = i;
+            one.meshes = mesh_count;
+            one.signal = signal[n].data() + static_cast<std::size_t>(i) * tile.phases;
+            heard_mesh_1(one);
         }
     }
     return signal;
