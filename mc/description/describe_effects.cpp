@@ -176,14 +176,19 @@ void print_meshes(const Study& study) {
                                       1e3 * study.gearbox.backlash_m.value_or(0.0)));
     }
     if (has_static_errors(study)) {
-        print_entry("transmission error", has_relief(study)
-                                              ? "relief and crowning under the nominal load, and "
-                                                "harmonics of the mesh period if given"
-                                              : "harmonics of the mesh period");
+        print_entry("transmission error", "harmonics of the mesh period");
     }
     if (has_tooth_errors(study)) {
         print_entry("tooth errors", tooth_errors(study));
-        print_entry("tooth pairs", "each pushes for itself and none pulls");
+    }
+    if (has_relief(study)) {
+        print_entry("relief", "a gap of each tooth pair along its path of contact");
+    }
+    if (study.effects.contact_onset == ContactOnset::extended) {
+        print_entry("contact onset", "extended: tip corners touch before and after the path");
+    }
+    if (has_unilateral_teeth(study)) {
+        print_entry("tooth pairs", "unilateral: each pushes and none pulls");
     }
     if (has_unlike_planets(study)) {
         print_entry("unlike planets", unlike_planets(study) + "; any horizon");
@@ -336,10 +341,14 @@ void print_left_out(const Scene& scene) {
     if (study.gearbox.kind == GearboxKind::planetary && !has_unlike_planets(study)) {
         print_entry("unlike planets", "pins in their places, bearings and masses alike");
     }
-    if (!has_static_errors(study) && !has_tooth_errors(study)) {
+    if (!has_static_errors(study) && !has_tooth_errors(study) && !has_relief(study)) {
         print_entry("transmission error", "perfect flanks");
     }
-    if (e.separation == Separation::none && !has_tooth_errors(study)) {
+    if (!stiffness_given(study) && e.contact_onset == ContactOnset::abrupt) {
+        print_entry("contact beyond the path",
+                    "effects.contact_onset = \"abrupt\": signals are too loud");
+    }
+    if (e.separation == Separation::none && !has_unilateral_teeth(study)) {
         print_entry("tooth separation", "the meshes are springs that always touch");
     }
 }

@@ -11,11 +11,11 @@ bool inertial(const Study& s) {
            s.gearbox.kind == GearboxKind::planetary;
 }
 bool separates(const Study& s) {
-    return s.effects.separation != Separation::none && !has_tooth_errors(s);
+    return s.effects.separation != Separation::none && !has_unilateral_teeth(s);
 }
 // A mesh that separates takes its errors along.
 bool has_errors(const Study& s) {
-    return has_static_errors(s) && !separates(s) && !has_tooth_errors(s);
+    return has_static_errors(s) && !separates(s) && !has_unilateral_teeth(s);
 }
 bool weighs(const Study& s) {
     return s.effects.gravity;
@@ -30,7 +30,7 @@ struct Cost {
 constexpr Cost kCosts[] = {{"inertial terms", inertial, 0.05, 0.0, 0.0},
                            {"transmission error", has_errors, 0.12, 0.20, 0.04},
                            {"tooth separation", separates, 0.21, 0.31, 0.13},
-                           {"tooth errors", has_tooth_errors, 0.8, 1.4, 0.4},
+                           {"unilateral teeth", has_unilateral_teeth, 0.8, 1.4, 0.4},
                            {"torque's sine", torque_has_sine, 0.10, 0.30, 0.29},
                            {"torque's noise", torque_has_noise, 0.15, 0.29, 0.34},
                            {"gravity", weighs, 0.19, 0.43, 0.12},

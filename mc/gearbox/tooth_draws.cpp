@@ -146,7 +146,9 @@ class LaneTeeth {
                     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
                     const double ratio = mesh.slice().contact_ratio();
                     const bool outwards = (which == teeth.driver) != pairs.reversed;
-                    return {0.5 * mesh.contact_ratio() - (pairs.pitch_phase(pair) - pairs.start[p]),
+                    const double middle = 0.5 * (mesh.path_begin() + mesh.path_end());
+                    const double since = pairs.reversed ? mesh.contact_ratio() - middle : middle;
+                    return {since - (pairs.pitch_phase(pair) - pairs.start[p]),
                             outwards ? ratio : -ratio};
                 }
             }

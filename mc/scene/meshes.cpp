@@ -1,9 +1,14 @@
 #include "mc/scene/meshes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "dynamics/helical_pair.hpp"
+#include "gears/tooth_deviations.hpp"
 #include "mc/scene/scene_error.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
+#include "stiffness/gapped_mesh.hpp"
 #include "stiffness/helical_mesh.hpp"
 #include "stiffness/square_wave_mesh.hpp"
 
@@ -59,19 +64,63 @@ void make_coupled(const Study& study, double force_N, SceneMesh& mesh) {
     }
 }
 
-std::unique_ptr<const stiffness::LoadedMesh> make_loaded(const Study& study, double force_N,
-                                                         const SceneMesh& mesh) {
-    const gears::FlankRelief one = relief_of(study, mesh.members.driver),
-                             two = relief_of(study, mesh.members.driven);
-    if (!mesh.geometry || !(one.any() || two.any())) {
-        return std::make_unique<const stiffness::LoadedMesh>(
-            *mesh.stiffness, [](double) { return 0.0; }, std::vector<double>{}, force_N);
+// A key's largest value, or that which one draw in a thousand exceeds; in SI units.
+double upper_value(const Study& study, const char* key, double given) {
+    const RandomInput* const random = study.find_random(key);
+    if (random == nullptr) {
+        return given;
     }
-    const gears::MeshGeometry& geometry = *mesh.geometry;
-    return std::make_unique<const stiffness::LoadedMesh>(
-        *mesh.stiffness,
-        [geometry, one, two](double tau) { return gears::relief_gap(geometry, one, two, tau); },
-        gears::relief_kinks(geometry, one, two), force_N, one.crowning_m + two.crowning_m);
+    const std::vector<double> levels = random->distribution.levels();
+    const double value = !levels.empty() ? *std::max_element(levels.begin(), levels.end())
+                         : random->distribution.has_quantile()
+                             ? random->distribution.quantile(0.999)
+                             : random->distribution.support().high;
+    return value * random->to_si;
+}
+
+// Single pitch errors that the teeth of a member may have, m: the tolerance of their grade, three
+// times a given rms, the largest measured deviation.
+double pitch_error_m(const Study& study, Member member) {
+    const MemberValues& body = study.gearbox.bodies[member];
+    double error = 3.0 * upper_value(study, "gearbox.pitch_error_um", study.errors.pitch_error_m);
+    if (has_tooth_quality(study)) {
+        const double grade = body.quality.value_or(
+            upper_value(study, "gearbox.tooth_quality", study.errors.tooth_quality.value_or(0.0)));
+        const gears::Gear gear = gear_of(study, member);
+        error += gears::tooth_tolerances(gear.module_m * normal_over_transverse(study.gearbox),
+                                         2.0 * gear.pitch_radius(), grade)
+                     .single_pitch;
+    }
+    for (const auto* measured : {&body.index_m, &body.ring_side_index_m}) {
+        for (const double deviation : *measured) {
+            error = std::max(error, std::abs(deviation));
+        }
+    }
+    return error;
+}
+
+// Corner gaps that an extended contact follows: three times the nominal approach, and four times
+// the pitch errors of both gears, so that teeth with errors start and end their contact smoothly
+// too.
+double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh) {
+    return 3.0 * force_N / mean_total(*mesh.stiffness) +
+           4.0 * (pitch_error_m(study, mesh.members.driver) +
+                  pitch_error_m(study, mesh.members.driven));
+}
+
+// Relief, crowning and extended contact. The slices of helical teeth get their gaps one by one.
+void add_gaps(const Study& study, double force_N, SceneMesh& mesh) {
+    constexpr int kSlices = 8;
+    stiffness::FlankGaps gaps{*mesh.geometry, relief_of(study, mesh.members.driver),
+                              relief_of(study, mesh.members.driven)};
+    if (study.effects.contact_onset == ContactOnset::extended) {
+        gaps.reach_m = corner_reach_m(study, force_N, mesh);
+    }
+    const double overlap = study.gearbox.helix_angle_rad > 0.0 ? overlap_ratio(study) : 0.0;
+    const bool crowned = gaps.relief_1.crowning_m + gaps.relief_2.crowning_m > 0.0;
+    const int asked = study.numerics.face_slices > 0 ? study.numerics.face_slices : kSlices;
+    mesh.stiffness = std::make_unique<const stiffness::GappedMesh>(
+        std::move(mesh.stiffness), overlap, gaps, force_N, overlap > 0.0 || crowned ? asked : 1);
 }
 
 }  // namespace
@@ -100,11 +149,13 @@ std::vector<SceneMesh> make_meshes(const Study& study, double force_N) {
                     study.numerics.stiffness_tolerance);
             }
         }
-        if (!stiffness_given(study) && study.gearbox.helix_angle_rad > 0.0) {
+        if (!stiffness_given(study) && has_flank_gaps(study)) {
+            add_gaps(study, force_N, mesh);
+        } else if (!stiffness_given(study) && study.gearbox.helix_angle_rad > 0.0) {
             mesh.stiffness = std::make_unique<const stiffness::HelicalMesh>(
                 std::move(mesh.stiffness), overlap_ratio(study));
         }
-        mesh.loaded = make_loaded(study, force_N, mesh);
+        mesh.loaded = std::make_unique<const stiffness::LoadedMesh>(*mesh.stiffness, force_N);
         meshes.push_back(std::move(mesh));
     }
     return meshes;

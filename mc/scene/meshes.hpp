@@ -1,4 +1,4 @@
-// The stiffness of a study's healthy gear pairs.
+// Mesh stiffness of a study's healthy gear pairs.
 #pragma once
 
 #include <memory>
@@ -20,23 +20,23 @@ struct SceneMesh {
     MeshMembers members;
     std::optional<gears::MeshGeometry> geometry;
     std::unique_ptr<const stiffness::MeshStiffness> stiffness;
-    // Under what a pair carries on average, with the gears' relief.
+    // Quasi-static contact under the mean force of a pair, with the flanks' gaps.
     std::unique_ptr<const stiffness::LoadedMesh> loaded;
-    // Of either gear, if the mesh has one.
+    // Elastic body of either gear, if the mesh has one.
     const stiffness::FilletFoundation* body[2] = {nullptr, nullptr};
 };
 
-// The circle on which a gear's body is held: half of the diameter given, 0 if none is.
+// Radius of the circle on which a gear's body is held; 0 if the study gives none.
 double body_radius_m(const Study& study, Member member);
 
-// One for each of meshes_of(kind); `force_N` is what a pair carries on average, for contacts that
-// stiffen with it and for relief. Throws SceneError.
+// One mesh for each of meshes_of(kind). force_N: mean force of a pair, for contacts that stiffen
+// with it and for the flanks' gaps. Throws SceneError.
 std::vector<SceneMesh> make_meshes(const Study& study, double force_N);
 
-// All pairs of the gearbox and their phases.
+// All gear pairs of the gearbox and their phases.
 lockstep::PairSet make_pairs(const std::vector<SceneMesh>& meshes, const Drive& drive);
 
-// Mean stiffness of all pairs of a gearbox of constant stiffness, N/m; also without teeth.
+// Mean stiffness of all pairs of a gearbox with constant stiffness, N/m; also without teeth.
 std::vector<double> constant_pairs(const Study& study);
 
 }  // namespace gearpod::mc

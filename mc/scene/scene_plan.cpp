@@ -52,8 +52,8 @@ class Planner {
         march.integrator = plan_.stepping.integrator;
         march.precision = study_.numerics.precision;
         march.te_weight = drive_.te_weight(march.layout);
-        if (has_tooth_errors(study_)) {
-            march.mesh_law = dynamics::MeshLaw::pushing;
+        if (has_unilateral_teeth(study_)) {
+            march.mesh_law = dynamics::MeshLaw::unilateral;
         } else if (study_.effects.separation != Separation::none) {
             march.mesh_law = dynamics::MeshLaw::separating;
         } else if (has_static_errors(study_)) {
@@ -67,7 +67,7 @@ class Planner {
         lockstep::MarchPlan march = plan_.march;
         march.grid = std::move(grid);
         march.nodes = lockstep::tabulate(pairs, march.grid, study_.effects.mesh_damping);
-        if (march.mesh_law == dynamics::MeshLaw::pushing) {
+        if (march.mesh_law == dynamics::MeshLaw::unilateral) {
             add_tooth_pairs(march);
         }
         if (march.mesh_law != dynamics::MeshLaw::linear) {
@@ -75,29 +75,17 @@ class Planner {
                 static_cast<std::size_t>(drive_.pairs_per_mesh()), first_errors());
             errors.resize(static_cast<std::size_t>(pairs.pairs()), second_errors());
             lockstep::add_errors(pairs, march.grid, errors, march.nodes);
-            add_relief(march);
         }
         return march;
-    }
-
-    void add_relief(lockstep::MarchPlan& march) const {
-        if (!has_relief(study_)) {
-            return;
-        }
-        std::vector<const stiffness::LoadedMesh*> loaded;
-        for (const SceneMesh& mesh : stiffness_.meshes()) {
-            loaded.insert(loaded.end(), static_cast<std::size_t>(drive_.pairs_per_mesh()),
-                          mesh.loaded.get());
-        }
-        lockstep::add_relief(stiffness_.pairs(), march.grid, loaded, march.nodes);
     }
 
     void add_tooth_pairs(lockstep::MarchPlan& march) const {
         try {
             lockstep::add_tooth_pairs(stiffness_.pairs(), march.grid, march.nodes);
         } catch (const std::invalid_argument& error) {
-            throw SceneError("gearbox.addendum_coefficient", error.what(),
-                             "give no tooth errors, or teeth that touch fewer at a time");
+            throw SceneError(
+                "gearbox.addendum_coefficient", error.what(),
+                "use teeth of which fewer are in contact at a time, or fewer face_slices");
         }
     }
 

@@ -52,7 +52,9 @@ std::string why_not_superposed(const Study& study) {
     return study.effects.quasi_static() ? "a gearbox without inertia is solved, not marched"
            : driven_unevenly(study)     ? "torque, speed or weight vary"
            : !has_tooth_errors(study)   ? "no tooth has errors of its own"
-                                        : "";
+           : study.effects.contact_onset == ContactOnset::extended
+               ? "tooth pairs come into contact gradually, which no sum describes"
+               : "";
 }
 
 }  // namespace gearpod::mc

@@ -75,8 +75,7 @@ bool any_random(const Study& study, std::initializer_list<const char*> keys) {
 
 bool has_static_errors(const Study& study) {
     const MeshErrors& e = study.errors;
-    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty() ||
-           has_relief(study);
+    return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
 }
 
 bool has_tooth_quality(const Study& study) {
@@ -247,6 +246,14 @@ gears::FlankRelief relief_of(const Study& study, Member member) {
 bool has_relief(const Study& study) {
     return std::any_of(kAllMembers.begin(), kAllMembers.end(),
                        [&](Member member) { return relief_of(study, member).any(); });
+}
+
+bool has_flank_gaps(const Study& study) {
+    return has_relief(study) || study.effects.contact_onset == ContactOnset::extended;
+}
+
+bool has_unilateral_teeth(const Study& study) {
+    return has_tooth_errors(study) || has_flank_gaps(study);
 }
 
 double working_angle_rad(const Study& study, MeshKind mesh) {

@@ -50,13 +50,17 @@ gears::PlanetRoom planet_room(const Study& study);
 // What is ground off a member's flanks, and whether anything is off anyone's.
 gears::FlankRelief relief_of(const Study& study, Member member);
 bool has_relief(const Study& study);
+// True if tooth pairs have gaps that all gearboxes share: relief, crowning or extended contact.
+bool has_flank_gaps(const Study& study);
+// True if the meshes are computed tooth pair by tooth pair, each of which pushes and does not pull.
+bool has_unilateral_teeth(const Study& study);
 // Of a mesh in the plane in which the gears turn. The study must have gears.
 double working_angle_rad(const Study& study, MeshKind mesh);
 
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.
 bool stiffness_given(const Study& study);
 
-// Whether any mesh has a static transmission error: harmonics, or relief under load.
+// True if any mesh has a static transmission error given by its harmonics.
 bool has_static_errors(const Study& study);
 // Whether the teeth of any gearbox have errors of their own; a quality that says how large;
 // measured ones.

@@ -32,6 +32,7 @@ struct Numerics {
     bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: as close as they can be
+    int face_slices = 0;               // across a face whose gaps vary; 0: chosen
     int max_meshes = 0;                // 0: from the damping
     Horizon horizon = Horizon::reuse;
     int lanes = full_lanes(Precision::double_precision);     // of its precision, 8, 4 or 1

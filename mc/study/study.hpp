@@ -35,6 +35,8 @@ enum class MeshKind { sun_planet, ring_planet, pinion_gear };
 inline constexpr std::size_t kMeshKinds = 3;
 enum class Motion { translational_torsional, torsional, quasi_static, quasi_static_torsional };
 enum class Separation { none, one_sided, two_sided };
+// Start and end of tooth contact: with the nominal path, or also at the tip corners beyond it.
+enum class ContactOnset { abrupt, extended };
 using Foundation = stiffness::FoundationModel;
 using dynamics::MeshDamping;
 using stiffness::Contact;
@@ -195,6 +197,7 @@ struct Effects {
     Contact contact = Contact::linear;
     bool shear = true;  // shear energy of the teeth
     Separation separation = Separation::none;
+    ContactOnset contact_onset = ContactOnset::abrupt;
     bool inertial_terms = true;
     MeshDamping mesh_damping = MeshDamping::ratio;
     bool gravity = false;

@@ -28,11 +28,13 @@ struct FixedShaftMotions {
     static GEARPOD_INLINE void accelerations(const Lanes& p, const Real* __restrict q,
                                              const Real* __restrict v, const Pairs& pairs,
                                              Real* __restrict a) {
+        const auto deflection = [](const Real* z, int l) {
+            return (at(z, u_1, l) - at(z, u_2, l)) - (at(z, y_1, l) - at(z, y_2, l));
+        };
+        const auto teeth = pair_force<Mesh, W>(pairs, 0, deflection, q, v);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const Real d = (at(q, u_1, l) - at(q, u_2, l)) - (at(q, y_1, l) - at(q, y_2, l));
-            const Real r = (at(v, u_1, l) - at(v, u_2, l)) - (at(v, y_1, l) - at(v, y_2, l));
-            const Real mesh = Mesh::force(pairs, l, l, d, r);
+            const Real mesh = teeth(pairs, 0, l, q, v);
             const Real motor =
                 spring_damper(p.coupling_stiffness[pinion][l], at(q, u_m, l) - at(q, u_1, l),
                               p.coupling_damping[pinion][l], at(v, u_m, l) - at(v, u_1, l));

@@ -72,16 +72,18 @@ struct TorsionalMotion {
                                              Real* __restrict f) {
         const Real cs = p.cos_sun_mesh, cr = p.cos_ring_mesh, ratio = p.ring_over_sun_cosine;
         const int o = (3 + n) * W;
-        const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
+        const auto sun_deflection = [=](const Real* z, int l) {
+            return std::fma(-z[l], cs, z[2 * W + l] + z[o + l]);
+        };
+        const auto ring_deflection = [=](const Real* z, int l) {
+            return std::fma(-z[l], cr, z[W + l] - z[o + l]);
+        };
+        const auto sun = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
+        const auto ring = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const Real u = q[o + l], vu = v[o + l];
-            const Real f_sun =
-                Mesh::force(pairs, sun_mesh + l, l, std::fma(-q[l], cs, q[2 * W + l] + u),
-                            std::fma(-v[l], cs, v[2 * W + l] + vu));
-            const Real f_ring =
-                Mesh::force(pairs, ring_mesh + l, l, std::fma(-q[l], cr, q[W + l] - u),
-                            std::fma(-v[l], cr, v[W + l] - vu));
+            const Real f_sun = sun(pairs, n, l, q, v);
+            const Real f_ring = ring(pairs, p.planets + n, l, q, v);
             f[l] = std::fma(std::fma(f_ring, ratio, f_sun), cs, f[l]);
             f[W + l] -= f_ring;
             f[2 * W + l] -= f_sun;

@@ -84,32 +84,33 @@ struct TranslationalMotion {
         }
     }
 
-    // Both meshes and the bearing of planet n: finishes its accelerations and adds the reactions to
-    // the forces on carrier, ring and sun.
+    // Both meshes and the bearing of planet n: completes its accelerations and adds the reactions
+    // to the forces on carrier, ring and sun.
     static GEARPOD_INLINE void planet_forces(const Lanes& p, int n, const Real* __restrict q,
                                              const Real* __restrict v, const Pairs& pairs,
                                              Real* __restrict f) {
-        const int sun_mesh = n * W, ring_mesh = (p.planets + n) * W;
         const int o = (9 + 3 * n) * W;
         const Real cs = p.cos_sun[n], ss = p.sin_sun[n];
         const Real cr = p.cos_ring[n], sr = p.sin_ring[n];
         const Real cp = p.cos_psi[n], sp = p.sin_psi[n];
+        const auto sun_deflection = [=](const Real* z, int l) {
+            return std::fma(
+                z[6 * W + l] - z[o + l], cs,
+                std::fma(z[7 * W + l] - z[o + W + l], ss, z[8 * W + l] + z[o + 2 * W + l]));
+        };
+        const auto ring_deflection = [=](const Real* z, int l) {
+            return std::fma(
+                z[3 * W + l] - z[o + l], cr,
+                std::fma(z[4 * W + l] - z[o + W + l], sr, z[5 * W + l] - z[o + 2 * W + l]));
+        };
+        const auto sun = pair_force<Mesh, W>(pairs, n, sun_deflection, q, v);
+        const auto ring = pair_force<Mesh, W>(pairs, p.planets + n, ring_deflection, q, v);
 #pragma omp simd
         for (int l = 0; l < W; ++l) {
-            const Real x = q[o + l], y = q[o + W + l], u = q[o + 2 * W + l];
-            const Real vx = v[o + l], vy = v[o + W + l], vu = v[o + 2 * W + l];
-
-            const Real d_sun =
-                std::fma(q[6 * W + l] - x, cs, std::fma(q[7 * W + l] - y, ss, q[8 * W + l] + u));
-            const Real r_sun =
-                std::fma(v[6 * W + l] - vx, cs, std::fma(v[7 * W + l] - vy, ss, v[8 * W + l] + vu));
-            const Real f_sun = Mesh::force(pairs, sun_mesh + l, l, d_sun, r_sun);
-
-            const Real d_ring =
-                std::fma(q[3 * W + l] - x, cr, std::fma(q[4 * W + l] - y, sr, q[5 * W + l] - u));
-            const Real r_ring =
-                std::fma(v[3 * W + l] - vx, cr, std::fma(v[4 * W + l] - vy, sr, v[5 * W + l] - vu));
-            const Real f_ring = Mesh::force(pairs, ring_mesh + l, l, d_ring, r_ring);
+            const Real x = q[o + l], y = q[o + W + l];
+            const Real vx = v[o + l], vy = v[o + W + l];
+            const Real f_sun = sun(pairs, n, l, q, v);
+            const Real f_ring = ring(pairs, p.planets + n, l, q, v);
 
             const Real kb = p.bearing_stiffness[planet + n][l];
             const Real cb = p.bearing_damping[planet + n][l];

@@ -1,7 +1,9 @@
 #include "stiffness/mesh_stiffness.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <functional>
 
 #include "stiffness/teeth/position_range.hpp"
 #include "stiffness/teeth/stretch.hpp"
@@ -30,6 +32,15 @@ double limit_at(const Mesh& mesh, std::span<const double> transitions,
 }
 
 }  // namespace
+
+void MeshStiffness::slice_stiffness(int /*slice*/, std::span<const double> tau, double inside,
+                                    std::span<double> stiffness) const {
+    std::vector<double> shares(tau.size());
+    total(tau, inside, stiffness);
+    share(tau, inside, shares);
+    std::transform(stiffness.begin(), stiffness.end(), shares.begin(), stiffness.begin(),
+                   std::multiplies<>());
+}
 
 std::shared_ptr<const FaultyMesh> faulty_mesh(const MeshStiffness& mesh,
                                               std::unique_ptr<const ToothFault> fault) {

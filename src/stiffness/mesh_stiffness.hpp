@@ -1,5 +1,5 @@
-// What the march sees of one gear pair: the stiffness of all its tooth pairs together, healthy or
-// while a faulty tooth passes.
+// Mesh stiffness of one gear pair: of all its tooth pairs together and of each, healthy or while a
+// faulty tooth passes.
 //
 // Positions tau count mesh periods since one tooth pair began to engage; the pairs that engaged
 // before and after it stand at tau + 1, tau - 1 and so on. A stretch is an interval of tau in which
@@ -16,7 +16,7 @@
 
 namespace gearpod::stiffness {
 
-// A gear pair while a fault passes. Immutable.
+// A gear pair while a faulty tooth passes. Immutable.
 class FaultyMesh {
   public:
     virtual ~FaultyMesh() = default;
@@ -31,6 +31,11 @@ class FaultyMesh {
     // works these out when they are first asked for.
     virtual void tooth_pair(int tooth, std::span<const double> tau, double inside,
                             std::span<double> stiffness) const = 0;
+    // Stiffness of one slice of that tooth pair (MeshStiffness::slices).
+    virtual void slice_stiffness(int tooth, int /*slice*/, std::span<const double> tau,
+                                 double inside, std::span<double> stiffness) const {
+        tooth_pair(tooth, tau, inside, stiffness);
+    }
     // Positions, ascending, at which the fault's own law makes the total jump.
     virtual std::vector<double> jumps() const { return {}; }
 };
@@ -43,23 +48,37 @@ class MeshStiffness {
     virtual double contact_ratio() const = 0;
     // Mesh periods from the start of an engagement to the contact at the pitch point.
     virtual double pitch_position() const = 0;
-    // Where on its flank a tooth pair is touched on average at tau: -1/2 to 1/2 from its one end to
-    // the other. Of spur teeth linear in tau.
+    // Position of the contact on the flank, averaged over the face: -1/2 at the start of the path
+    // of contact, 1/2 at its end. Linear in tau for spur teeth.
     virtual double flank_place(double tau) const { return tau / contact_ratio() - 0.5; }
-    // The spur pair that the slices of a helical one are, as wide as all of them; a spur pair
-    // itself.
+    // The nominal path of contact, in positions tau: all of the engagement unless teeth may touch
+    // before and after it (gapped_mesh.hpp).
+    virtual double path_begin() const { return 0; }
+    virtual double path_end() const { return contact_ratio(); }
+    // Spur pair of which the slices of a helical pair are made, as wide as all of them; a spur pair
+    // returns itself.
     virtual const MeshStiffness& slice() const { return *this; }
     // Total stiffness, N/m, at ascending positions within one stretch.
     virtual void total(std::span<const double> tau, double inside,
                        std::span<double> stiffness) const = 0;
-    // The part of the load, 0 to 1, that the tooth pair at tau carries; 0 outside its engagement.
+    // Load share, 0 to 1, of the tooth pair at tau; 0 outside its engagement.
     virtual void share(std::span<const double> tau, double inside,
                        std::span<double> share) const = 0;
-    // Phases in [0, 1), ascending, that bound the stretches: where tooth pairs begin or cease to
-    // touch, and where the total kinks. The first is 0, the start of an engagement.
+    // Slices across the face into which a tooth pair is cut where its gap varies across it.
+    virtual int slices() const { return 1; }
+    // True if tooth pairs have gaps of their own: relief, crowning or corner contact.
+    virtual bool has_gaps() const { return false; }
+    // One slice of the tooth pair at tau: stiffness in N/m (0 outside its engagement), gap in m and
+    // position on the flank (flank_place).
+    virtual void slice_stiffness(int slice, std::span<const double> tau, double inside,
+                                 std::span<double> stiffness) const;
+    virtual double slice_gap(int /*slice*/, double /*tau*/) const { return 0; }
+    virtual double slice_place(int /*slice*/, double tau) const { return flank_place(tau); }
+    // Phases in [0, 1), ascending, that bound the stretches: where tooth pairs start or end their
+    // engagement, and where the total has a kink. The first is 0, the start of an engagement.
     virtual std::vector<double> transitions() const = 0;
-    // The pair with that fault on one of its gears. Mesh and fault must outlive the result. Throws
-    // std::invalid_argument if the model does not know what the fault changes.
+    // The same pair with a fault on one of its gears. Mesh and fault must outlive the result.
+    // Throws std::invalid_argument if the model cannot represent what the fault changes.
     virtual std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const = 0;
 };
 

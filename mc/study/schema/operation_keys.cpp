@@ -21,6 +21,8 @@ constexpr ChoiceName kContacts[] = {name("linear", Contact::linear),
 constexpr ChoiceName kSeparations[] = {name("none", Separation::none),
                                        name("one-sided", Separation::one_sided),
                                        name("two-sided", Separation::two_sided)};
+constexpr ChoiceName kOnsets[] = {name("abrupt", ContactOnset::abrupt),
+                                  name("extended", ContactOnset::extended)};
 constexpr ChoiceName kDampings[] = {name("ratio", MeshDamping::ratio),
                                     name("proportional", MeshDamping::proportional),
                                     name("constant", MeshDamping::constant)};
@@ -69,6 +71,7 @@ const Key kOperationKeys[] = {
     {"effects", "motion", choice<&Effects::motion>(kMotions), kNone, kAny, may, kShared, "degrees of freedom"},
     {"effects", "foundation", choice<&Effects::foundation>(kFoundations), kNone, kAny, tooth_model, kShared, "compliance of the gear bodies under the teeth"},
     {"effects", "contact", choice<&Effects::contact>(kContacts), kNone, kAny, tooth_model, kShared, "law of the contact between teeth"},
+    {"effects", "contact_onset", choice<&Effects::contact_onset>(kOnsets), kNone, kAny, tooth_model, kShared, "start and end of tooth contact: abrupt, with the full stiffness at the ends of the nominal path of contact, or extended, when the deflected gears close the gap that the tip corners leave before and after it"},
     {"effects", "shear", boolean<&Effects::shear>, kNone, kAny, tooth_model, kShared, "shear energy of the teeth"},
     {"effects", "separation", choice<&Effects::separation>(kSeparations), kNone, kAny, may, kShared, "whether teeth lose contact: one-sided, or two-sided with contact of the back flanks"},
     {"effects", "inertial_terms", boolean<&Effects::inertial_terms>, kNone, kAny, planetary<may>, kShared, "Coriolis and centrifugal terms of the turning carrier"},

@@ -122,6 +122,14 @@ Presence relief_shape(const Study& s) {
     return any ? kOptional : Presence{Need::forbidden, "only with tip or root relief", {}};
 }
 
+Presence flank_gaps(const Study& s) {
+    return has_flank_gaps(s)
+               ? kOptional
+               : Presence{Need::forbidden,
+                          "only with relief, crowning or effects.contact_onset = \"extended\"",
+                          {}};
+}
+
 Presence relief_length(const Study& s, Member member, std::string_view end) {
     const MemberValues& body = s.gearbox.bodies[member];
     const auto& amount = end == "tip" ? body.tip_relief_m : body.root_relief_m;

@@ -39,6 +39,7 @@ Presence tooth_numbers(const Study&);       // unless the stiffness is constant
 Presence tooth_module(const Study&);        // as these; a fixed-shaft gearbox always needs it
 Presence shifted_teeth(const Study&);       // only if the gears are known
 Presence relief_shape(const Study&);        // only with relief
+Presence flank_gaps(const Study&);          // only with relief, crowning or extended contact
 Presence tooth_body(const Study&);          // unless the stiffness is given
 Presence tooth_model(const Study&);         // only if it is not
 Presence constant_stiffness(const Study&);  // only if it is

@@ -113,6 +113,7 @@ const Key kRunKeys[] = {
     {"numerics", "steps_per_mesh", integer<&Numerics::steps_per_mesh>, kNone, from_to(0, 1e6), integration, kShared, "time steps in a mesh period; 0: as many as a pilot of the ensemble needs"},
     {"numerics", "settle_tolerance", number<&Numerics::settle_tolerance>, kNone, inside(0, 1), integration, kShared, "relative change at which an orbit has settled"},
     {"numerics", "stiffness_tolerance", number<&Numerics::stiffness_tolerance>, kNone, kTolerance, may, kShared, "share of the largest value that the stiffness curves' terms may leave out; 0: 1e-13, of a faulty tooth pair 4e-10"},
+    {"numerics", "face_slices", integer<&Numerics::face_slices>, kNone, from_to(0, 16), flank_gaps, kShared, "slices of a tooth across the face, each with a gap of its own, where teeth are helical or crowned and have relief, crowning or an extended contact; 0: 8"},
     {"numerics", "max_meshes", integer<&Numerics::max_meshes>, kNone, from_to(0, 1e6), integration, kShared, "mesh periods in which it must settle; 0: from the damping"},
     {"numerics", "horizon", choice<&Numerics::horizon>(kHorizons), kNone, kAny, may, kShared, "reuse settled meshes, superpose what each gear's tooth errors do, or march all"},
     {"numerics", "lanes", integer<&Numerics::lanes>, kNone, from_to(1, 16), may, kShared, "gearboxes in lockstep: 8, 4 or 1; in single precision also 16, the default there"},

@@ -1,14 +1,14 @@
-// What force a tooth mesh answers to its deflection d and the rate r of it; one struct a law. The
-// force presses the teeth together. e is the static transmission error of the pair, the gap that
-// unloaded perfect rotation would leave between its flanks, in metres along the line of action.
+// Force of a tooth mesh as a function of its deflection d and the rate r of it, one struct per law.
+// A positive force presses the teeth together. e is the static transmission error of the pair: the
+// gap between its flanks in unloaded perfect rotation, in metres along the line of action.
 //
-// Yang (2022), Eqs. 71-72, but a mesh out of contact gives no damping force either; Ambarisha and
-// Parker (2007) for the law without back contact.
+// Sources: Yang (2022), Eqs. 71-72, except that a mesh out of contact has no damping force either;
+// Ambarisha and Parker (2007) for the law without back contact.
 //
-// Where the tooth pairs of a mesh differ, each pushes for itself and none pulls: with stiffness k_j
-// and gap e_j of its own a tooth pair carries k_j (d - e - e_j) while that is positive (the thin-
-// slice and contact models of Velex and Maatar, J. Sound Vib. 191, 1996, with one slice a pair).
-// Pairs coupled through elastic gear bodies have the k_j of all of them in contact.
+// Unilateral contact: each tooth pair, or each slice of it, is a spring that pushes and does not
+// pull. With stiffness k_j and gap e_j it carries k_j max(0, d - e - e_j) (the thin-slice and
+// contact models of Velex and Maatar, J. Sound Vib. 191, 1996). Pairs coupled through elastic gear
+// bodies have the k_j of all of them in contact.
 #pragma once
 
 #include <limits>
@@ -17,9 +17,11 @@
 
 namespace gearpod::dynamics {
 
-// with_error: k (d - e) + c (d' - e'). separating: the same while d - e > 0; nothing in the gap; on
-// the back flanks k (d - e + 2b) + c (d' - e') once d - e < -2b. pushing: the front's force is the
-// sum of k_j max(0, d - e - e_j), with c (d' - e') while any of its tooth pairs pushes.
+// with_error: k (d - e) + c (d' - e').
+// separating: the same while d - e > 0; nothing in the gap; on the back flanks k (d - e + 2b) +
+// c (d' - e') once d - e < -2b.
+// unilateral: on the front flanks the sum of k_j max(0, d - e - e_j), with c (d' - e') while any
+// spring pushes; on the back flanks as separating.
 enum class MeshLaw {
 #define GEARPOD_MESH_LAW(NAME, ...) NAME,
 #include "dynamics/effects/mesh_laws.def"
@@ -29,22 +31,23 @@ enum class MeshLaw {
 // Backlash 2b of a mesh that never touches on its back flanks.
 inline constexpr double kNoBackContact = std::numeric_limits<double>::infinity();
 
-// Tooth pairs of a gear pair that may touch at once under the law `pushing`.
-inline constexpr int kMostToothPairs = 3;
+// Tooth pairs of a gear pair that may be engaged at once under unilateral contact, and springs of
+// all of them and their slices.
+inline constexpr int kMostToothPairs = 8;
+inline constexpr int kMostContacts = 48;
 
-// Whether flanks part under that law.
+// True if flanks may part under that law.
 constexpr bool separates(MeshLaw law) {
-    return law == MeshLaw::separating || law == MeshLaw::pushing;
+    return law == MeshLaw::separating || law == MeshLaw::unilateral;
 }
 
-// Of each law: whether it knows an error of the pair, whether flanks part, and whether it knows the
-// tooth pairs one by one.
+// Each law states whether it has an error of the pair, whether flanks may part, and whether it has
+// single tooth pairs. `Pairs` holds the data of all gear pairs at one moment, [pair][lane].
 struct LinearMesh {
     static constexpr bool kHasError = false;
     static constexpr bool kSeparates = false;
     static constexpr bool kHasTeeth = false;
 
-    // Of all pairs at one moment: [pair][lane].
     template <int kPairs, int W, class Real = double>
     struct alignas(64) Pairs {
         Real k[kPairs * W], c[kPairs * W];
@@ -94,8 +97,8 @@ struct SeparatingMesh {
     }
 };
 
-// A sum of springs over the tooth pairs; k and c are the totals.
-struct PushingMesh {
+// Sum of springs over the tooth pairs; k and c are the totals.
+struct UnilateralContact {
     static constexpr bool kHasError = true;
     static constexpr bool kSeparates = true;
     static constexpr bool kHasTeeth = true;
@@ -105,28 +108,82 @@ struct PushingMesh {
         static constexpr int kRows = kPairs * W;
         Real k[kRows], c[kRows];
         Real e[kRows], de[kRows];
-        // [tooth pair][pair][lane], N/m and m; no stiffness where none touches.
-        Real tooth_k[kMostToothPairs * kRows], tooth_e[kMostToothPairs * kRows];
-        // What tooth_e is made from, the same during the steps [kept_from, kept_until): the gap in
-        // the middle of an engagement, and how much it grows along it, m.
+        // [contact][pair][lane], N/m and m; the stiffness is 0 where none is engaged.
+        Real tooth_k[kMostContacts * kRows], tooth_e[kMostContacts * kRows];
+        // Constant during the steps [kept_from, kept_until): gap of a tooth pair in the middle of
+        // its path of contact, and by how much it grows along the path, m.
         Real gap[kMostToothPairs * kRows], growth[kMostToothPairs * kRows];
         Real backlash[W];
+        int contacts = 1;  // in use
         int kept_from = 0, kept_until = 0;
     };
-    template <class Pairs, class Real>
-    static GEARPOD_INLINE Real force(const Pairs& m, int i, int lane, Real d, Real r) {
+    // Forces of one gear pair in all lanes, N, from its deflections and their rates, [lane].
+    template <int W, class Pairs, class Real>
+    static GEARPOD_INLINE void forces(const Pairs& m, int pair, const Real* __restrict d,
+                                      const Real* __restrict r, Real* __restrict f) {
         const Real none = 0;
-        const Real front = d - m.e[i];
-        Real pressed = none;  // N
-        for (int j = kMostToothPairs - 1; j >= 0; --j) {
-            const Real own = front - m.tooth_e[j * Pairs::kRows + i];
-            pressed = std::fma(m.tooth_k[j * Pairs::kRows + i], own > none ? own : none, pressed);
+        alignas(64) Real front[W];
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            front[l] = d[l] - m.e[pair * W + l];
+            f[l] = none;
         }
-        const Real back = front + m.backlash[lane];
-        pressed = back < none ? std::fma(m.k[i], back, pressed) : pressed;
-        const Real rate = pressed != none ? r - m.de[i] : none;
-        return std::fma(m.c[i], rate, pressed);
+        for (int j = m.contacts - 1; j >= 0; --j) {
+            const Real* __restrict k = m.tooth_k + j * Pairs::kRows + pair * W;
+            const Real* __restrict gap = m.tooth_e + j * Pairs::kRows + pair * W;
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                const Real own = front[l] - gap[l];
+                f[l] = std::fma(k[l], own > none ? own : none, f[l]);
+            }
+        }
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const int i = pair * W + l;
+            const Real back = front[l] + m.backlash[l];
+            const Real pressed = back < none ? std::fma(m.k[i], back, f[l]) : f[l];
+            const Real rate = pressed != none ? r[l] - m.de[i] : none;
+            f[l] = std::fma(m.c[i], rate, pressed);
+        }
     }
 };
+
+// Force of one gear pair in a loop over lanes. Unilateral contact computes all lanes beforehand,
+// tooth pair by tooth pair; the other laws compute a lane where it is needed. deflection(x, lane)
+// gives the pair's deflection from positions and its rate from velocities.
+template <class Mesh, int W, class Real, class Deflection>
+struct PairForce {
+    const Deflection& deflection;
+    alignas(64) Real ready[Mesh::kHasTeeth ? W : 1];
+
+    template <class Pairs>
+    GEARPOD_INLINE PairForce(const Pairs& m, int pair, const Deflection& deflection_of,
+                             const Real* __restrict q, const Real* __restrict v)
+        : deflection(deflection_of) {
+        if constexpr (Mesh::kHasTeeth) {
+            alignas(64) Real d[W], r[W];
+#pragma omp simd
+            for (int l = 0; l < W; ++l) {
+                d[l] = deflection(q, l);
+                r[l] = deflection(v, l);
+            }
+            Mesh::template forces<W>(m, pair, d, r, ready);
+        }
+    }
+    template <class Pairs>
+    GEARPOD_INLINE Real operator()(const Pairs& m, int pair, int l, const Real* __restrict q,
+                                   const Real* __restrict v) const {
+        if constexpr (Mesh::kHasTeeth) {
+            return ready[l];
+        } else {
+            return Mesh::force(m, pair * W + l, l, deflection(q, l), deflection(v, l));
+        }
+    }
+};
+template <class Mesh, int W, class Pairs, class Deflection, class Real>
+GEARPOD_INLINE auto pair_force(const Pairs& m, int pair, const Deflection& deflection,
+                               const Real* q, const Real* v) {
+    return PairForce<Mesh, W, Real, Deflection>(m, pair, deflection, q, v);
+}
 
 }  // namespace gearpod::dynamics

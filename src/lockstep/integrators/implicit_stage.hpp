@@ -277,28 +277,35 @@ GEARPOD_INLINE int part(int i, const double* __restrict front, StageScratch<Mode
     return changes;
 }
 
-// Likewise of tooth pairs that push each for itself: together those that do are a spring t.held
-// that pulls by t.preload (N) where the mesh is at its error; t.touching is 1 if any does.
+// The same for unilateral contact: the springs that push are together a spring t.held with a
+// preload of t.preload (N) at the mesh's error; t.touching is 1 if any pushes.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Model>& t) {
     constexpr int kRows = StageScratch<Model>::kRows;
+    alignas(64) double held[W], preload[W];
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
+        held[l] = behind ? t.pairs.k[i + l] : 0.0;
+        preload[l] = behind ? -t.pairs.k[i + l] * t.pairs.backlash[l] : 0.0;
+    }
+    for (int j = 0; j < t.pairs.contacts; ++j) {
+        const double* __restrict k = t.pairs.tooth_k + j * kRows + i;
+        const double* __restrict e = t.pairs.tooth_e + j * kRows + i;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double own = front[l] > e[l] ? k[l] : 0.0;
+            held[l] += own;
+            preload[l] = std::fma(own, e[l], preload[l]);
+        }
+    }
     int changes = 0;
 #pragma omp simd reduction(| : changes)
     for (int l = 0; l < W; ++l) {
-        const bool behind = front[l] + t.pairs.backlash[l] < 0.0;
-        double held = behind ? t.pairs.k[i + l] : 0.0;
-        double preload = behind ? -t.pairs.k[i + l] * t.pairs.backlash[l] : 0.0;
-        for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
-            const double k = t.pairs.tooth_k[j * kRows + i + l];
-            const double e = t.pairs.tooth_e[j * kRows + i + l];
-            const double own = front[l] > e ? k : 0.0;
-            held += own;
-            preload = std::fma(own, e, preload);
-        }
-        const double touching = held > 0.0 ? 1.0 : 0.0;
-        changes |= held != t.held[i + l] || preload != t.preload[i + l] ? 1 : 0;
-        t.held[i + l] = held;
-        t.preload[i + l] = preload;
+        const double touching = held[l] > 0.0 ? 1.0 : 0.0;
+        changes |= held[l] != t.held[i + l] || preload[l] != t.preload[i + l] ? 1 : 0;
+        t.held[i + l] = held[l];
+        t.preload[i + l] = preload[l];
         t.touching[i + l] = touching;
     }
     return changes;

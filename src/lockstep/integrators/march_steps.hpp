@@ -71,18 +71,19 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
-// The rows that stay as they are from this step to the next at which other teeth touch.
+// Rows that stay constant from this step to the next at which other teeth are engaged.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overrides, int step,
                               typename Model::Pairs& m) {
     using Real = RealOf<Model>;
     constexpr int kRows = Model::Pairs::kRows;
-    constexpr int kAll = dynamics::kMostToothPairs * kRows;
+    const int teeth = std::max(1, plan.nodes.tooth_pairs);
+    m.contacts = teeth * plan.nodes.slices;
     clear_errors<Model>(m);
-    std::fill_n(m.tooth_k, kAll, Real(0));
-    std::fill_n(m.tooth_e, kAll, Real(0));
-    std::fill_n(m.gap, kAll, Real(0));
-    std::fill_n(m.growth, kAll, Real(0));
+    std::fill_n(m.tooth_k, m.contacts * kRows, Real(0));
+    std::fill_n(m.tooth_e, m.contacts * kRows, Real(0));
+    std::fill_n(m.gap, teeth * kRows, Real(0));
+    std::fill_n(m.growth, teeth * kRows, Real(0));
     m.kept_from = step;
     m.kept_until = static_cast<int>(plan.grid.steps.size());
     for (const PairGaps& g : overrides.gaps) {
@@ -100,37 +101,43 @@ GEARPOD_INLINE void keep_rows(const MarchPlan& plan, const MeshOverrides& overri
     }
 }
 
-// Stiffness and gap of a tooth pair that stands at `place`.
+// Stiffness and gap of a spring at a position on the flank; `shared`: the gap that it has in all
+// lanes, m.
 template <int W, class Real>
-GEARPOD_INLINE void load_tooth_pair(double stiffness, double place, const Real* __restrict gap,
-                                    const Real* __restrict growth, Real* __restrict k,
-                                    Real* __restrict e) {
+GEARPOD_INLINE void load_contact(double stiffness, double place, double shared,
+                                 const Real* __restrict gap, const Real* __restrict growth,
+                                 Real* __restrict k, Real* __restrict e) {
     const Real own = static_cast<Real>(stiffness), at = static_cast<Real>(place);
+    const Real all = static_cast<Real>(shared);
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
         k[l] = own;
-        e[l] = std::fma(at, growth[l], gap[l]);
+        e[l] = std::fma(at, growth[l], gap[l]) + all;
     }
 }
 
-// Stiffness and gaps of all pairs' tooth pairs at a stage node, after those of the pairs.
+// Stiffness and gaps of all pairs' springs at a stage node, after those of the pairs.
 template <class Model, int W = Model::kWidth>
-GEARPOD_INLINE void load_tooth_pairs(const MarchPlan& plan, const MeshOverrides& overrides,
-                                     int step, int node, typename Model::Pairs& m) {
+GEARPOD_INLINE void load_contacts(const MarchPlan& plan, const MeshOverrides& overrides, int step,
+                                  int node, typename Model::Pairs& m) {
     constexpr int kRows = Model::Pairs::kRows;
-    const int pairs = plan.nodes.pairs, known = plan.nodes.tooth_pairs;
+    const StiffnessNodes& table = plan.nodes;
+    const int pairs = table.pairs, slices = table.slices, known = table.contacts();
     const int nodes = static_cast<int>(plan.grid.stage_nodes.size());
     const int at = (step * nodes + node) * known * pairs;
-    const double* shared = plan.nodes.tooth_stiffness.data() + at;
-    const double* places = plan.nodes.tooth_place.data() + at;
+    const double* shared = table.tooth_stiffness.data() + at;
+    const double* places = table.tooth_place.data() + at;
+    const double* gaps = table.tooth_gap.empty() ? nullptr : table.tooth_gap.data() + at;
     for (int j = 0; j < known; ++j) {
+        const int tooth = j / slices * kRows;
         for (int pair = 0; pair < pairs; ++pair) {
             const int row = j * kRows + pair * W, i = j * pairs + pair;
-            load_tooth_pair<W>(shared[i], places[i], m.gap + row, m.growth + row, m.tooth_k + row,
-                               m.tooth_e + row);
+            load_contact<W>(shared[i], places[i], gaps == nullptr ? 0.0 : gaps[i],
+                            m.gap + tooth + pair * W, m.growth + tooth + pair * W, m.tooth_k + row,
+                            m.tooth_e + row);
         }
     }
-    if (known == 0) {  // one carries all
+    if (known == 0) {  // one spring carries all
         std::copy_n(m.k, pairs * W, m.tooth_k);
     }
     for (const PairOverride& o : overrides.faults) {
@@ -195,7 +202,7 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
         std::copy_n(lanes.backlash, W, m.backlash);
     }
     if constexpr (Model::Mesh::kHasTeeth) {
-        load_tooth_pairs<Model>(plan, overrides, step, node, m);
+        load_contacts<Model>(plan, overrides, step, node, m);
     }
     if constexpr (requires { m.row; }) {
         m.row = lanes.drive.row(step, node);

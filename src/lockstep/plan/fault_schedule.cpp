@@ -82,7 +82,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
     const StepPositions steps = steps_under_way(plan_.grid, k, start, duration(passage));
     const auto& curves = faults_.curve[static_cast<std::size_t>(passage.curve)];
     const std::size_t lanes = curves.size(), count = steps.node.size();
-    const auto slots = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
+    const auto slots = static_cast<std::size_t>(plan_.nodes.contacts());
     PairOverride o{passage.pair, steps.first_step, steps.last_step,
                    machine::AlignedVector(count * lanes), machine::AlignedVector(count * lanes)};
     o.tooth_stiffness.resize(count * slots * lanes);
@@ -102,7 +102,7 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
         if (slots > 0) {
             const std::vector<double> teeth =
                 faulty_tooth_pairs(*faults_.pairs, *curves[l], {passage.pair, k, start}, steps,
-                                   plan_.nodes.tooth_pairs);
+                                   plan_.nodes.tooth_pairs, plan_.nodes.slices);
             for (std::size_t i = 0; i < teeth.size(); ++i) {
                 o.tooth_stiffness[i * lanes + l] = teeth[i];
             }
@@ -125,7 +125,7 @@ void FaultSchedule::keep_healthy(std::size_t lane, std::size_t lanes, PairOverri
     };
     copy(nodes.stiffness, 1, o.stiffness);
     copy(nodes.damping_shape, 1, o.damping_shape);
-    copy(nodes.tooth_stiffness, static_cast<std::size_t>(nodes.tooth_pairs), o.tooth_stiffness);
+    copy(nodes.tooth_stiffness, static_cast<std::size_t>(nodes.contacts()), o.tooth_stiffness);
 }
 
 }  // namespace gearpod::lockstep

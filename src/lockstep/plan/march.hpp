@@ -51,7 +51,7 @@ struct PairOverride {
     int last_step = 0;                     // one past the last
     machine::AlignedVector stiffness;      // [step - first_step][stage node][lane], N/m
     machine::AlignedVector damping_shape;  // likewise
-    // Of the law `pushing`: [step - first_step][stage node][tooth pair][lane], N/m; empty if the
+    // Of the law `unilateral`: [step - first_step][stage node][tooth pair][lane], N/m; empty if the
     // plan's nodes know none.
     machine::AlignedVector tooth_stiffness = {};
 };
@@ -68,7 +68,7 @@ struct PairGaps {
 // What sets a mesh period apart from the plan's.
 struct MeshOverrides {
     std::vector<PairOverride> faults;
-    std::vector<PairGaps> gaps;  // only of the law `pushing`
+    std::vector<PairGaps> gaps;  // only of the law `unilateral`
 };
 
 // A kernel for one composition of integrator, model and width: a mesh period of the gearboxes in

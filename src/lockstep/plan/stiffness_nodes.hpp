@@ -57,13 +57,15 @@ struct StiffnessNodes {
     std::vector<double> damping_shape;  // see effects/mesh_damping.hpp
     // Static transmission error, m, and its rate, m per mesh period; empty: none.
     std::vector<double> error, error_rate;
-    // The tooth pairs one by one, [step][stage node][tooth pair][pair], N/m, the youngest first and
-    // 0 where fewer touch: how many of them, and their stiffness. 0 and empty unless asked for.
+    // Springs of the tooth pairs and their slices, [step][stage node][tooth pair][slice][pair], the
+    // youngest tooth pair first: stiffness in N/m, 0 where fewer are engaged; position on the path
+    // of contact, -1/2 to 1/2 from its start to its end in the sense of gears::MeshGeometry, which
+    // is its end before and after it; gap that all lanes have, m, empty if there is none. All are
+    // empty unless single tooth pairs are needed.
     int tooth_pairs = 0;
-    std::vector<double> tooth_stiffness;
-    // Likewise: where along the line of action each stands, -1/2 to 1/2 from the start to the end
-    // of contact in the sense of gears::MeshGeometry.
-    std::vector<double> tooth_place;
+    int slices = 1;
+    std::vector<double> tooth_stiffness, tooth_place, tooth_gap;
+    int contacts() const { return tooth_pairs * slices; }
     std::vector<ToothEngagement> engagements;  // every pair's, in order
 };
 

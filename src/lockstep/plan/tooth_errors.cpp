@@ -98,23 +98,24 @@ const PairGaps* gaps_of_pair(std::span<const PairGaps> gaps, int pair, int step)
     return nullptr;
 }
 
-std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int slot, int pair) {
+std::size_t tooth_pair_at(const MarchPlan& plan, int step, int node, int contact, int pair) {
     const auto nodes = static_cast<int>(plan.grid.stage_nodes.size());
     return static_cast<std::size_t>(
-        ((step * nodes + node) * plan.nodes.tooth_pairs + slot) * plan.nodes.pairs + pair);
+        ((step * nodes + node) * plan.nodes.contacts() + contact) * plan.nodes.pairs + pair);
 }
 
 double tooth_gap(const MarchPlan& plan, std::span<const PairGaps> gaps, int pair, int step,
-                 int node, int slot, int lane) {
+                 int node, int contact, int lane) {
+    const std::size_t at = tooth_pair_at(plan, step, node, contact, pair);
+    const double shared = plan.nodes.tooth_gap.empty() ? 0.0 : plan.nodes.tooth_gap[at];
     const PairGaps* const own = gaps_of_pair(gaps, pair, step);
     if (own == nullptr) {
-        return 0.0;
+        return shared;
     }
-    const auto slots = static_cast<std::size_t>(plan.nodes.tooth_pairs);
-    const auto i =
-        static_cast<std::size_t>(slot) * (own->gap.size() / slots) + static_cast<std::size_t>(lane);
-    const double place = plan.nodes.tooth_place[tooth_pair_at(plan, step, node, slot, pair)];
-    return std::fma(place, own->growth[i], own->gap[i]);
+    const auto teeth = static_cast<std::size_t>(plan.nodes.tooth_pairs);
+    const auto tooth = static_cast<std::size_t>(contact / plan.nodes.slices);
+    const auto i = tooth * (own->gap.size() / teeth) + static_cast<std::size_t>(lane);
+    return std::fma(plan.nodes.tooth_place[at], own->growth[i], own->gap[i]) + shared;
 }
 
 }  // namespace gearpod::lockstep

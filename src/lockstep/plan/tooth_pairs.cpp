@@ -14,24 +14,23 @@
 namespace gearpod::lockstep {
 namespace {
 
-// The part of the load that a tooth pair carries so long after its engagement began; `inside` lies
-// in the same stretch.
-double share_at(const PairSet& pairs, int pair, double since, double inside) {
+// Position in the mesh's own sense, from a time since the engagement began.
+double position_of(const PairSet& pairs, int pair, double since) {
+    return pairs.reversed ? pairs.curve(pair).contact_ratio() - since : since;
+}
+
+// A slice of a tooth pair so long after its engagement began; `inside` lies in the same stretch.
+double contact_stiffness(const PairSet& pairs, int pair, int slice, double since, double inside) {
     const stiffness::MeshStiffness& mesh = pairs.curve(pair);
-    const auto position = [&](double x) { return pairs.reversed ? mesh.contact_ratio() - x : x; };
-    const auto stretch = stiffness::stretch_around(mesh.transitions(), {}, position(inside));
-    const double at = std::clamp(position(since), stretch.begin, stretch.end);
-    double share = 0.0;
-    mesh.share({&at, 1}, position(inside), {&share, 1});
-    return share;
+    const double middle = position_of(pairs, pair, inside);
+    const auto stretch = stiffness::stretch_around(mesh.transitions(), {}, middle);
+    const double at = std::clamp(position_of(pairs, pair, since), stretch.begin, stretch.end);
+    double stiffness = 0.0;
+    mesh.slice_stiffness(slice, {&at, 1}, middle, {&stiffness, 1});
+    return stiffness;
 }
 
 }  // namespace
-
-double engagement_place(const PairSet& pairs, int pair, double since) {
-    const double place = pairs.curve(pair).flank_place(since);
-    return pairs.reversed ? -place : place;
-}
 
 TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
     const double since = phase - pairs.start[static_cast<std::size_t>(pair)];
@@ -39,6 +38,49 @@ TouchingTeeth touching_teeth(const PairSet& pairs, int pair, double phase) {
     const double left = pairs.curve(pair).contact_ratio() - (since + youngest);
     return {youngest, static_cast<int>(std::ceil(left))};
 }
+
+namespace {
+
+// Springs of one pair at one stage node, `first` the place of the first in the tables.
+void fill_node(const PairSet& pairs, int pair, double phase, double middle, std::size_t first,
+               StiffnessNodes& nodes) {
+    const stiffness::MeshStiffness& mesh = pairs.curve(pair);
+    const TouchingTeeth teeth = touching_teeth(pairs, pair, middle);
+    const auto count = static_cast<std::size_t>(nodes.pairs);
+    for (int j = 0; j < teeth.count; ++j) {
+        const double engaged = pairs.start[static_cast<std::size_t>(pair)] - teeth.youngest - j;
+        const double since = phase - engaged;
+        const double at = position_of(pairs, pair, since);
+        for (int slice = 0; slice < mesh.slices(); ++slice) {
+            const std::size_t i =
+                first + static_cast<std::size_t>(j * nodes.slices + slice) * count;
+            nodes.tooth_stiffness[i] =
+                contact_stiffness(pairs, pair, slice, since, middle - engaged);
+            nodes.tooth_place[i] = mesh.slice_place(slice, at);
+            if (!nodes.tooth_gap.empty()) {
+                nodes.tooth_gap[i] = mesh.slice_gap(slice, at);
+            }
+        }
+    }
+}
+
+void fill_contacts(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
+    const auto contacts = static_cast<std::size_t>(nodes.contacts());
+    const auto count = static_cast<std::size_t>(nodes.pairs);
+    std::size_t at = 0;  // stage node
+    for (const Step& step : grid.steps) {
+        const double middle = step.phase + 0.5 * step.length;
+        for (const double part : grid.stage_nodes) {
+            for (int pair = 0; pair < nodes.pairs; ++pair) {
+                fill_node(pairs, pair, step.phase + part * step.length, middle,
+                          at * contacts * count + static_cast<std::size_t>(pair), nodes);
+            }
+            ++at;
+        }
+    }
+}
+
+}  // namespace
 
 void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes& nodes) {
     for (int pair = 0; pair < nodes.pairs; ++pair) {
@@ -58,41 +100,35 @@ void add_tooth_pairs(const PairSet& pairs, const PhaseGrid& grid, StiffnessNodes
                         "itself)",
                         nodes.tooth_pairs, dynamics::kMostToothPairs));
     }
-    const auto count = static_cast<std::size_t>(nodes.pairs);
-    const auto slots = static_cast<std::size_t>(nodes.tooth_pairs);
-    nodes.tooth_stiffness.assign(nodes.stiffness.size() * slots, 0.0);
-    nodes.tooth_place.assign(nodes.stiffness.size() * slots, 0.0);
-    std::size_t at = 0;  // stage node
-    for (const Step& step : grid.steps) {
-        const double middle = step.phase + 0.5 * step.length;
-        for (const double part : grid.stage_nodes) {
-            for (int pair = 0; pair < nodes.pairs; ++pair) {
-                const auto p = static_cast<std::size_t>(pair);
-                const TouchingTeeth teeth = touching_teeth(pairs, pair, middle);
-                for (int j = 0; j < teeth.count; ++j) {
-                    const double engaged = pairs.start[p] - teeth.youngest - j;
-                    const double since = step.phase + part * step.length - engaged;
-                    const std::size_t slot = (at * slots + static_cast<std::size_t>(j)) * count + p;
-                    nodes.tooth_stiffness[slot] = nodes.stiffness[at * count + p] *
-                                                  share_at(pairs, pair, since, middle - engaged);
-                    nodes.tooth_place[slot] = engagement_place(pairs, pair, since);
-                }
-            }
-            ++at;
-        }
+    nodes.slices = 1;
+    bool gaps = false;
+    for (int pair = 0; pair < nodes.pairs; ++pair) {
+        nodes.slices = std::max(nodes.slices, pairs.curve(pair).slices());
+        gaps = gaps || pairs.curve(pair).has_gaps();
     }
+    if (nodes.contacts() > dynamics::kMostContacts) {
+        throw std::invalid_argument(
+            fmt::format("{} tooth pairs of a gear pair with {} slices each (at most {} slices in "
+                        "all)",
+                        nodes.tooth_pairs, nodes.slices, dynamics::kMostContacts));
+    }
+    const std::size_t size = nodes.stiffness.size() * static_cast<std::size_t>(nodes.contacts());
+    nodes.tooth_stiffness.assign(size, 0.0);
+    nodes.tooth_place.assign(size, 0.0);
+    nodes.tooth_gap.assign(gaps ? size : 0, 0.0);
+    fill_contacts(pairs, grid, nodes);
 }
 
 std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::FaultyMesh& faulty,
                                        const Passage& passage, const StepPositions& steps,
-                                       int tooth_pairs) {
+                                       int tooth_pairs, int slices) {
     const stiffness::MeshStiffness& mesh = pairs.curve(passage.pair);
     const std::vector<double> transitions = mesh.transitions(), jumps = faulty.jumps();
     const int last = static_cast<int>(std::lround(faulty.duration() - mesh.contact_ratio()));
     const std::size_t nodes = steps.middle.empty() ? 0 : steps.node.size() / steps.middle.size();
-    const auto slots = static_cast<std::size_t>(tooth_pairs);
+    const auto contacts = static_cast<std::size_t>(tooth_pairs * slices);
     const double begun = pairs.start[static_cast<std::size_t>(passage.pair)];
-    std::vector<double> all(steps.node.size() * slots, 0.0), tau(nodes), one(nodes);
+    std::vector<double> all(steps.node.size() * contacts, 0.0), tau(nodes), one(nodes);
     for (std::size_t step = 0; step < steps.middle.size(); ++step) {
         const auto position = [&](double since) {
             return pairs.reversed ? faulty.duration() - since : since;
@@ -107,12 +143,16 @@ std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::Fa
         }
         const TouchingTeeth teeth =
             touching_teeth(pairs, passage.pair, passage.start - passage.mesh + steps.middle[step]);
-        for (int j = 0; j < teeth.count; ++j) {
+        for (int contact = 0; contact < teeth.count * slices; ++contact) {
+            const int j = contact / slices, slice = contact % slices;
             const double engaged = passage.mesh - teeth.youngest - j + begun;
             const int later = static_cast<int>(std::lround(engaged - passage.start));
-            faulty.tooth_pair(pairs.reversed ? last - later : later, tau, inside, one);
-            for (std::size_t n = 0; n < nodes; ++n) {
-                all[(step * nodes + n) * slots + static_cast<std::size_t>(j)] =
+            if (slice < mesh.slices()) {
+                faulty.slice_stiffness(pairs.reversed ? last - later : later, slice, tau, inside,
+                                       one);
+            }
+            for (std::size_t n = 0; n < nodes && slice < mesh.slices(); ++n) {
+                all[(step * nodes + n) * contacts + static_cast<std::size_t>(contact)] =
                     one[pairs.reversed ? nodes - 1 - n : n];
             }
         }

@@ -37,31 +37,4 @@ void add_errors(const PairSet& pairs, const PhaseGrid& grid, std::span<const Mes
     }
 }
 
-void add_relief(const PairSet& pairs, const PhaseGrid& grid,
-                std::span<const stiffness::LoadedMesh* const> loaded, StiffnessNodes& nodes) {
-    assert(loaded.size() == static_cast<std::size_t>(pairs.pairs()));
-    nodes.error.resize(nodes.stiffness.size());
-    nodes.error_rate.resize(nodes.stiffness.size());
-    std::size_t at = 0;
-    for (const Step& step : grid.steps) {
-        for (const double node : grid.stage_nodes) {
-            for (int pair = 0; pair < nodes.pairs; ++pair, ++at) {
-                // Since an engagement began; reversed, until one ends.
-                const double start = pairs.start[static_cast<std::size_t>(pair)];
-                const double ends = pairs.curve(pair).contact_ratio();
-                const auto position = [&](double phase) {
-                    return pairs.reversed ? ends - (phase - start) : phase - start;
-                };
-                const double inside = position(step.phase + 0.5 * step.length);
-                const double tau = position(step.phase + node * step.length);
-                const double period = std::floor(inside);
-                const stiffness::LoadedMesh& mesh = *loaded[static_cast<std::size_t>(pair)];
-                nodes.error[at] += mesh.error(tau - period, inside - period);
-                nodes.error_rate[at] +=
-                    (pairs.reversed ? -1.0 : 1.0) * mesh.error_rate(tau - period, inside - period);
-            }
-        }
-    }
-}
-
 }  // namespace gearpod::lockstep

@@ -28,6 +28,11 @@ double largest_stiffness(const StiffnessNodes& nodes) {
     return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
 }
 
+// Springs of a pair under unilateral contact: one that carries all where single teeth are unknown.
+int contacts_of(const MarchPlan& plan) {
+    return plan.mesh_law == dynamics::MeshLaw::unilateral ? std::max(1, plan.nodes.contacts()) : 0;
+}
+
 template <int W>
 class QuasiStatic {
   public:
@@ -38,7 +43,7 @@ class QuasiStatic {
           schedule_(plan, faults),
           settings_(settings),
           lanes_(make_static_lanes<W>(plan.layout, plan.mesh_law, inputs,
-                                      largest_stiffness(plan.nodes))),
+                                      largest_stiffness(plan.nodes), contacts_of(plan))),
           steady_force_(lanes_.force),
           state_(lanes_) {
         result_.status.assign(W, LaneStatus::ok);
@@ -92,26 +97,25 @@ class QuasiStatic {
                             state_.k.begin() + o.pair * W);
             }
         }
-        if (lanes_.teeth_push) {
-            load_tooth_pairs(overrides, step);
+        if (lanes_.contacts > 0) {
+            load_contacts(overrides, step);
         }
     }
 
-    void load_tooth_pairs(const MeshOverrides& overrides, int step) {
+    void load_contacts(const MeshOverrides& overrides, int step) {
         const int nodes = static_cast<int>(plan_.grid.stage_nodes.size());
-        const std::size_t known = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
+        const auto known = static_cast<std::size_t>(plan_.nodes.contacts());
         const std::size_t pairs = static_cast<std::size_t>(plan_.nodes.pairs), rows = pairs * W;
-        const double* shared = plan_.nodes.tooth_stiffness.data() +
-                               static_cast<std::size_t>(step * nodes) * known * pairs;
-        const double* places =
-            plan_.nodes.tooth_place.data() + static_cast<std::size_t>(step * nodes) * known * pairs;
+        const std::size_t first = static_cast<std::size_t>(step * nodes) * known * pairs;
         for (std::size_t i = 0; i < known * rows; ++i) {
-            state_.tooth_k[i] = shared[i / W];
+            state_.tooth_k[i] = plan_.nodes.tooth_stiffness[first + i / W];
+            state_.tooth_e[i] =
+                plan_.nodes.tooth_gap.empty() ? 0.0 : plan_.nodes.tooth_gap[first + i / W];
         }
         if (known == 0) {  // one carries all
             std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
+            std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
         }
-        std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
         for (const PairOverride& o : overrides.faults) {
             if (step < o.first_step || step >= o.last_step || o.tooth_stiffness.empty()) {
                 continue;
@@ -122,21 +126,24 @@ class QuasiStatic {
                             tooth_row(state_.tooth_k, j, o.pair));
             }
         }
+        const auto slices = static_cast<std::size_t>(plan_.nodes.slices);
         for (const PairGaps& g : overrides.gaps) {
             if (step < g.first_step || step >= g.last_step) {
                 continue;
             }
             for (std::size_t j = 0; j < known; ++j) {
-                const double place = places[j * pairs + static_cast<std::size_t>(g.pair)];
+                const double place =
+                    plan_.nodes.tooth_place[first + j * pairs + static_cast<std::size_t>(g.pair)];
                 double* const row = tooth_row(state_.tooth_e, j, g.pair);
+                const std::size_t own = j / slices * W;
                 for (std::size_t l = 0; l < W; ++l) {
-                    row[l] = std::fma(place, g.growth[j * W + l], g.gap[j * W + l]);
+                    row[l] = std::fma(place, g.growth[own + l], g.gap[own + l]) + row[l];
                 }
             }
         }
     }
 
-    // [tooth pair][pair][lane]
+    // [contact][pair][lane]
     template <class Rows>
     double* tooth_row(Rows& rows, std::size_t slot, int pair) const {
         return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) +

@@ -163,7 +163,7 @@ GEARPOD_INLINE void change_contact(const double* __restrict d, const StaticLanes
     }
 }
 
-// A pair whose tooth pairs push each for itself; one out of contact has the smallest of their gaps.
+// Unilateral contact of a pair; a pair out of contact gets the smallest gap of its springs.
 template <int W>
 GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W>& lanes, int pair,
                                  StaticState<W>& s) {
@@ -172,26 +172,32 @@ GEARPOD_INLINE void change_teeth(const double* __restrict d, const StaticLanes<W
     double* __restrict restless = s.restless.data();
     const double* __restrict k = s.k.data() + pair * W;
     const double* __restrict e = s.e.data() + pair * W;
-    const double* __restrict tooth_k = s.tooth_k.data() + pair * W;
-    const double* __restrict tooth_e = s.tooth_e.data() + pair * W;
     double* __restrict held = s.held.data() + pair * W;
     double* __restrict preload = s.preload.data() + pair * W;
+    alignas(64) double sum[W], pull[W], gap[W];
 #pragma omp simd
     for (int l = 0; l < W; ++l) {
-        const double front = d[l] - e[l];
-        const bool on_back = front + backlash[l] < 0.0;
-        double sum = on_back ? k[l] : 0.0;
-        double pull = on_back ? -k[l] * backlash[l] : 0.0;
-        double gap = kNoGap;
-        for (int j = 0; j < dynamics::kMostToothPairs; ++j) {
-            const double own_k = tooth_k[j * rows + l], own_e = tooth_e[j * rows + l];
-            const double pushing = front > own_e ? own_k : 0.0;
-            sum += pushing;
-            pull = std::fma(pushing, own_e, pull);
-            gap = own_k > 0.0 && own_e < gap ? own_e : gap;
+        const bool on_back = d[l] - e[l] + backlash[l] < 0.0;
+        sum[l] = on_back ? k[l] : 0.0;
+        pull[l] = on_back ? -k[l] * backlash[l] : 0.0;
+        gap[l] = kNoGap;
+    }
+    for (int j = 0; j < static_cast<int>(s.tooth_k.size()) / rows; ++j) {
+        const double* __restrict tooth_k = s.tooth_k.data() + j * rows + pair * W;
+        const double* __restrict tooth_e = s.tooth_e.data() + j * rows + pair * W;
+#pragma omp simd
+        for (int l = 0; l < W; ++l) {
+            const double pushes = d[l] - e[l] > tooth_e[l] ? tooth_k[l] : 0.0;
+            sum[l] += pushes;
+            pull[l] = std::fma(pushes, tooth_e[l], pull[l]);
+            gap[l] = tooth_k[l] > 0.0 && tooth_e[l] < gap[l] ? tooth_e[l] : gap[l];
         }
-        const double new_held = sum > 0.0 ? sum : kOpenMesh * k[l];
-        const double new_preload = e[l] + (sum > 0.0 ? pull / sum : gap < kNoGap ? gap : 0.0);
+    }
+#pragma omp simd
+    for (int l = 0; l < W; ++l) {
+        const double new_held = sum[l] > 0.0 ? sum[l] : kOpenMesh * k[l];
+        const double rest = gap[l] < kNoGap ? gap[l] : 0.0;
+        const double new_preload = e[l] + (sum[l] > 0.0 ? pull[l] / sum[l] : rest);
         const bool same = new_held == held[l] && new_preload == preload[l];
         restless[l] = same ? restless[l] : 1.0;
         held[l] = new_held;
@@ -217,7 +223,7 @@ GEARPOD_INLINE void change_contacts(const StaticLanes<W>& lanes, StaticState<W>&
                 d[l] = std::fma(weight, q[l], d[l]);
             }
         }
-        if (lanes.teeth_push) {
+        if (lanes.contacts > 0) {
             change_teeth(d, lanes, pair, s);
         } else {
             change_contact(d, lanes, pair, s);

@@ -23,13 +23,13 @@ Eigen::MatrixXd held_stiffness(const dynamics::GearboxMatrices& m, const Eigen::
 template <int W>
 StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics::MeshLaw law,
                                  std::span<const dynamics::GearboxInputs> inputs,
-                                 double mesh_stiffness_N_m) {
+                                 double mesh_stiffness_N_m, int contacts) {
     assert(inputs.size() == W);
     StaticLanes<W> lanes;
     lanes.degrees = dynamics::degrees_of_freedom(layout);
     lanes.pairs = dynamics::pairs(layout);
     lanes.separating = dynamics::separates(law);
-    lanes.teeth_push = law == dynamics::MeshLaw::pushing;
+    lanes.contacts = contacts;
     lanes.first.push_back(0);
     for (int pair = 0; pair < lanes.pairs; ++pair) {
         const Eigen::VectorXd row = dynamics::mesh_row(layout, pair);
@@ -63,17 +63,17 @@ StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics
 }
 
 template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
-                                             std::span<const dynamics::GearboxInputs>, double);
+                                             std::span<const dynamics::GearboxInputs>, double, int);
 template StaticLanes<4> make_static_lanes<4>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
-                                             std::span<const dynamics::GearboxInputs>, double);
+                                             std::span<const dynamics::GearboxInputs>, double, int);
 template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&, dynamics::MeshLaw,
-                                             std::span<const dynamics::GearboxInputs>, double);
+                                             std::span<const dynamics::GearboxInputs>, double, int);
 
 template <int W>
 StaticState<W>::StaticState(const StaticLanes<W>& lanes)
     : k(static_cast<std::size_t>(lanes.pairs) * W),
       e(k.size()),
-      tooth_k(dynamics::kMostToothPairs * k.size()),
+      tooth_k(static_cast<std::size_t>(lanes.contacts) * k.size()),
       tooth_e(tooth_k.size()),
       q(lanes.force.size()),
       loose(W),

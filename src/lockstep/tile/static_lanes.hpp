@@ -25,33 +25,33 @@ struct StaticLanes {
     machine::AlignedVector force_size;  // [lane]: the largest of them
     machine::AlignedVector backlash;    // [lane], m
     bool separating = false;
-    bool teeth_push = false;  // each for itself
+    int contacts = 0;  // springs of a pair under unilateral contact
 };
 
 template <int W>
 StaticLanes<W> make_static_lanes(const dynamics::GearboxLayout& layout, dynamics::MeshLaw law,
                                  std::span<const dynamics::GearboxInputs> inputs,
-                                 double mesh_stiffness_N_m);
+                                 double mesh_stiffness_N_m, int contacts);
 
 extern template StaticLanes<1> make_static_lanes<1>(const dynamics::GearboxLayout&,
                                                     dynamics::MeshLaw,
                                                     std::span<const dynamics::GearboxInputs>,
-                                                    double);
+                                                    double, int);
 extern template StaticLanes<4> make_static_lanes<4>(const dynamics::GearboxLayout&,
                                                     dynamics::MeshLaw,
                                                     std::span<const dynamics::GearboxInputs>,
-                                                    double);
+                                                    double, int);
 extern template StaticLanes<8> make_static_lanes<8>(const dynamics::GearboxLayout&,
                                                     dynamics::MeshLaw,
                                                     std::span<const dynamics::GearboxInputs>,
-                                                    double);
+                                                    double, int);
 
 // Meshes at one phase, the solution, and room to find it.
 template <int W>
 struct StaticState {
     explicit StaticState(const StaticLanes<W>& lanes);
     machine::AlignedVector k, e;  // [pair][lane], N/m and m
-    // Of teeth that push, [tooth pair][pair][lane], N/m and m.
+    // Springs under unilateral contact, [contact][pair][lane], N/m and m.
     machine::AlignedVector tooth_k, tooth_e;
     machine::AlignedVector q;  // [degree of freedom][lane], m
     // [lane], 1 or 0: some load meets no stiffness; the contacts did not come to rest.

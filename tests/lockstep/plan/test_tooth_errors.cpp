@@ -30,7 +30,7 @@ ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
 
 MarchPlan error_plan(int samples, int steps, dynamics::Motion motion) {
     MarchPlan plan = LiangTrain::instance().plan(samples, steps, motion);
-    plan.mesh_law = dynamics::MeshLaw::pushing;
+    plan.mesh_law = dynamics::MeshLaw::unilateral;
     add_tooth_pairs(LiangTrain::instance().pairs, plan.grid, plan.nodes);
     return plan;
 }
@@ -208,7 +208,7 @@ TEST_CASE("Two tooth pairs share a load at rest by their gaps, and the one behin
     const stiffness::SquareWaveMesh mesh(k, 2.0 * k, kRatio);
     const PairSet pairs{{&mesh}, {0.0}, false};
     MarchPlan plan = gearbox.plan(16, 16, Integrator::rk4);
-    plan.mesh_law = dynamics::MeshLaw::pushing;
+    plan.mesh_law = dynamics::MeshLaw::unilateral;
     plan.grid = make_phase_grid(16, 16, contact_transitions(pairs));
     plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
     add_tooth_pairs(pairs, plan.grid, plan.nodes);

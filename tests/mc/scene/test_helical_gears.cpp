@@ -162,7 +162,7 @@ TEST_CASE("Relief and crowning of helical teeth change the approach under load a
         shipped_study("wind-turbine-helical.toml",
                       {"gearbox.sun_crowning_um=10", "gearbox.planet_tip_relief_um=20",
                        "gearbox.planet_tip_relief_length_mm=10"}));
-    CHECK(mean_total(*ground.meshes()[0].stiffness) == mean_total(*plain.meshes()[0].stiffness));
+    CHECK(mean_total(*ground.meshes()[0].stiffness) < mean_total(*plain.meshes()[0].stiffness));
     const double before = plain.meshes()[0].loaded->range().mean;
     CHECK(ground.meshes()[0].loaded->range().mean > before + 10e-6 / 3.0);
     CHECK(ground.meshes()[0].loaded->range().mean < before + 30e-6);

@@ -267,7 +267,7 @@ TEST_CASE("The features of a fixed-shaft gearbox single out the broken tooth's t
 
 TEST_CASE("A scene of spatial cracks, coupled teeth and separation is built from its study") {
     const Scene scene(test::study_of_text(kSpatialCrackStudy));
-    CHECK(scene.plan().mesh_law == dynamics::MeshLaw::pushing);
+    CHECK(scene.plan().mesh_law == dynamics::MeshLaw::unilateral);
     CHECK(scene.plan().nodes.tooth_pairs == 2);
     CHECK(scene.fault().largest_size() == 5.0);
     const auto inputs =

@@ -31,7 +31,7 @@ MarchPlan plan_for(Integrator integrator, MeshLaw law, int steps, dynamics::Moti
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.mesh_law = law;
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::mesh_damping(plan.layout));
-    if (law == MeshLaw::pushing) {
+    if (law == MeshLaw::unilateral) {
         add_tooth_pairs(train.pairs, plan.grid, plan.nodes);
     }
     return plan;
@@ -218,7 +218,7 @@ TEST_CASE("Tooth pairs without errors push as one mesh that separates") {
         const auto faults = train.ring_side_cracks(kDepths);
         const auto trains = light_trains(0.05, 60.0);
         std::vector<TileState> ends;
-        for (const auto law : {MeshLaw::separating, MeshLaw::pushing, MeshLaw::with_error}) {
+        for (const auto law : {MeshLaw::separating, MeshLaw::unilateral, MeshLaw::with_error}) {
             MarchPlan plan = plan_for(integrator, law, 600, motion);
             const std::vector<MeshError> errors(8, MeshError{{6e-6}, {}});
             add_errors(train.pairs, plan.grid, errors, plan.nodes);
@@ -251,7 +251,7 @@ TEST_CASE("Teeth with errors move as an independent march moves them, in and out
              {std::pair{Integrator::rk4, 1e-6}, std::pair{Integrator::sdirk3, 1e-5},
               std::pair{Integrator::newmark, 1e-3}, std::pair{Integrator::generalized_alpha, 1e-3},
               std::pair{Integrator::central_difference, 1e-3}}) {
-            const MarchPlan plan = plan_for(integrator, MeshLaw::pushing, 2400,
+            const MarchPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400,
                                             dynamics::Motion::translational_torsional);
             FaultSchedule schedule(plan, faults);
             TileState state = rest_state(plan, trains);
@@ -304,7 +304,7 @@ TEST_CASE("Varying forces, an uneven speed and single precision march the same t
     for (const auto& [integrator, excitation] :
          {std::pair{Integrator::rk4, &torque}, std::pair{Integrator::sdirk3, &torque},
           std::pair{Integrator::rk4, &speed}}) {
-        const MarchPlan plan = plan_for(integrator, MeshLaw::pushing, 2400, full);
+        const MarchPlan plan = plan_for(integrator, MeshLaw::unilateral, 2400, full);
         excitation->driving =
             std::get<dynamics::PlanetaryLayout>(plan.layout).rotation_index(dynamics::sun);
         excitation->turning_m_s = one;
@@ -317,7 +317,7 @@ TEST_CASE("Varying forces, an uneven speed and single precision march the same t
         CHECK(largest_difference(end_of(plan, varied), expected) < 1e-9 * largest(expected));
     }
     // Sixteen singles, the eight gearboxes twice.
-    MarchPlan plan = plan_for(Integrator::rk4, MeshLaw::pushing, 2400, full);
+    MarchPlan plan = plan_for(Integrator::rk4, MeshLaw::unilateral, 2400, full);
     const auto expected = end_of(plan, *make_mesh_march<8>(plan, trains));
     plan.precision = Precision::single_precision;
     ToothErrors twice = errors;

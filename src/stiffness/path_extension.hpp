@@ -1,0 +1,89 @@
+// Stiffness of spur tooth pairs before and after their nominal path of contact.
+//
+// Beyond the path a tooth pair touches at a tip corner (gears/corner_contact.hpp). It keeps the
+// stiffness that it has at that end of the path. Where pairs share elastic gear bodies, a pair that
+// joins n others adds K_(n+1) - K_n to the mesh once its gap is closed, and from the path on all
+// n + 1 pairs have the stiffness that they have together. Both descriptions give the same force
+// where the pair touches; a weight leads from the one to the other while it does, so that no
+// stiffness jumps at the ends of the path.
+#pragma once
+
+#include <map>
+#include <span>
+#include <utility>
+
+#include "gears/corner_contact.hpp"
+
+namespace gearpod::stiffness {
+
+// A gear pair on its nominal path of contact, healthy or with a faulty tooth. Positions tau count
+// mesh periods from the start of tooth pair 0's path; tooth pair i starts i periods later. Both
+// functions take ascending positions in the stretch of `inside` and write N/m.
+class NominalPairs {
+  public:
+    virtual ~NominalPairs() = default;
+    virtual void total(std::span<const double> tau, double inside,
+                       std::span<double> stiffness) const = 0;
+    virtual void pair(int tooth, std::span<const double> tau, double inside,
+                      std::span<double> stiffness) const = 0;
+};
+
+// How far engagements reach beyond the path, and the weight of the description by all pairs in
+// contact.
+class PathExtension {
+  public:
+    // No engagement beyond the path.
+    explicit PathExtension(const gears::MeshGeometry& geometry) : geometry_(geometry) {}
+    // Followed to corner gaps of reach_m; the weight falls from 1 at the ends of the path to 0
+    // where the corner gap is approach_m, the nominal approach of the gears.
+    PathExtension(const gears::MeshGeometry& geometry, double reach_m, double approach_m)
+        : geometry_(geometry),
+          reach_(gears::corner_reach(geometry, reach_m)),
+          fade_(gears::corner_reach(geometry, approach_m)),
+          approach_(approach_m) {}
+
+    double contact_ratio() const { return geometry_.contact_ratio(); }
+    // Mesh periods before and after the path: of the engagement, and of a weight above 0.
+    const gears::CornerReach& reach() const { return reach_; }
+    const gears::CornerReach& fade() const { return fade_; }
+    // Position from the start of a pair's own path; 1 on the path.
+    double weight(double tau) const;
+
+  private:
+    gears::MeshGeometry geometry_;
+    gears::CornerReach reach_, fade_;
+    double approach_ = 0;
+};
+
+class ExtendedPairs {
+  public:
+    // Both must outlive it.
+    ExtendedPairs(const NominalPairs& pairs, const PathExtension& extension)
+        : pairs_(pairs), extension_(extension) {}
+
+    // Stiffness of a tooth pair within its extended engagement, N/m, at ascending positions of one
+    // smooth piece (between starts and ends of paths and of fades).
+    void stiffness(int tooth, std::span<const double> tau, std::span<double> values);
+
+    // A tooth pair that starts (joins) or ends (leaves) its path: its stiffness among the others at
+    // that end, what it adds to the mesh, and the factors by which it changes the others'.
+    struct Change {
+        double own = 0, added = 0;
+        std::map<int, double> others;
+        double stiffness(double weight) const { return added + weight * (own - added); }
+    };
+    const Change& change(int tooth, bool joins);
+
+  private:
+    Change make_change(int tooth, bool joins) const;
+    double pair_at(int tooth, double tau, double inside) const;
+    double total_at(double tau, double inside) const;
+    void apply(int tooth, int other, bool joins, std::span<const double> tau,
+               std::span<double> values);
+
+    const NominalPairs& pairs_;
+    const PathExtension& extension_;
+    std::map<std::pair<int, bool>, Change> changes_;
+};
+
+}  // namespace gearpod::stiffness

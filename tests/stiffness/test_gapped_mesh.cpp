@@ -1,0 +1,205 @@
+// Tooth pairs with gaps: relief, crowning and contact beyond the nominal path.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "gears/corner_contact.hpp"
+#include "stiffness/additive_mesh.hpp"
+#include "stiffness/coupled_mesh.hpp"
+#include "stiffness/faults/reduction.hpp"
+#include "stiffness/gapped_mesh.hpp"
+#include "stiffness/helical_mesh.hpp"
+#include "stiffness/loaded_mesh.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
+
+using namespace gearpod;
+using namespace gearpod::stiffness;
+using namespace test_pairs;
+
+namespace {
+
+const gears::MeshGeometry kSunPlanet(external(19), external(31));
+const gears::MeshGeometry kRingPlanet(external(31), internal(81));
+constexpr double kForce = 3.8e3;
+constexpr double kReach = 60e-6;
+
+std::unique_ptr<const MeshStiffness> rigid(const gears::MeshGeometry& geometry) {
+    return std::make_unique<AdditiveMesh>(geometry, kLiangSteel, Profile::root_circle);
+}
+
+std::unique_ptr<const MeshStiffness> elastic(const gears::MeshGeometry& geometry) {
+    CoupledMeshOptions options;
+    options.foundation = FoundationModel::elastic_ring;
+    options.body_radius_1_m = geometry.internal() ? 0.020 : 0.013;
+    options.body_radius_2_m = geometry.internal() ? 0.155 : 0.020;
+    options.force_N = kForce;
+    return std::make_unique<CoupledMesh>(geometry, kLiangSteel, Profile::root_circle, options);
+}
+
+GappedMesh extended(const gears::MeshGeometry& geometry, bool bodies, double force = kForce) {
+    return {bodies ? elastic(geometry) : rigid(geometry), 0, {geometry, {}, {}, kReach}, force, 1};
+}
+
+double at(const MeshStiffness& mesh, double tau) {
+    double k = 0;
+    mesh.slice_stiffness(0, {&tau, 1}, tau, {&k, 1});
+    return k;
+}
+
+double secant(const MeshStiffness& mesh, double tau) {
+    double k = 0;
+    mesh.total({&tau, 1}, tau, {&k, 1});
+    return k;
+}
+
+}  // namespace
+
+TEST_CASE("without gaps each tooth pair keeps its stiffness") {
+    for (const bool bodies : {false, true}) {
+        const GappedMesh mesh(bodies ? elastic(kSunPlanet) : rigid(kSunPlanet), 0,
+                              {kSunPlanet, {}, {}, 0}, kForce, 1);
+        const auto plain = bodies ? elastic(kSunPlanet) : rigid(kSunPlanet);
+        CHECK(mesh.contact_ratio() == plain->contact_ratio());
+        CHECK(mesh.transitions() == plain->transitions());
+        for (double tau = 0.013; tau < mesh.contact_ratio(); tau += 0.07) {
+            CHECK(at(mesh, tau) == Approx(at(*plain, tau)).epsilon(1e-8));
+            CHECK(secant(mesh, tau) == Approx(secant(*plain, tau)).epsilon(1e-8));
+        }
+    }
+}
+
+// Equilibrium: the springs that touch carry the force together.
+TEST_CASE("load shares of an extended contact add up to the force") {
+    for (const bool bodies : {false, true}) {
+        const GappedMesh mesh = extended(kRingPlanet, bodies);
+        for (double phase = 0.003; phase < 1; phase += 0.037) {
+            double sum = 0;
+            for (double tau = phase; tau < mesh.contact_ratio(); ++tau) {
+                double share = 0;
+                mesh.share({&tau, 1}, tau, {&share, 1});
+                CHECK(share >= 0);
+                sum += share;
+            }
+            CHECK(sum == Approx(1).epsilon(1e-9));
+        }
+    }
+}
+
+// The approach jumps with an abrupt contact; with an extended one it changes continuously.
+TEST_CASE("an extended contact has no step at the ends of the path") {
+    for (const bool bodies : {false, true}) {
+        for (const auto& geometry : {kSunPlanet, kRingPlanet}) {
+            const GappedMesh mesh = extended(geometry, bodies);
+            const LoadedMesh loaded(mesh, kForce);
+            const auto plain = bodies ? elastic(geometry) : rigid(geometry);
+            const double jump = kForce / secant(*plain, plain->transitions().back() + 1e-6) -
+                                kForce / secant(*plain, plain->transitions().back() - 1e-6);
+            REQUIRE(std::abs(jump) > 0.3e-6);
+            double last = loaded.approach(0, 1e-6), steepest = 0;
+            constexpr int kPoints = 20'000;
+            for (int i = 1; i <= kPoints; ++i) {
+                const double tau = static_cast<double>(i) / kPoints;
+                const double d = loaded.approach(tau, tau - 1e-6);
+                steepest = std::max(steepest, std::abs(d - last));
+                last = d;
+            }
+            CHECK(steepest < 0.005 * std::abs(jump));
+        }
+    }
+}
+
+// Stiffer teeth close smaller corner gaps: contact beyond the path then takes a share of the mesh
+// period that falls with the square root of the approach, and outside it nothing changes.
+TEST_CASE("the extended contact converges to the abrupt one as the load falls") {
+    double last = 1;
+    for (const double force : {4e3, 4e2, 4e1, 4.0}) {
+        const GappedMesh mesh = extended(kSunPlanet, false, force);
+        const auto plain = rigid(kSunPlanet);
+        int different = 0;
+        constexpr int kPoints = 4000;
+        for (int i = 0; i < kPoints; ++i) {
+            const double tau = (i + 0.5) / kPoints;
+            const double k = secant(*plain, tau);
+            if (std::abs(secant(mesh, mesh.path_begin() + tau) - k) > 1e-6 * k)
+                ++different;
+        }
+        const double share = static_cast<double>(different) / kPoints;
+        CHECK(share < 0.4 * last);
+        CHECK(share > 0);
+        last = share;
+    }
+}
+
+// Beyond the path: the pair's own corner gap and the stiffness that it has at the path's end.
+TEST_CASE("teeth on rigid bodies keep their stiffness beyond the path") {
+    const GappedMesh mesh = extended(kSunPlanet, false);
+    const double begin = mesh.path_begin(), end = mesh.path_end();
+    const auto plain = rigid(kSunPlanet);
+    for (const double beyond : {0.01, 0.05, 0.08}) {
+        CHECK(at(mesh, begin - beyond) == Approx(at(*plain, 1e-9)).epsilon(1e-6));
+        CHECK(mesh.slice_gap(0, begin - beyond) ==
+              Approx(gears::corner_gap(kSunPlanet, -beyond)).epsilon(1e-9));
+        CHECK(mesh.slice_gap(0, end + beyond) ==
+              Approx(gears::corner_gap(kSunPlanet, kSunPlanet.contact_ratio() + beyond))
+                  .epsilon(1e-9));
+    }
+    CHECK(mesh.slice_gap(0, 0.5 * (begin + end)) == 0);
+    CHECK(at(mesh, mesh.contact_ratio() + 0.01) == 0);
+    CHECK(mesh.slice_place(0, 0.5 * begin) == -0.5);
+}
+
+// A pair of equal gears looks the same from both ends of its path.
+TEST_CASE("a pair of equal gears is symmetrical about its pitch point") {
+    const gears::MeshGeometry equal(external(27), external(27));
+    for (const bool bodies : {false, true}) {
+        const GappedMesh mesh = extended(equal, bodies);
+        const double ratio = mesh.contact_ratio();
+        for (double tau = 0.01; tau < ratio; tau += 0.05) {
+            CHECK(at(mesh, tau) == Approx(at(mesh, ratio - tau)).epsilon(1e-6));
+            CHECK(mesh.slice_gap(0, tau) == Approx(mesh.slice_gap(0, ratio - tau)).margin(1e-12));
+        }
+    }
+}
+
+// Slices over the face against a sum over many of them.
+TEST_CASE("slices of crowned, relieved helical teeth converge") {
+    const gears::FlankRelief ground{8e-6, 2e-3, 0, 0, gears::ReliefShape::linear, 5e-6};
+    const double overlap = 0.8;
+    const auto approach = [&](int slices, double phase) {
+        const GappedMesh mesh(rigid(kSunPlanet), overlap, {kSunPlanet, ground, ground, kReach},
+                              kForce, slices);
+        return LoadedMesh(mesh, kForce).approach(phase, phase);
+    };
+    for (const double phase : {0.11, 0.52, 0.93}) {
+        const double converged = approach(400, phase);
+        CHECK(approach(8, phase) == Approx(converged).epsilon(0.02));
+        CHECK(approach(16, phase) == Approx(converged).epsilon(0.01));
+        CHECK(approach(64, phase) == Approx(converged).epsilon(0.002));
+    }
+    // Uncrowned and without relief or load, the slices add up to the helical pair.
+    const HelicalMesh helical(rigid(kSunPlanet), overlap);
+    const GappedMesh flat(rigid(kSunPlanet), overlap, {kSunPlanet, {}, {}, 0}, kForce, 200);
+    CHECK(mean_total(flat) == Approx(mean_total(helical)).epsilon(1e-2));
+    CHECK(flat.contact_ratio() == Approx(helical.contact_ratio()));
+    CHECK(flat.pitch_position() == Approx(helical.pitch_position()));
+}
+
+TEST_CASE("a fault softens its own tooth pair over the whole extended contact") {
+    for (const bool bodies : {false, true}) {
+        const GappedMesh mesh = extended(kRingPlanet, bodies);
+        const Reduction fault(0.5, 1);
+        const auto faulty = mesh.with_fault(fault);
+        CHECK(faulty->duration() == Approx(mesh.contact_ratio()));
+        for (double tau = 0.02; tau < mesh.contact_ratio(); tau += 0.09) {
+            double own = 0, total = 0;
+            faulty->tooth_pair(0, {&tau, 1}, tau, {&own, 1});
+            faulty->total({&tau, 1}, tau, {&total, 1});
+            CHECK(own < at(mesh, tau));
+            CHECK(total <= secant(mesh, tau) * (1 + 1e-9));
+        }
+        // Far beyond the path the fault has nothing to change.
+        const double early = 1e-3;
+        double total = 0;
+        faulty->total({&early, 1}, early, {&total, 1});
+        CHECK(total == Approx(secant(mesh, early)).epsilon(1e-9));
+    }
+}
