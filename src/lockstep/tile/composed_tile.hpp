@@ -16,27 +16,28 @@ class ComposedTile : MarchedTile<W> {
     TileResult run() {
         settle();
         march_composed();
+        add_contact_loss_of_span();
         return std::move(result_);
     }
 
   private:
     using Base = MarchedTile<W>;
-    using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::hear_records, Base::march, Base::march_everything, Base::new_record, Base::orbit_,
+    using Base::add_contact_loss_of_span, Base::add_record, Base::contact_, Base::distance,
+        Base::diverged, Base::faults_, Base::faulty, Base::forget_contact, Base::hear_records,
+        Base::march, Base::march_counting, Base::march_everything, Base::new_record, Base::orbit_,
         Base::plan_, Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
         Base::settle, Base::settled_, Base::state_;
 
-    // Mesh period k with its motion, and how its tooth pairs are pressed.
-    machine::AlignedVector march_part_mesh(const Pressing& pressing, int k,
-                                           const MeshOverrides& overrides, const MeshRecord* orbit,
-                                           MeshRecord& record) {
-        record = make_record(plan_, W, true);
+    // Integrates mesh period k with its step states and returns the bounds of contact in it.
+    machine::AlignedVector march_part_mesh(int k, const MeshOverrides& overrides,
+                                           const MeshRecord* orbit, MeshRecord& record) {
+        record = new_record();
+        contact_->ask_for_steps(record);
         march(k, overrides, record);
-        return pressing.least(record, overrides.gaps, orbit);
+        return contact_->least_pressing(record, overrides.gaps, orbit);
     }
 
-    ComposedPart march_part(const Pressing& pressing, const Composition& whole, int teeth,
-                            LaneMask<W>& periodic) {
+    ComposedPart march_part(const Composition& whole, int teeth, LaneMask<W>& periodic) {
         const ToothErrors errors = errors_of_part(*faults_.tooth_errors, teeth);
         MeshRecord unseen = new_record();
         ComposedPart part;
@@ -47,11 +48,9 @@ class ComposedTile : MarchedTile<W> {
         for (int k = 0; k < teeth; ++k) {
             part.states.push_back(state_);
             MeshRecord& record = part.records.emplace_back();
-            part.pressing.push_back(march_part_mesh(pressing, k, {{}, tooth_gaps(plan_, errors, k)},
-                                                    &whole.orbit, record));
-            if (!settings_.with_motion) {
-                record.motion = {};
-            }
+            part.pressing.push_back(
+                march_part_mesh(k, {{}, tooth_gaps(plan_, errors, k)}, &whole.orbit, record));
+            record.step_states = {};
         }
         for (int l = 0; l < W; ++l) {
             periodic[static_cast<std::size_t>(l)] =
@@ -63,15 +62,15 @@ class ComposedTile : MarchedTile<W> {
     }
 
     Composition march_parts(LaneMask<W>& periodic) {
-        const Pressing pressing(plan_);
         Composition whole;
         whole.orbit_state = orbit_;
         state_ = orbit_;
-        whole.orbit_pressing = march_part_mesh(pressing, 0, {}, nullptr, whole.orbit);
+        whole.orbit_pressing = march_part_mesh(0, {}, nullptr, whole.orbit);
         periodic = settled_;
         for (const int teeth : part_periods(*faults_.tooth_errors)) {
-            whole.parts.push_back(march_part(pressing, whole, teeth, periodic));
+            whole.parts.push_back(march_part(whole, teeth, periodic));
         }
+        whole.orbit.step_states = {};
         whole.take_orbit_once();
         return whole;
     }
@@ -110,6 +109,7 @@ class ComposedTile : MarchedTile<W> {
         if (!all) {
             state_ = orbit_;
             march_everything(false);
+            forget_contact(kept);
         }
         MeshRecord composed = new_record();
         for (int k = 0; k < settings_.march_meshes; ++k) {
@@ -161,7 +161,7 @@ class ComposedTile : MarchedTile<W> {
             }
             whole_.state(k, healthy_);
             copy_lanes<W>(healthy_, tile_.state_, quiet);
-            tile_.march(k, tile_.schedule_.all_overrides(k), record_);
+            tile_.march_counting(k, tile_.schedule_.all_overrides(k), record_, away_);
             whole_.state(k + 1, healthy_);
             if (into != nullptr) {
                 copy_lanes<W>(record_, *into, away_);

@@ -22,38 +22,12 @@ ToothErrors errors_of_part(ToothErrors errors, int teeth);
 // Mesh periods that the parts march, each behind a run-in, and one of the orbit.
 int part_meshes(std::span<const int> periods, int run_in_meshes);
 
-// Of a mesh period, how far each tooth pair is pressed together, the least over stretches of the
-// period: [stretch][pair][tooth pair][lane], m; infinite where the two teeth are not in contact.
-// Needs the record's motion.
-class Pressing {
-  public:
-    explicit Pressing(const MarchPlan& plan);
-    // `gaps` of the mesh (tooth_gaps), `orbit` the record of a mesh period without errors or null.
-    // With it, what it lacks of the orbit.
-    machine::AlignedVector least(const MeshRecord& record, std::span<const PairGaps> gaps,
-                                 const MeshRecord* orbit) const;
-
-  private:
-    // The tooth pairs of a pair that are in contact at a sample: slots are a range.
-    struct Touching {
-        int sample = 0, pair = 0, step = 0;
-        int first_slot = 0, last_slot = 0;  // one past the last
-    };
-    // Of a pair's deflection.
-    struct Entry {
-        std::size_t degree = 0;
-        double weight = 0.0;
-    };
-    const MarchPlan& plan_;
-    std::vector<Touching> touching_;
-    std::vector<std::vector<Entry>> row_;
-};
-
 // One part, [mesh of its period].
 struct ComposedPart {
     std::vector<MeshRecord> records;
-    std::vector<TileState> states;                 // at the beginning of each
-    std::vector<machine::AlignedVector> pressing;  // Pressing::least, less the orbit
+    std::vector<TileState> states;  // at the beginning of each
+    // ToothContact::least_pressing of its difference from the orbit.
+    std::vector<machine::AlignedVector> pressing;
 };
 
 struct Composition {
@@ -67,8 +41,9 @@ struct Composition {
     // k counts from any integer. `record` and `state` have their sizes.
     void record(int k, MeshRecord& record) const;
     void state(int k, TileState& state) const;
-    // [lane]: whether at all samples of the meshes from `from` until before `to`, of each part and
-    // of the orbit tooth pairs are pressed together: true is sure, by the least over stretches.
+    // [lane]: true if all tooth pairs stay in contact during the meshes from `from` until before
+    // `to`, in every part and in the orbit, at all positions at which the integrator evaluates
+    // forces. Lower bounds over stretches of the mesh period decide, so that true is certain.
     std::vector<char> keeps_contact(int from, int to, std::size_t lanes) const;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "lockstep/integrators/sensor_filter.hpp"
@@ -15,6 +16,7 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_lanes.hpp"
 #include "lockstep/tile/tile_records.hpp"
+#include "lockstep/tile/tooth_contact.hpp"
 
 namespace gearpod::lockstep {
 
@@ -31,6 +33,10 @@ class MarchedTile {
           driven_(make_driven(plan, inputs, settings.excitation)),
           rotation_(plan.layout, inputs),
           state_(rest_state(plan, inputs)) {
+        if (dynamics::separates(plan.mesh_law)) {
+            contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
+            apart_.assign(static_cast<std::size_t>(plan.nodes.pairs) * W, 0.0);
+        }
         result_.status.assign(W, LaneStatus::ok);
         result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
     }
@@ -65,6 +71,70 @@ class MarchedTile {
             (*march_mesh_)(overrides, state_, record);
         }
         after_mesh();
+    }
+
+    // The same of mesh k of the span, whose contact loss counts in the lanes of the mask.
+    void march_counting(int k, const MeshOverrides& overrides, MeshRecord& record,
+                        const LaneMask<W>& lanes) {
+        if (!contact_ || k < 0 || !counts_contact(k)) {
+            march(k, overrides, record);
+            return;
+        }
+        record.step_states.swap(step_states_);
+        contact_->ask_for_steps(record);
+        march(k, overrides, record);
+        contact_->add_time_apart(record, overrides.gaps, lanes, apart_);
+        record.step_states.swap(step_states_);
+    }
+
+    // Lanes whose meshes were not integrated after all: no tooth pair of theirs parts.
+    void forget_contact(const LaneMask<W>& lanes) {
+        for (int l = 0; l < W; ++l) {
+            if (lanes[static_cast<std::size_t>(l)]) {
+                fill_lane<W>(apart_, l, 0.0);
+            }
+        }
+    }
+
+    // TileResult::contact_loss of so many counted mesh periods; of lanes that failed NaN.
+    void add_contact_loss(int meshes) {
+        if (!contact_) {
+            return;
+        }
+        result_.contact_loss = apart_;
+        for (std::size_t i = 0; i < apart_.size(); ++i) {
+            result_.contact_loss[i] /= contact_->time_engaged(static_cast<int>(i / W)) * meshes;
+        }
+        for (int l = 0; l < W; ++l) {
+            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::diverged) {
+                fill_lane<W>(result_.contact_loss, l, NAN);
+            }
+        }
+    }
+
+    // Of the mesh periods of the span, one by one.
+    void add_contact_loss_of_span() {
+        int meshes = 0;
+        for (int k = 0; k < settings_.march_meshes; ++k) {
+            meshes += counts_contact(k) ? 1 : 0;
+        }
+        add_contact_loss(meshes);
+    }
+
+    // Of the healthy mesh period that repeats, integrated once more from the orbit.
+    void add_contact_loss_of_orbit() {
+        if (!contact_) {
+            return;
+        }
+        LaneMask<W> all;
+        all.fill(true);
+        MeshRecord record = new_record();
+        contact_->ask_for_steps(record);
+        state_ = orbit_;
+        march_settling(record);
+        state_ = orbit_;
+        contact_->add_time_apart(record, {}, all, apart_);
+        add_contact_loss(1);
     }
 
     // A healthy mesh period that is like all others.
@@ -191,9 +261,12 @@ class MarchedTile {
                 result_.states.push_back(state_);
             }
         };
+        LaneMask<W> all;
+        all.fill(true);
         for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
             keep_state();
-            march(k, schedule_.all_overrides(k), k < 0 || heard ? unkept : add_record(k));
+            march_counting(k, schedule_.all_overrides(k), k < 0 || heard ? unkept : add_record(k),
+                           all);
             if (k >= 0 && heard) {
                 settings_.hear(k, unkept);
             }
@@ -222,6 +295,9 @@ class MarchedTile {
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
     const RigidRotation rotation_;
+    std::optional<ToothContact> contact_;  // where teeth can part
+    machine::AlignedVector apart_;         // ToothContact::add_time_apart of the counted meshes
+    machine::AlignedVector step_states_;   // MeshRecord::step_states of these
     TileState state_;
     TileState orbit_;        // the healthy orbit at an integer phase
     LaneMask<W> settled_{};  // on that orbit
