@@ -1,5 +1,5 @@
-// A tile whose healthy meshes are composed of what each gear's tooth errors do (composition.hpp),
-// in the lanes whose tooth pairs stay in contact; faults are marched from there.
+// A tile whose healthy mesh periods are superposed (composition.hpp) in the lanes whose tooth pairs
+// stay in contact. The perturbation due to a fault is integrated from the superposed states.
 #pragma once
 
 #include "lockstep/tile/composition.hpp"
@@ -80,7 +80,7 @@ class ComposedTile : MarchedTile<W> {
                (settings_.compose_faulty || !faulty(lane));
     }
 
-    // The meshes of the span composed where a lane keeps contact, marched where it does not.
+    // The mesh periods of the span: superposed in lanes that keep contact, else integrated in full.
     void march_composed() {
         result_.composed.assign(W, false);
         bool any = false;
@@ -143,7 +143,8 @@ class ComposedTile : MarchedTile<W> {
         }
     }
 
-    // What faults change in composed lanes, mesh by mesh from the run-in's first.
+    // Integrates the perturbation due to faults in superposed lanes, mesh period by mesh period
+    // from the first of the run-in.
     class Changes {
       public:
         Changes(ComposedTile& tile, const Composition& whole, const LaneMask<W>& kept)
@@ -153,7 +154,7 @@ class ComposedTile : MarchedTile<W> {
               record_(tile.new_record()),
               healthy_(tile.state_) {}
 
-        // Into the record of mesh k, of the run-in none.
+        // Changes the record of mesh k; null during the run-in.
         void change(int k, MeshRecord* into) {
             const LaneMask<W> quiet = leave(k);
             if (std::ranges::none_of(away_, std::identity())) {
@@ -170,7 +171,7 @@ class ComposedTile : MarchedTile<W> {
         }
 
       private:
-        // Lanes leave what was composed where a fault passes; returns those that had not before.
+        // Marks lanes as perturbed where a fault passes; returns those that were not before.
         LaneMask<W> leave(int k) {
             const bool passes = tile_.schedule_.passes(k);
             LaneMask<W> quiet;
@@ -202,7 +203,7 @@ class ComposedTile : MarchedTile<W> {
         LaneMask<W> away_{};
     };
 
-    // Of lanes that all keep contact.
+    // Records the signals of lanes that all keep contact.
     void hear_composed(const Composition& whole, const LaneMask<W>& kept) {
         Changes changes(*this, whole, kept);
         MeshRecord composed = new_record();

@@ -1,10 +1,10 @@
-// Meshes in which no tooth pair leaves contact: there the motion is linear in the load and in the
-// errors of the teeth, and what one gear's errors do comes again whenever the gear has turned. So
-// the motion of all Z_p Z_r meshes is that of a few dozen: with S kinds of gears by their number of
-// teeth,
+// Superposition of mesh periods in which no tooth pair loses contact. There the motion is linear in
+// the load and in the tooth errors, and the effect of one gear's errors repeats with the gear's
+// revolution. The motion of all Z_p Z_r mesh periods then follows from a few dozen: with S kinds of
+// gears by their number of teeth,
 //   x_k = sum over s of x^s_(k mod Z_s) - (S - 1) x^0,
-// x^s the motion under the load where only the gears of Z_s teeth have errors, x^0 the orbit of a
-// mesh period without any.
+// where x^s is the motion under the load if only the gears of Z_s teeth have errors, and x^0 the
+// periodic orbit without any.
 #pragma once
 
 #include <span>
@@ -17,9 +17,9 @@ namespace gearpod::lockstep {
 // The parts' periods: gears' numbers of teeth, each once, ascending.
 std::vector<int> part_periods(std::vector<int> teeth);
 std::vector<int> part_periods(const ToothErrors& errors);
-// The errors of the gears with so many teeth; the others have none.
+// Errors of the gears with so many teeth; the other gears have none.
 ToothErrors errors_of_part(ToothErrors errors, int teeth);
-// Mesh periods that the parts march, each behind a run-in, and one of the orbit.
+// Number of mesh periods integrated for the parts, each after a run-in, and for the orbit.
 int part_meshes(std::span<const int> periods, int run_in_meshes);
 
 // One part, [mesh of its period].
@@ -36,7 +36,7 @@ struct Composition {
     machine::AlignedVector orbit_pressing;
     std::vector<ComposedPart> parts;
 
-    // Makes all parts but the first what they lack of the orbit, so that parts add up to the mesh.
+    // Subtracts the orbit from all parts but the first, so that the parts add up to the motion.
     void take_orbit_once();
     // k counts from any integer. `record` and `state` have their sizes.
     void record(int k, MeshRecord& record) const;

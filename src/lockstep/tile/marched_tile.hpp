@@ -1,5 +1,5 @@
-// A tile under way: its state, its records, and the march to its orbit and of every mesh of the
-// span.
+// A tile during integration: its state, its records, the integration until the periodic orbit is
+// reached, and that of every mesh period of the span.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class MarchedTile {
     }
 
   protected:
-    // A motion this large is no gearbox any more; it only grows from there.
+    // A motion larger than this has diverged.
     static constexpr double kDivergedMotion_m = 1.0;
 
     bool faulty(int lane) const {
@@ -63,7 +63,7 @@ class MarchedTile {
         }
     }
 
-    // Mesh period `mesh` as it is driven.
+    // Integrates mesh period `mesh` under its input excitation.
     void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         if (driven_ != nullptr) {
             (*driven_)(mesh, overrides, state_, record);
@@ -87,7 +87,7 @@ class MarchedTile {
         record.step_states.swap(step_states_);
     }
 
-    // Lanes whose meshes were not integrated after all: no tooth pair of theirs parts.
+    // Clears the counts of superposed lanes, whose tooth pairs do not part.
     void forget_contact(const LaneMask<W>& lanes) {
         for (int l = 0; l < W; ++l) {
             if (lanes[static_cast<std::size_t>(l)]) {
@@ -96,7 +96,7 @@ class MarchedTile {
         }
     }
 
-    // TileResult::contact_loss of so many counted mesh periods; of lanes that failed NaN.
+    // Sets TileResult::contact_loss from so many counted mesh periods; NaN in diverged lanes.
     void add_contact_loss(int meshes) {
         if (!contact_) {
             return;
@@ -112,7 +112,7 @@ class MarchedTile {
         }
     }
 
-    // Of the mesh periods of the span, one by one.
+    // The same after integrating the mesh periods of the span.
     void add_contact_loss_of_span() {
         int meshes = 0;
         for (int k = 0; k < settings_.march_meshes; ++k) {
@@ -121,7 +121,7 @@ class MarchedTile {
         add_contact_loss(meshes);
     }
 
-    // Of the healthy mesh period that repeats, integrated once more from the orbit.
+    // The same for the healthy mesh period that repeats, which is integrated once more.
     void add_contact_loss_of_orbit() {
         if (!contact_) {
             return;
@@ -137,7 +137,7 @@ class MarchedTile {
         add_contact_loss(1);
     }
 
-    // A healthy mesh period that is like all others.
+    // Integrates a healthy mesh period that is like all others.
     void march_settling(MeshRecord& record) {
         if (driven_ != nullptr && settings_.excitation->repeats()) {
             (*driven_)(0, {}, state_, record);
@@ -154,8 +154,8 @@ class MarchedTile {
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
 
-    // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
-    // edge, filtered accelerations against the largest recorded one.
+    // Distance of two states relative to the motion. Velocities are weighted at the sensor's band
+    // edge, filtered accelerations by the largest recorded one.
     double distance(const TileState& a, const TileState& b, const MeshRecord& record,
                     int lane) const {
         const double scale = largest<W>(b.q, lane);
@@ -180,7 +180,7 @@ class MarchedTile {
                !std::isfinite(largest<W>(state_.filter, lane));
     }
 
-    // Takes a lane that diverged out of the march: its records say NaN, its state rests at zero.
+    // Takes a diverged lane out of the integration: its records become NaN, its state zero.
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
@@ -193,7 +193,7 @@ class MarchedTile {
         fill_lane<W>(orbit_.filter, lane, 0.0);
     }
 
-    // Lanes that did not get back to their orbit in the mesh periods they had.
+    // Marks lanes that did not return to their orbit within the allowed mesh periods.
     void mark_unsettled(const std::array<bool, W>& settled) {
         for (std::size_t l = 0; l < W; ++l) {
             if (!settled[l]) {
@@ -202,7 +202,7 @@ class MarchedTile {
         }
     }
 
-    // Marches until every lane's mesh period repeats the one before, and keeps that one.
+    // Integrates until every lane's mesh period repeats the one before, and keeps that one.
     void settle() {
         result_.records.push_back(new_record());
         orbit_ = state_;
@@ -242,7 +242,7 @@ class MarchedTile {
         state_ = orbit_;
     }
 
-    // Where mesh k of the span is recorded.
+    // Adds the record of mesh k of the span.
     MeshRecord& add_record(int k) {
         result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
         return result_.records.emplace_back(new_record());
@@ -253,7 +253,7 @@ class MarchedTile {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Every mesh of the span for itself, into a record of its own or to who hears it.
+    // Integrates every mesh period of the span, into a record of its own or for settings_.hear.
     void march_everything(bool heard) {
         MeshRecord unkept = new_record();
         const auto keep_state = [&] {
@@ -279,7 +279,7 @@ class MarchedTile {
         }
     }
 
-    // Gives what was kept to who hears it.
+    // Hands the kept records to settings_.hear.
     void hear_records() {
         for (int k = 0; k < settings_.march_meshes; ++k) {
             settings_.hear(k, record_of(k));

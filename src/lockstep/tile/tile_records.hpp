@@ -1,4 +1,4 @@
-// What a tile is asked for, and what it leaves.
+// Settings and results of a tile.
 #pragma once
 
 #include <functional>
