@@ -26,18 +26,27 @@ double static_error(const MarchPlan& plan, int step, std::size_t node, int pair)
 // The gaps of a pair that differ between lanes, step by step.
 class ToothContact::OwnGaps {
   public:
-    OwnGaps(std::span<const PairGaps> all, int pair) : all_(all), pair_(pair) {}
+    // `size`: values of all tooth pairs and lanes.
+    OwnGaps(std::span<const PairGaps> all, int pair, std::size_t size)
+        : all_(all), pair_(pair), none_(size, 0.0) {}
 
-    const PairGaps* at(int step) {
+    // [tooth pair][lane], m.
+    struct Rows {
+        const double* gap;
+        const double* growth;
+    };
+    Rows at(int step) {
         if (now_ == nullptr || step < now_->first_step || step >= now_->last_step) {
             now_ = gaps_of_pair(all_, pair_, step);
         }
-        return now_;
+        return now_ == nullptr ? Rows{none_.data(), none_.data()}
+                               : Rows{now_->gap.data(), now_->growth.data()};
     }
 
   private:
     std::span<const PairGaps> all_;
     int pair_;
+    const machine::AlignedVector none_;
     const PairGaps* now_ = nullptr;
 };
 
@@ -118,14 +127,36 @@ void ToothContact::deflect(const MeshRecord& record, int pair, double sign,
     }
 }
 
+// The least deflection, m, at a stage node of a step of so many seconds: positions at which
+// integrators evaluate forces lie on the chord, or on the tangents at the step's ends.
+void ToothContact::least_deflection(const Node& node, const double* __restrict at,
+                                    const double* __restrict rate, double* __restrict least) const {
+    const std::size_t width = mesh_period_s_.size();
+    const double part = node.part, left = 1.0 - node.part, length = node.length;
+    const double* __restrict period = mesh_period_s_.data();
+    if (part == 0.0 || left == 0.0) {
+        std::copy_n(at + (part == 0.0 ? 0 : width), width, least);
+        return;
+    }
+#pragma omp simd
+    for (std::size_t l = 0; l < width; ++l) {
+        const double h = length * period[l];
+        const double chord = left * at[l] + part * at[width + l];
+        const double forward = at[l] + part * h * rate[l];
+        const double backward = at[width + l] - left * h * rate[width + l];
+        const double tangents = forward < backward ? forward : backward;
+        least[l] = chord < tangents ? chord : tangents;
+    }
+}
+
 machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
                                                     std::span<const PairGaps> gaps,
                                                     const MeshRecord* orbit) const {
-    const std::size_t lanes = mesh_period_s_.size(), rows = plan_.grid.steps.size() + 1;
-    const std::size_t degrees = record.step_states.size() / (2 * rows * lanes);
-    const auto pairs = nodes_.size();
-    machine::AlignedVector least(kStretches * pairs * slots_ * lanes, INFINITY);
-    machine::AlignedVector d(lanes), at(rows * lanes), rate(rows * lanes);
+    const std::size_t width = mesh_period_s_.size(), rows = plan_.grid.steps.size() + 1;
+    const std::size_t degrees = record.step_states.size() / (2 * rows * width);
+    const std::size_t pairs = nodes_.size();
+    machine::AlignedVector least(kStretches * pairs * slots_ * width, INFINITY);
+    machine::AlignedVector d(width), at(rows * width), rate(rows * width);
     for (std::size_t pair = 0; pair < pairs; ++pair) {
         const int p = static_cast<int>(pair);
         std::ranges::fill(at, 0.0);
@@ -136,60 +167,60 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
             deflect(*orbit, p, -1.0, 0, at);
             deflect(*orbit, p, -1.0, degrees, rate);
         }
-        OwnGaps own(gaps, p);
+        OwnGaps own(gaps, p, slots_ * width);
         for (const Node& node : nodes_[pair]) {
-            const std::size_t before = static_cast<std::size_t>(node.step) * lanes;
-            const std::size_t after = before + lanes;
-            const double left = 1.0 - node.part;
-            for (std::size_t l = 0; l < lanes; ++l) {
-                const double h = node.length * mesh_period_s_[l];
-                const double chord = at[before + l] + node.part * (at[after + l] - at[before + l]);
-                const double forward = at[before + l] + node.part * h * rate[before + l];
-                const double backward = at[after + l] - left * h * rate[after + l];
-                const bool inside = node.part > 0.0 && left > 0.0;
-                const double lowest = inside ? std::min({chord, forward, backward}) : chord;
-                d[l] = orbit == nullptr ? lowest - node.error : lowest;
-            }
-            const PairGaps* const lane_gaps = own.at(node.step);
+            const std::size_t before = static_cast<std::size_t>(node.step) * width;
+            least_deflection(node, at.data() + before, rate.data() + before, d.data());
+            const auto [gap, growth] = own.at(node.step);
             const auto stretch = static_cast<std::size_t>(
                 kStretches * plan_.grid.steps[static_cast<std::size_t>(node.step)].phase);
             for (const Tooth& tooth : node.teeth) {
-                double* const row =
-                    least.data() + ((stretch * pairs + pair) * slots_ + tooth.slot) * lanes;
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const std::size_t i = tooth.slot * lanes + l;
-                    double gap = orbit == nullptr ? tooth.shared : 0.0;
-                    if (lane_gaps != nullptr) {
-                        gap += std::fma(tooth.place, lane_gaps->growth[i], lane_gaps->gap[i]);
-                    }
-                    const double pressed = d[l] - gap;
-                    // NaN is no contact.
-                    row[l] = pressed > row[l]         ? row[l]
-                             : std::isfinite(pressed) ? pressed
-                                                      : -INFINITY;
+                double* __restrict row =
+                    least.data() + ((stretch * pairs + pair) * slots_ + tooth.slot) * width;
+                const double shared = orbit == nullptr ? tooth.shared + node.error : 0.0;
+                const double place = tooth.place;
+                const double* __restrict constant = gap + tooth.slot * width;
+                const double* __restrict slope = growth + tooth.slot * width;
+                const double* __restrict deflection = d.data();
+#pragma omp simd
+                for (std::size_t l = 0; l < width; ++l) {
+                    const double pressed =
+                        deflection[l] - shared - (place * slope[l] + constant[l]);
+                    row[l] = pressed < row[l] ? pressed : row[l];
                 }
+            }
+        }
+    }
+    // What is not finite once stays so until the end of the mesh period.
+    for (std::size_t i = record.step_states.size() - 2 * degrees * width;
+         i < record.step_states.size(); ++i) {
+        if (!std::isfinite(record.step_states[i])) {
+            for (std::size_t row = i % width; row < least.size(); row += width) {
+                least[row] = -INFINITY;
             }
         }
     }
     return least;
 }
 
-// `d` holds the pair's deflection in each lane; no mask stands for all lanes.
-void ToothContact::add_apart(const Node& node, std::size_t pair, const double* d,
-                             const PairGaps* own, double weight, std::span<const bool> lanes,
+// `d` holds the pair's deflection, `weight` what each lane adds.
+void ToothContact::add_apart(const Node& node, std::size_t pair, const double* __restrict d,
+                             OwnGaps& own, const double* __restrict weight,
                              machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
+    const auto [gap, growth] = own.at(node.step);
+    double* __restrict sum = apart.data() + pair * width;
     for (const Tooth& tooth : node.teeth) {
         if (!tooth.nominal) {
             continue;
         }
+        const double shared = tooth.shared + node.error, place = tooth.place;
+        const double* __restrict constant = gap + tooth.slot * width;
+        const double* __restrict slope = growth + tooth.slot * width;
+#pragma omp simd
         for (std::size_t l = 0; l < width; ++l) {
-            const std::size_t i = tooth.slot * width + l;
-            const double gap =
-                own != nullptr ? std::fma(tooth.place, own->growth[i], own->gap[i]) : 0.0;
-            const bool pressed = d[l] - node.error > tooth.shared + gap;
-            const bool counted = lanes.empty() || lanes[l];
-            apart[pair * width + l] += counted && !pressed ? weight : 0.0;
+            const double pressed = d[l] - shared - (place * slope[l] + constant[l]);
+            sum[l] += pressed > 0.0 ? 0.0 : weight[l];
         }
     }
 }
@@ -198,21 +229,24 @@ void ToothContact::add_time_apart(const MeshRecord& record, std::span<const Pair
                                   std::span<const bool> lanes,
                                   machine::AlignedVector& apart) const {
     const std::size_t width = mesh_period_s_.size();
-    machine::AlignedVector at((plan_.grid.steps.size() + 1) * width), d(width);
+    machine::AlignedVector at((plan_.grid.steps.size() + 1) * width), d(width), weight(width);
     for (std::size_t pair = 0; pair < nodes_.size(); ++pair) {
         const int p = static_cast<int>(pair);
         std::ranges::fill(at, 0.0);
         deflect(record, p, 1.0, 0, at);
-        OwnGaps own(gaps, p);
+        OwnGaps own(gaps, p, slots_ * width);
         for (const Node& node : nodes_[pair]) {
             if (!node.first) {
                 continue;
             }
-            const double* const before = at.data() + static_cast<std::size_t>(node.step) * width;
+            const double* __restrict before =
+                at.data() + static_cast<std::size_t>(node.step) * width;
+            const double part = node.part, left = 1.0 - node.part;
             for (std::size_t l = 0; l < width; ++l) {
-                d[l] = before[l] + node.part * (before[width + l] - before[l]);
+                d[l] = left * before[l] + part * before[width + l];
+                weight[l] = lanes[l] ? node.length : 0.0;
             }
-            add_apart(node, pair, d.data(), own.at(node.step), node.length, lanes, apart);
+            add_apart(node, pair, d.data(), own, weight.data(), apart);
         }
     }
 }
@@ -221,6 +255,7 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
                                 std::span<const PairGaps> gaps, double weight,
                                 ContactTime& time) const {
     const std::size_t width = mesh_period_s_.size(), stages = plan_.grid.stage_nodes.size();
+    const machine::AlignedVector weights(width, weight);
     machine::AlignedVector d(width);
     for (std::size_t pair = 0; pair < nodes_.size(); ++pair) {
         std::ranges::fill(d, 0.0);
@@ -233,8 +268,8 @@ void ToothContact::add_position(int step, const machine::AlignedVector& q,
         for (const Tooth& tooth : node.teeth) {
             time.engaged[pair] += tooth.nominal ? weight : 0.0;
         }
-        add_apart(node, pair, d.data(), gaps_of_pair(gaps, static_cast<int>(pair), step), weight,
-                  {}, time.apart);
+        OwnGaps own(gaps, static_cast<int>(pair), slots_ * width);
+        add_apart(node, pair, d.data(), own, weights.data(), time.apart);
     }
 }
 

@@ -80,8 +80,10 @@ class ToothContact {
     class OwnGaps;
 
     void add_node(int pair, int step, std::size_t node);
-    void add_apart(const Node& node, std::size_t pair, const double* d, const PairGaps* own,
-                   double weight, std::span<const bool> lanes, machine::AlignedVector& apart) const;
+    void least_deflection(const Node& node, const double* at, const double* rate,
+                          double* least) const;
+    void add_apart(const Node& node, std::size_t pair, const double* d, OwnGaps& own,
+                   const double* weight, machine::AlignedVector& apart) const;
     void deflect(const MeshRecord& record, int pair, double sign, std::size_t first_degree,
                  machine::AlignedVector& d) const;
 

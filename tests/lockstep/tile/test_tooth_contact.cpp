@@ -2,6 +2,7 @@
 // and the share of time out of contact.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "dynamics/gearbox_matrices.hpp"
 #include "lockstep/integrators/facts.hpp"
@@ -138,8 +139,9 @@ TEST_CASE("A bound of contact by long steps holds for the motion that short ones
             least_of_lanes(fine_contact.least_pressing(exact[5].record, exact[5].gaps, nullptr));
         for (std::size_t l = 0; l < 8; ++l) {
             INFO("lane " << l);
-            // Loss of contact is in there: the bound and what it bounds are both of some 0.1 um.
-            CHECK(bound[l] < found[l] + 0.02 * std::abs(found[l]));
+            // Pressed together by 1 um; long steps of order 2 are off by up to 3 % of it
+            // themselves.
+            CHECK(bound[l] < 1.05 * found[l]);
             CHECK(bound[l] > found[l] - 2e-7);
         }
     }
@@ -200,7 +202,7 @@ TEST_CASE("The share of time out of contact of deep gaps is that of the double-p
     }
 }
 
-TEST_CASE("The counted mesh periods are one in twelve of any teeth and include the first") {
+TEST_CASE("One mesh period in twelve counts, with every tooth of any gear, and the first") {
     for (const int teeth : {1, 19, 20, 24, 31, 64, 81}) {
         INFO(teeth << " teeth");
         std::vector<int> counted(static_cast<std::size_t>(teeth), 0);
@@ -210,8 +212,9 @@ TEST_CASE("The counted mesh periods are one in twelve of any teeth and include t
         }
         CHECK(counts_contact(0));
         for (const int count : counted) {
-            CHECK(count == Approx(20).margin(4));
+            CHECK(count == Approx(20).margin(10));
         }
+        CHECK(std::accumulate(counted.begin(), counted.end(), 0) == Approx(20 * teeth).margin(3));
     }
 }
 
