@@ -179,18 +179,6 @@ class Statements(unittest.TestCase):
                       words_)
         self.assertIn("than the number of gearboxes does for: te_rms at noise × 0", words_)
 
-    def test_the_share_of_time_out_of_contact_stands_with_the_signals(self):
-        self.assertNotIn("out of contact", said("usual"))
-        data = case("usual")
-        data["contact_loss"] = [{"mesh": "sun-planet", "mean": 0.125, "lower": 0.0625,
-                                 "median": 0.11, "upper": 0.25, "gearboxes": 1234}]
-        words_ = page(data).text()
-        self.assertIn("Contact of the teeth", words_)
-        at = words_.index("Share of time out of contact")
-        for part in ("sun-planet", words.percent(0.125), words.percent(0.0625),
-                     words.percent(0.25), words.count(1234)):
-            self.assertIn(part, words_[at:at + 400])
-
     def test_text_is_never_markup(self):
         data = case("usual")
         data["title"] = 'A <b>"crack"</b> & <script>alert(1)</script>'

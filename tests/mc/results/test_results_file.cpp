@@ -59,8 +59,6 @@ Results example() {
         }
         r.detection.push_back(detection);
     }
-    r.contact_loss = {{"sun-planet", {0.0, 0.25, kNaN}}, {"ring-planet", {0.125, 0.5, kNaN}}};
-    r.step_error = StepError{3.5e-3, 2e-4, 240, 960, 8, 16};
     r.timing = {{"march", 1.5}, {"total", 2.5}};
     return r;
 }
@@ -114,35 +112,9 @@ TEST_CASE("Results read back as they were written") {
     CHECK(level.cells[2].size.low == 0.002);
     CHECK(level.cells[2].pd == 0.75);
     CHECK(level.cells[2].detected == 5);
-    REQUIRE(back.contact_loss.size() == 2);
-    CHECK(back.contact_loss[0].name == "sun-planet");
-    CHECK(back.contact_loss[0].values[1] == 0.25);
-    CHECK(back.contact_loss[1].values[0] == 0.125);
-    CHECK(std::isnan(back.contact_loss[1].values[2]));
-    REQUIRE(back.step_error.has_value());
-    CHECK(back.step_error->sensor == 3.5e-3);
-    CHECK(back.step_error->te == 2e-4);
-    CHECK(back.step_error->finer_steps == 960);
-    CHECK(back.step_error->meshes == 16);
     REQUIRE(back.timing.size() == 2);
     CHECK(back.timing[0].name == "march");
     CHECK(back.timing[1].seconds == 2.5);
-}
-
-// Files of versions before 0.3, and of studies whose teeth cannot part.
-TEST_CASE("Results without shares of time out of contact have none, not zero") {
-    const Folder folder;
-    Results r = example();
-    r.contact_loss.clear();
-    r.step_error.reset();
-    write_results(folder.file("r.h5"), r);
-    const Hdf5Handle file(H5Fopen(folder.file("r.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
-                          H5Fclose, "opening");
-    CHECK(H5Lexists(file.get(), "contact_loss", H5P_DEFAULT) == 0);
-    CHECK(H5Lexists(file.get(), "step_error", H5P_DEFAULT) == 0);
-    const Results back = read_results(folder.file("r.h5"));
-    CHECK(back.contact_loss.empty());
-    CHECK_FALSE(back.step_error.has_value());
 }
 
 TEST_CASE("Rows read some at a time are those of the whole file") {
@@ -156,9 +128,6 @@ TEST_CASE("Rows read some at a time are those of the whole file") {
     for (auto& feature : large.features) {
         feature.values.clear();
     }
-    for (auto& mesh : large.contact_loss) {
-        mesh.values.clear();
-    }
     // More than both the writer and the reader take at once.
     for (int row = 0; row < 9001; ++row) {
         large.group.push_back(row < 100 ? 0 : 1);
@@ -169,9 +138,6 @@ TEST_CASE("Rows read some at a time are those of the whole file") {
         for (auto& feature : large.features) {
             feature.values.push_back(row);
             feature.values.push_back(-row);
-        }
-        for (auto& mesh : large.contact_loss) {
-            mesh.values.push_back(row / 9001.0);
         }
     }
     const std::string path = folder.file("r.h5");
@@ -225,10 +191,6 @@ TEST_CASE("h5dump sees the documented layout") {
                              "/detection/te_fc/detected",
                              "/detection/te_fc/tested",
                              "/detection/te_fc/failed",
-                             "/contact_loss/sun-planet",
-                             "/contact_loss/sun-planet/unit",
-                             "/contact_loss/ring-planet/description",
-                             "/step_error/sensor",
                              "/timing/march"}) {
         INFO(name);
         CHECK(contains(dump, name));
