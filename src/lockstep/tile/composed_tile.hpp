@@ -2,6 +2,9 @@
 // stay in contact. The perturbation due to a fault is integrated from the superposed states.
 #pragma once
 
+#include <optional>
+#include <ranges>
+
 #include "lockstep/tile/composition.hpp"
 #include "lockstep/tile/marched_tile.hpp"
 
@@ -61,18 +64,28 @@ class ComposedTile : MarchedTile<W> {
         return part;
     }
 
-    Composition march_parts(LaneMask<W>& periodic) {
+    // The orbit to which parts can be added; none if no lane may be superposed, or keeps contact in
+    // the orbit itself.
+    std::optional<Composition> march_orbit() {
         Composition whole;
         whole.orbit_state = orbit_;
         state_ = orbit_;
+        const auto may = [this](int lane) { return may_compose(lane); };
+        if (std::ranges::none_of(std::views::iota(0, W), may)) {
+            return std::nullopt;
+        }
         whole.orbit_pressing = march_part_mesh(0, {}, nullptr, whole.orbit);
+        const std::vector<char> touching = whole.keeps_contact(0, 0, W);
+        return std::ranges::count(touching, 1) > 0 ? std::optional(std::move(whole)) : std::nullopt;
+    }
+
+    void march_parts(Composition& whole, LaneMask<W>& periodic) {
         periodic = settled_;
         for (const int teeth : part_periods(*faults_.tooth_errors)) {
             whole.parts.push_back(march_part(whole, teeth, periodic));
         }
         whole.orbit.step_states = {};
         whole.take_orbit_once();
-        return whole;
     }
 
     bool may_compose(int lane) const {
@@ -83,17 +96,15 @@ class ComposedTile : MarchedTile<W> {
     // The mesh periods of the span: superposed in lanes that keep contact, else integrated in full.
     void march_composed() {
         result_.composed.assign(W, false);
-        bool any = false;
-        for (int l = 0; l < W; ++l) {
-            any = any || may_compose(l);
-        }
-        if (!any) {
+        std::optional<Composition> orbit = march_orbit();
+        if (!orbit) {
             state_ = orbit_;
             march_everything(settings_.hear != nullptr);
             return;
         }
+        Composition& whole = *orbit;
         LaneMask<W> kept;
-        const Composition whole = march_parts(kept);
+        march_parts(whole, kept);
         const std::vector<char> touching =
             whole.keeps_contact(-settings_.run_in_meshes, settings_.march_meshes, W);
         bool all = true;
