@@ -10,6 +10,7 @@
 
 #include "lockstep/integrators/march_state.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/integrators/step_states.hpp"
 #include "lockstep/plan/march.hpp"
 #include "machine/dispatch.hpp"
 
@@ -342,35 +343,12 @@ GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::La
     }
 }
 
-// Row `step` of MeshRecord::step_states; `ahead`: how much of that step's length the positions are
-// ahead of the velocities.
-template <class Model, class State, int W = Model::kWidth>
-GEARPOD_INLINE void write_step_state(const MarchPlan& plan, const typename Model::Lanes& lanes,
-                                     int step, double ahead, const State& state,
-                                     MeshRecord& record) {
-    const int size = static_cast<int>(plan.te_weight.size()) * W;
-    double* __restrict q = record.step_states.data() + 2 * step * size;
-    double* __restrict v = q + size;
-    const double part =
-        ahead > 0.0 ? ahead * plan.grid.steps[static_cast<std::size_t>(step)].length : 0.0;
-    for (int i = 0; i < size; ++i) {
-        v[i] = double{state.v[static_cast<std::size_t>(i)]};
-        q[i] = position(state, i) - part * double{lanes.mesh_period[i % W]} * v[i];
-    }
-}
-
 // Singles march on grids with a node on every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                 const Filter& filter, const MeshOverrides& overrides, State& state,
                                 MeshRecord& record) {
     constexpr bool kInterpolates = std::is_same_v<State, TileState>;
-    constexpr double kAhead = [] {
-        if constexpr (requires { Integrator::kPositionsAhead; }) {
-            return Integrator::kPositionsAhead;
-        }
-        return 0.0;
-    }();
     typename Integrator::template Stages<Model> stages;
     TileState before;
     const int steps = static_cast<int>(plan.grid.steps.size());
@@ -380,8 +358,7 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
             write_sample<Model::kWidth>(plan, state, step.sample, record);
         }
         if (!record.step_states.empty()) {
-            const bool drifted = kAhead > 0.0 && i > 0 && step.sample < 0;
-            write_step_state<Model>(plan, lanes, i, drifted ? kAhead : 0.0, state, record);
+            write_step_state<Integrator, Model>(plan, lanes, i, state, record);
         }
         if constexpr (kInterpolates) {
             if (step.inside > 0) {
@@ -402,7 +379,7 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
         }
     }
     if (!record.step_states.empty()) {
-        write_step_state<Model>(plan, lanes, steps, 0.0, state, record);
+        write_step_state<Integrator, Model>(plan, lanes, steps, state, record);
     }
 }
 
