@@ -46,9 +46,10 @@ def inputs(report, page):
 
 def signals(report, page):
     examples = report.data["examples"]
+    contact = signal_figures.contact_loss(report)
     if examples["refusal"]:
         return page.section("signals", "Example signals",
-                            note(f"No example signals: {examples['refusal']}"))
+                            note(f"No example signals: {examples['refusal']}") + contact)
     gearboxes = examples["gearboxes"]
     body = paragraph("The first healthy gearbox of the results and the first with the largest "
                      "fault. They differ in their other random inputs as well. "
@@ -65,6 +66,7 @@ def signals(report, page):
                      "signal.")
     body += signal_figures.transmission_error(report, page)
     body += f"<details><summary>Their inputs and features</summary>{signal_figures.gearbox_table(report)}</details>"
+    body += contact
     return page.section("signals", "Example signals", body)
 
 

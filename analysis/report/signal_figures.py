@@ -1,8 +1,8 @@
 """What the two example gearboxes send, and how stiff their teeth are."""
 
-from blocks import note, table
+from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, panel, shade, to_svg
-from words import input_name, noise, number, quantity
+from words import count, input_name, noise, number, percent, quantity
 
 
 def _name(report, gearbox):
@@ -67,6 +67,21 @@ def sensor(report, page):
            "gear. Shaded: the faulty tooth is in mesh. Long signals are drawn by the smallest and "
            "largest value of each stretch, so no peak is lost.")
     return page.figure("Sensor signal", charts, how, data)
+
+
+def contact_loss(report):
+    """Share of time out of contact of every mesh; nothing where teeth cannot part."""
+    meshes = report.data.get("contact_loss")
+    if not meshes:
+        return ""
+    rows = [[mesh["mesh"], percent(mesh["mean"]), percent(mesh["lower"]), percent(mesh["median"]),
+             percent(mesh["upper"]), count(mesh["gearboxes"])] for mesh in meshes]
+    return ("<h3>Contact of the teeth</h3>"
+            + paragraph("Share of its engagement, within the nominal path of contact, in which a tooth pair "
+                        "carries no load (contact loss ratio), averaged over the tooth pairs of a mesh.")
+            + table("Share of time out of contact",
+                    ["mesh", "mean", "5 % of gearboxes below", "median", "95 % of gearboxes below",
+                     "gearboxes"], rows))
 
 
 def transmission_error(report, page):

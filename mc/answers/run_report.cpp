@@ -8,9 +8,11 @@
 #include "analysis/report/false_alarm_text.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/answers/alarms_over_time.hpp"
+#include "mc/answers/contact_loss.hpp"
 #include "mc/answers/feature_values.hpp"
 #include "mc/answers/monitoring_over_time.hpp"
 #include "mc/numerics/numerical_error.hpp"
+#include "mc/numerics/step_error.hpp"
 #include "mc/results/failure_text.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/study/assumptions.hpp"
@@ -105,6 +107,20 @@ std::string results_text(const Results& frame, const RowSource& rows,
             }
         }
         text += "\n" + monitoring_text(*monitoring, best);
+    }
+    if (const std::string loss = contact_loss_text(summarise_contact_loss(frame, rows));
+        !loss.empty()) {
+        text += "\n";
+        analysis::add_wrapped(
+            text,
+            "Share of time that a tooth pair is out of contact, mean (5 to 95 % of "
+            "the gearboxes): " +
+                loss + ".",
+            2);
+    }
+    if (frame.step_error) {
+        analysis::add_wrapped(
+            text, "Error of the time steps: " + step_error_text(*frame.step_error) + ".", 2);
     }
     const std::string numerical = numerical_text(frame, numerical_shares(frame, rows, reliability));
     return numerical.empty() ? text : text + "\n" + numerical;

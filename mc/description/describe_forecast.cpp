@@ -6,12 +6,16 @@
 #include <cmath>
 
 #include "machine/dispatch.hpp"
+#include "mc/answers/contact_loss.hpp"
 #include "mc/description/describe_effects.hpp"
 #include "mc/description/lives_forecast.hpp"
 #include "mc/description/rank_forecast.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/forecast.hpp"
+#include "mc/gearbox/mesh_time.hpp"
+#include "mc/numerics/step_error.hpp"
 #include "mc/scene/scene_error.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -43,6 +47,23 @@ std::string measured_text(const RunCalibration& calibration, const AnalysisTrial
            fmt::format("; the analysis of {} made up from them, {} noise level{}, in {:.1f} s",
                        trial.rows, trial.levels, trial.levels == 1 ? "" : "s", trial.trial_s);
 }
+
+// The rows of the gearboxes that a calibration computed.
+class CalibrationRows final : public RowSource {
+  public:
+    explicit CalibrationRows(const RunCalibration& calibration) : calibration_(calibration) {}
+    std::size_t rows() const override { return calibration_.rows.count(); }
+    void visit(const std::function<void(const RowBlock&)>& use) const override {
+        RowBlock block{0, {}, calibration_.rows.status, calibration_.rows.values};
+        for (const GearboxId& id : calibration_.gearboxes) {
+            block.group.push_back(static_cast<int>(id.group));
+        }
+        use(block);
+    }
+
+  private:
+    const RunCalibration& calibration_;
+};
 
 // Shares of the threads' time, as `run` tells them.
 std::string shares_text(const Seconds& work, double thread_s) {
@@ -90,6 +111,19 @@ void print_ranks(const Study& study, const RankForecast& forecast, int threads, 
     print_entry("rank 0", leader_text(forecast));
 }
 
+// The error of the time steps where teeth lose contact, if the pilot takes a second at most.
+void print_step_error(const Scene& scene) {
+    if (scene.study().effects.quasi_static() || !teeth_can_part(scene.study())) {
+        return;
+    }
+    constexpr double kMost_s = 1.0;
+    const auto error = find_step_error(scene, kMost_s / mesh_period_s(scene));
+    print_entry("error of the steps",
+                error ? step_error_text(*error)
+                      : "not measured, which would take too long; loss of contact costs order, and "
+                        "step_tolerance does not bound it");
+}
+
 // Nothing, and false, of a study without lives, or whose records cannot be composed.
 bool print_lives(const Scene& scene, double setup_s) {
     if (!scene.study().life.interval_h) {
@@ -115,6 +149,17 @@ void print_forecast(const Scene& scene, double setup_s, int ranks) {
     const RunCalibration calibration = calibrate_run(scene, plan, threads, kBudget_s);
     const AnalysisTrial trial = try_analysis(study, calibration, plan, threads, kBudget_s);
     const RunForecast forecast = forecast_run(scene, plan, calibration, trial, setup_s);
+    if (teeth_can_part(study)) {
+        print_heading("contact");
+    }
+    if (const std::string loss = contact_loss_text(
+            summarise_contact_loss(results_frame(study), CalibrationRows(calibration)));
+        !loss.empty()) {
+        print_entry("out of contact",
+                    fmt::format("{} of a tooth pair's time, mean (5 to 95 % of {} gearboxes)", loss,
+                                calibration.rows.count()));
+    }
+    print_step_error(scene);
     print_heading("forecast of a run");
     print_entry("measured on", measured_text(calibration, trial));
     print_entry("threads", fmt::format("{}, {}", calibration.threads,

@@ -6,6 +6,7 @@
 #include "machine/stop.hpp"
 #include "machine/wall_clock.hpp"
 #include "mc/results/results_file.hpp"
+#include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 
@@ -25,7 +26,10 @@ Seconds& Seconds::operator+=(const Seconds& other) {
 }
 
 RowShape row_shape(const Sampler& sampler, const Study& study) {
-    return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size()};
+    const std::size_t meshes =
+        teeth_can_part(study) ? meshes_of(study.gearbox.kind).size() : std::size_t{0};
+    return {sampler.columns().size(), study.features.use.size(), study.sensor.noise_levels.size(),
+            meshes};
 }
 
 BatchWorker::BatchWorker(const BatchTask& task)
@@ -103,6 +107,11 @@ void BatchWorker::add_features(const GearboxId& id, const GearboxTile& computed,
         values = features_.compute(signals, computed.inputs[lane], id);
     }
     rows.values.insert(rows.values.end(), values.begin(), values.end());
+    std::vector<double> loss = contact_loss(computed, lane, shape_.meshes);
+    if (status != Status::ok) {
+        std::ranges::fill(loss, std::numeric_limits<double>::quiet_NaN());
+    }
+    rows.values.insert(rows.values.end(), loss.begin(), loss.end());
 }
 
 }  // namespace gearpod::mc

@@ -10,6 +10,7 @@
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/results/row_source.hpp"
 #include "mc/scene/feature_needs.hpp"
+#include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
 
 namespace gearpod::mc {
@@ -26,6 +27,11 @@ Results results_frame(const Study& study) {
                                     std::string(feature->unit),
                                     analysis::alarm_of(*feature),
                                     {}});
+    }
+    if (teeth_can_part(study)) {
+        for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
+            results.contact_loss.push_back({mesh_name(mesh), {}});
+        }
     }
     return results;
 }

@@ -314,6 +314,20 @@ GearboxTile run_gearboxes(const Scene& scene, const Sampler& sampler, const sign
     return tile;
 }
 
+std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes) {
+    const machine::AlignedVector& ratio = tile.march.contact_loss;  // [gear pair][lane]
+    const std::size_t lanes = tile.inputs.size();
+    const std::size_t pairs = ratio.size() / lanes / std::max<std::size_t>(1, meshes);
+    std::vector<double> mean(meshes, 0.0);
+    for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
+        for (std::size_t pair = mesh * pairs; pair < (mesh + 1) * pairs; ++pair) {
+            mean[mesh] += ratio[pair * lanes + lane];
+        }
+        mean[mesh] /= static_cast<double>(pairs);
+    }
+    return mean;
+}
+
 GearboxTile run_given(const Scene& scene, const signals::PathGrid& path,
                       std::span<const GearboxId> ids, std::vector<InstanceInputs> inputs,
                       int fewest, const TileWishes& wishes) {

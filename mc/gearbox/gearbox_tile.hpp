@@ -90,6 +90,10 @@ signals::TileSignals views_of(const Scene& scene, const GearboxTile& tile);
 GearboxTile tile_of_march(const Scene& scene, const Sampler& sampler, const signals::PathGrid& path,
                           std::span<const GearboxId> ids, lockstep::TileResult march);
 
+// The contact loss ratio of each of the gearbox's meshes: means over the gear pairs of a mesh,
+// whose number is `meshes`. None of no meshes.
+std::vector<double> contact_loss(const GearboxTile& tile, std::size_t lane, std::size_t meshes);
+
 // `meshes`: mesh periods of sensor signal, 0 for none.
 LaneSignals lane_signals(const Scene& scene, const signals::PathGrid& path, const GearboxTile& tile,
                          int lane, int meshes);

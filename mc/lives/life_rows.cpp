@@ -43,6 +43,7 @@ BatchPlan lives_plan(const Study& study) {
 Results lives_frame(const Study& study) {
     Results frame = results_frame(study_of_gearboxes(study));
     frame.parameters.pop_back();  // the fault's size, which grows
+    frame.contact_loss.clear();   // records are superposed, not integrated
     for (const OwnColumn& column : kOwnColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }

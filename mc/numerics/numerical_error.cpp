@@ -143,10 +143,14 @@ void share_of_size(const analysis::HitMissPod& pod, NumericalShare& share) {
 }  // namespace
 
 FinerScene finer_scene(const Scene& scene) {
+    const Numerics& numerics = scene.study().numerics;
+    return numerics.tolerance == 0.0 && !numerics.verify ? FinerScene{} : with_finer_steps(scene);
+}
+
+FinerScene with_finer_steps(const Scene& scene) {
     const Study& study = scene.study();
     FinerScene finer;
-    if (study.effects.quasi_static() ||
-        (study.numerics.tolerance == 0.0 && !study.numerics.verify)) {
+    if (study.effects.quasi_static()) {
         return finer;
     }
     const Rung rung = rung_of(scene);

@@ -14,12 +14,14 @@
 
 namespace gearpod::mc {
 
-// The scene with four times the steps (or what the integrator allows), settled to 1e-10. None
-// unless the study has numerics.tolerance or numerics.verify, and something is marched.
+// The scene with four times the steps (or what the integrator allows), settled to 1e-10. None of a
+// quasi-static study.
 struct FinerScene {
     Rung rung;
     std::optional<Scene> scene;
 };
+FinerScene with_finer_steps(const Scene& scene);
+// The same, but none unless the study has numerics.tolerance or numerics.verify.
 FinerScene finer_scene(const Scene& scene);
 
 // Eight graded gearboxes, spread over the ensemble, marched as the run did and again by

@@ -7,6 +7,7 @@
 #include "analysis/report/reliability_json.hpp"
 #include "features/feature.hpp"
 #include "mc/answers/alarms_over_time.hpp"
+#include "mc/answers/contact_loss.hpp"
 #include "mc/answers/monitoring_over_time.hpp"
 #include "mc/answers/run_report.hpp"
 #include "mc/numerics/numerical_error.hpp"
@@ -88,6 +89,36 @@ Json numerical_json(const Results& frame, const std::vector<NumericalShare>& sha
     return json;
 }
 
+// Share of time out of contact, mesh by mesh; null where teeth cannot part or an earlier version
+// wrote the file.
+Json contact_loss_json(const Results& frame, const RowSource& rows) {
+    Json json = Json::array();
+    for (const ContactLossSummary& mesh : summarise_contact_loss(frame, rows)) {
+        json.push_back({{"mesh", mesh.mesh},
+                        {"mean", mesh.mean},
+                        {"lower", mesh.lower},
+                        {"median", mesh.median},
+                        {"upper", mesh.upper},
+                        {"gearboxes", mesh.rows}});
+    }
+    return json.empty() ? Json(nullptr) : json;
+}
+
+// Error of the time steps where teeth lose contact; null if it was not measured.
+Json step_error_json(const Results& frame) {
+    if (!frame.step_error) {
+        return nullptr;
+    }
+    Json json;
+    for (const StepErrorNumber& one : kStepErrorNumbers) {
+        json[one.name] = number((*frame.step_error).*one.member);
+    }
+    for (const StepErrorCount& one : kStepErrorCounts) {
+        json[one.name] = (*frame.step_error).*one.member;
+    }
+    return json;
+}
+
 Json features_json(const Results& frame) {
     Json json = Json::array();
     for (const FeatureResult& result : frame.features) {
@@ -128,6 +159,8 @@ nlohmann::json report_json(const Results& frame, const RowSource& rows,
     json["reliability"] =
         reliability ? analysis::reliability_json(*reliability, frame.request) : Json(nullptr);
     json["numerical"] = numerical_json(frame, numerical_shares(frame, rows, reliability));
+    json["step_error"] = step_error_json(frame);
+    json["contact_loss"] = contact_loss_json(frame, rows);
     json["features"] = features_json(frame);
     json["noise"] = noise_json(frame, study);
     json["failures"] = failures_json(frame, rows);

@@ -17,13 +17,16 @@ namespace gearpod::mc {
 inline constexpr int kBatchRows = 16;
 
 // Numbers in a row: the parameters, of which the last is the fault's size, then features x noise
-// levels.
+// levels, then the contact loss ratio of each mesh.
 struct RowShape {
     std::size_t parameters = 0;
     std::size_t features = 0;
     std::size_t levels = 0;
+    std::size_t meshes = 0;  // 0 where teeth cannot part
 
-    std::size_t values() const { return parameters + features * levels; }
+    std::size_t values() const { return contact_loss() + meshes; }
+    // The place of the first contact loss ratio.
+    std::size_t contact_loss() const { return parameters + features * levels; }
     std::size_t value_of(std::size_t feature, std::size_t level) const {
         return parameters + feature * levels + level;
     }

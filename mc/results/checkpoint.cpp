@@ -46,8 +46,9 @@ std::string_view view(const std::vector<std::byte>& bytes) {
 }
 
 std::string text_of(const RunIdentity& identity) {
-    return fmt::format("{}\n{}\n{} {} {}{}{}\n{}", identity.version, identity.seed,
-                       identity.shape.parameters, identity.shape.features, identity.shape.levels,
+    const RowShape& shape = identity.shape;
+    return fmt::format("{}\n{}\n{} {} {} {}{}{}\n{}", identity.version, identity.seed,
+                       shape.parameters, shape.features, shape.levels, shape.meshes,
                        identity.part.empty() ? "" : " ", identity.part, identity.study);
 }
 
@@ -59,8 +60,8 @@ RunIdentity identity_of(const std::string& text) {
     identity.version = text.substr(0, version);
     identity.seed = text.substr(version + 1, seed - version - 1);
     std::istringstream numbers(text.substr(seed + 1, shape - seed - 1));
-    numbers >> identity.shape.parameters >> identity.shape.features >> identity.shape.levels >>
-        identity.part;
+    RowShape& own = identity.shape;
+    numbers >> own.parameters >> own.features >> own.levels >> own.meshes >> identity.part;
     identity.study = text.substr(shape + 1);
     return identity;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mc/files/hdf5_data.hpp"
+#include "mc/results/layout.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -43,6 +44,11 @@ RowBlock read_block(hid_t root, const Results& frame, std::size_t rows, RowRange
     for (std::size_t f = 0; f < shape.features; ++f) {
         read_rows(root, "features/" + frame.features[f].name, {rows, shape.levels}, range, column);
         put(shape.value_of(f, 0), shape.levels);
+    }
+    for (std::size_t m = 0; m < shape.meshes; ++m) {
+        read_rows(root, std::string(kContactLoss) + "/" + frame.contact_loss[m].name, {rows}, range,
+                  column);
+        put(shape.contact_loss() + m, 1);
     }
     return block;
 }

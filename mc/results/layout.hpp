@@ -9,7 +9,28 @@ inline constexpr const char* kResultsFormat = "gearpod results";
 inline constexpr const char* kStatusMeanings =
     "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
     "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
+inline constexpr const char* kContactLoss = "contact_loss";
+inline constexpr const char* kContactLossMeaning =
+    "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "
+    "a "
+    "tooth pair carries no load, averaged over the tooth pairs of the mesh";
 inline constexpr const char* kGroupMeanings = "0 threshold sample, 1 graded, 2 neither";
+
+// The attributes of /step_error: double and int members in turn.
+struct StepErrorNumber {
+    const char* name;
+    double StepError::*member;
+};
+struct StepErrorCount {
+    const char* name;
+    int StepError::*member;
+};
+inline constexpr StepErrorNumber kStepErrorNumbers[] = {{"sensor", &StepError::sensor},
+                                                        {"te", &StepError::te}};
+inline constexpr StepErrorCount kStepErrorCounts[] = {{"steps", &StepError::steps},
+                                                      {"finer_steps", &StepError::finer_steps},
+                                                      {"gearboxes", &StepError::gearboxes},
+                                                      {"meshes", &StepError::meshes}};
 
 // The dataset that says what a feature's columns are.
 inline const char* columns_name(const Results& frame) {

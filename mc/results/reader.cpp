@@ -41,8 +41,10 @@ class Reader {
         read_provenance();
         read_instances();
         read_features();
+        read_contact_loss();
         read_detection();
         read_numerical();
+        read_step_error();
         const Hdf5Handle timing = open_group(root_, "timing");
         for (const std::string& name : link_names(timing.get())) {
             const auto seconds = numbers(timing.get(), name);
@@ -107,9 +109,23 @@ class Reader {
         }
     }
 
+    bool has_group(const char* name) const {
+        return std::ranges::count(link_names(root_), name) > 0;
+    }
+
+    void read_contact_loss() {
+        if (!has_group(kContactLoss)) {
+            return;
+        }
+        const Hdf5Handle group = open_group(root_, kContactLoss);
+        for (const std::string& name : link_names(group.get())) {
+            results_.contact_loss.push_back({name, column(group.get(), name)});
+            require_count(results_.contact_loss.back().values.size(), results_.group.size(), name);
+        }
+    }
+
     void read_numerical() {
-        const std::vector<std::string> groups = link_names(root_);
-        if (std::find(groups.begin(), groups.end(), "numerical") == groups.end()) {
+        if (!has_group("numerical")) {
             return;
         }
         const Hdf5Handle group = open_group(root_, "numerical");
@@ -128,6 +144,20 @@ class Reader {
             }
         }
         results_.numerical = std::move(error);
+    }
+
+    void read_step_error() {
+        if (!has_group("step_error")) {
+            return;
+        }
+        const Hdf5Handle group = open_group(root_, "step_error");
+        StepError& error = results_.step_error.emplace();
+        for (const StepErrorNumber& number : kStepErrorNumbers) {
+            error.*number.member = read_number(group.get(), ".", number.name);
+        }
+        for (const StepErrorCount& count : kStepErrorCounts) {
+            error.*count.member = static_cast<int>(read_number(group.get(), ".", count.name));
+        }
     }
 
     void read_detection() {

@@ -4,6 +4,10 @@
 //   /instances/<parameter> one value a gearbox, attribute `unit`
 //   /instances/group       0 threshold sample, 1 graded, 2 neither (recordings of unknown state)
 //   /features/<feature>    gearboxes x noise levels, attributes `unit` and `alarm`
+//   /contact_loss/<mesh>   one value a gearbox, attributes `unit` ("1") and `description`: the
+//   share
+//                          of time out of contact; absent where teeth cannot part, and from files
+//                          of versions before 0.3
 //   /noise_levels          factors on the sensor and encoder noise
 //   /status                one value a gearbox, attribute `meanings`
 //   /detection             attributes false_alarm_rate, confidence, size_name (the parameter that
@@ -14,6 +18,8 @@
 //                          (levels x sizes); attributes `alarm`, `warnings`
 //   /numerical/<feature>/  if it was verified: rms, largest (levels), what finer steps change in
 //                          some gearboxes; attributes of /numerical: rung, finer, gearboxes
+//   /step_error            where teeth lose contact and the run is long enough: attributes sensor,
+//                          te, steps, finer_steps, gearboxes, meshes (StepError)
 //   /timing/<name>         seconds
 //   /signals/<row>/<name>  one value a sample, attribute `unit`: of the gearboxes asked for
 //
@@ -76,6 +82,12 @@ struct FeatureResult {
     std::vector<double> values;  // rows x noise levels, row-major; NaN: no value
 };
 
+// The contact loss ratio of one mesh.
+struct MeshResult {
+    std::string name;            // "sun-planet", "ring-planet" or "pinion-gear"
+    std::vector<double> values;  // one per row; NaN of a gearbox that failed
+};
+
 struct Timing {
     std::string name;
     double seconds = 0.0;
@@ -103,6 +115,13 @@ struct NumericalError {
     std::vector<double> rms, largest;
 };
 
+// Error that the run's time steps leave in signals where teeth lose contact, found by finer steps.
+struct StepError {
+    double sensor = 0.0, te = 0.0;   // root mean square, relative
+    int steps = 0, finer_steps = 0;  // a mesh period
+    int gearboxes = 0, meshes = 0;   // of the pilot: gearboxes, and mesh periods of each
+};
+
 // A row is a gearbox, or in the threshold group a record of one: that group in order of instance,
 // then the graded group.
 struct Results {
@@ -114,9 +133,11 @@ struct Results {
     std::vector<int> status;           // Status per row
     std::vector<double> noise_levels;  // of lives: hours of the records
     std::vector<FeatureResult> features;
+    std::vector<MeshResult> contact_loss;  // empty where teeth cannot part
     analysis::DetectionRequest request;
     std::vector<analysis::FeatureDetection> detection;
     std::optional<NumericalError> numerical;
+    std::optional<StepError> step_error;
     std::vector<Timing> timing;
     std::vector<RowSignals> signals;  // of chosen gearboxes; not read back
 

@@ -76,6 +76,9 @@ void ColumnRows::visit(const std::function<void(const RowBlock&)>& use) const {
                 block.values.insert(block.values.end(), at,
                                     at + static_cast<std::ptrdiff_t>(levels));
             }
+            for (const MeshResult& mesh : results_.contact_loss) {
+                block.values.push_back(mesh.values[row]);
+            }
         }
         use(block);
     }
@@ -103,7 +106,8 @@ bool sees_tilt(const std::string& feature) {
 }
 
 RowShape row_shape(const Results& results) {
-    return {results.parameters.size(), results.features.size(), results.noise_levels.size()};
+    return {results.parameters.size(), results.features.size(), results.noise_levels.size(),
+            results.contact_loss.size()};
 }
 
 void fill_columns(Results& results, const RowSource& rows) {
@@ -120,6 +124,9 @@ void fill_columns(Results& results, const RowSource& rows) {
                 const double* feature = values + shape.value_of(f, 0);
                 results.features[f].values.insert(results.features[f].values.end(), feature,
                                                   feature + shape.levels);
+            }
+            for (std::size_t m = 0; m < shape.meshes; ++m) {
+                results.contact_loss[m].values.push_back(values[shape.contact_loss() + m]);
             }
         }
     });

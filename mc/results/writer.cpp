@@ -31,6 +31,9 @@ void check_shapes(const Results& results) {
         require(feature.values.size() == rows * results.noise_levels.size(),
                 feature.name + " is not rows x noise levels");
     }
+    for (const MeshResult& mesh : results.contact_loss) {
+        require(mesh.values.size() == rows, mesh.name + " has another number of rows");
+    }
     for (const analysis::FeatureDetection& detection : results.detection) {
         for (const analysis::LevelDetection& level : detection.levels) {
             require(level.cells.size() == results.request.groups.size(),
@@ -77,6 +80,21 @@ void create_features(hid_t root, const Results& frame, hsize_t rows, Places& pla
              shape.value_of(f, 0), shape.levels});
         write_text(group.get(), feature.name, "unit", feature.unit);
         write_text(group.get(), feature.name, "alarm", analysis::alarm_name(feature.alarm));
+    }
+}
+
+void create_contact_loss(hid_t root, const Results& frame, hsize_t rows, Places& places) {
+    if (frame.contact_loss.empty()) {
+        return;
+    }
+    const std::size_t first = row_shape(frame).contact_loss();
+    const Hdf5Handle group = create_group(root, kContactLoss);
+    for (std::size_t m = 0; m < frame.contact_loss.size(); ++m) {
+        const std::string& name = frame.contact_loss[m].name;
+        places.numbers.push_back(
+            {create_column(group.get(), name, {rows}, ColumnKind::numbers), first + m, 1});
+        write_text(group.get(), name, "unit", "1");
+        write_text(group.get(), name, "description", kContactLossMeaning);
     }
 }
 
@@ -185,6 +203,19 @@ void write_numerical(hid_t root, const Results& frame) {
     }
 }
 
+void write_step_error(hid_t root, const Results& frame) {
+    if (!frame.step_error) {
+        return;
+    }
+    const Hdf5Handle group = create_group(root, "step_error");
+    for (const StepErrorNumber& number : kStepErrorNumbers) {
+        write_number(group.get(), ".", number.name, (*frame.step_error).*number.member);
+    }
+    for (const StepErrorCount& count : kStepErrorCounts) {
+        write_number(group.get(), ".", count.name, (*frame.step_error).*count.member);
+    }
+}
+
 void write_all_signals(hid_t root, const Results& frame) {
     if (frame.signals.empty()) {
         return;
@@ -212,8 +243,10 @@ Places write_frame(const std::string& path, const Results& frame, std::size_t ro
         }
         create_instances(root.get(), frame, rows, places);
         create_features(root.get(), frame, rows, places);
+        create_contact_loss(root.get(), frame, rows, places);
         write_detection(root.get(), frame);
         write_numerical(root.get(), frame);
+        write_step_error(root.get(), frame);
         write_all_signals(root.get(), frame);
         const Hdf5Handle timing = create_group(root.get(), "timing");
         for (const Timing& entry : frame.timing) {

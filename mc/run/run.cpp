@@ -18,6 +18,7 @@
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
+#include "mc/numerics/step_error.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/results/reliability_of_results.hpp"
 #include "mc/results/row_source.hpp"
@@ -135,6 +136,8 @@ class Run {
             all.signals = chosen_signals(options_, scene_);
             if (part_.empty()) {  // of a part, what merges it finds
                 all.numerical = find_numerical_error(scene_);
+                all.step_error = find_step_error_of_run(
+                    scene_, plan_.threshold_gearboxes() + plan_.graded_rows());
             }
         } catch (const machine::Stopped&) {
             const std::string reason = interruption.reason({});
@@ -172,6 +175,7 @@ class Run {
                 all = frame(rows, state_of(outcome));
                 all.signals = std::move(examples.signals);
                 all.numerical = std::move(examples.numerical);
+                all.step_error = examples.step_error;
                 all.timing = timing_of(outcome);
                 all.timing.push_back({"setup_s", setup_s_});
                 all.timing.push_back({"output_s", outcome.output_s});

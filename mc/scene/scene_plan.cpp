@@ -52,13 +52,7 @@ class Planner {
         march.integrator = plan_.stepping.integrator;
         march.precision = study_.numerics.precision;
         march.te_weight = drive_.te_weight(march.layout);
-        if (has_unilateral_teeth(study_)) {
-            march.mesh_law = dynamics::MeshLaw::unilateral;
-        } else if (study_.effects.separation != Separation::none) {
-            march.mesh_law = dynamics::MeshLaw::separating;
-        } else if (has_static_errors(study_)) {
-            march.mesh_law = dynamics::MeshLaw::with_error;
-        }
+        march.mesh_law = mesh_law(study_);
     }
 
     // With its steps: stiffness and transmission errors at their nodes.

@@ -78,6 +78,20 @@ bool has_static_errors(const Study& study) {
     return !e.sun_planet_m.empty() || !e.ring_planet_m.empty() || !e.mesh_m.empty();
 }
 
+dynamics::MeshLaw mesh_law(const Study& study) {
+    if (has_unilateral_teeth(study)) {
+        return dynamics::MeshLaw::unilateral;
+    }
+    if (study.effects.separation != Separation::none) {
+        return dynamics::MeshLaw::separating;
+    }
+    return has_static_errors(study) ? dynamics::MeshLaw::with_error : dynamics::MeshLaw::linear;
+}
+
+bool teeth_can_part(const Study& study) {
+    return dynamics::separates(mesh_law(study));
+}
+
 bool has_tooth_quality(const Study& study) {
     return study.errors.tooth_quality ||
            std::any_of(kAllMembers.begin(), kAllMembers.end(), [&](Member member) {

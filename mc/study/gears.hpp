@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/effects/mesh_law.hpp"
 #include "gears/gear.hpp"
 #include "gears/planetary.hpp"
 #include "gears/working_pair.hpp"
@@ -62,6 +63,10 @@ bool stiffness_given(const Study& study);
 
 // True if any mesh has a static transmission error given by its harmonics.
 bool has_static_errors(const Study& study);
+
+// The law of its meshes, and whether their teeth can lose contact under it.
+dynamics::MeshLaw mesh_law(const Study& study);
+bool teeth_can_part(const Study& study);
 // Whether the teeth of any gearbox have errors of their own; a quality that says how large;
 // measured ones.
 bool has_tooth_errors(const Study& study);

@@ -49,6 +49,8 @@ class Results:
             self.status: Array = file["status"][()]
             self.inputs: List[str] = [name for name in file["instances"] if name != "group"]
             self.features: List[str] = list(file["features"])
+            # The meshes whose share of time out of contact is known; none where teeth cannot part.
+            self.meshes: List[str] = list(file.get("contact_loss", {}))
             self.units: Dict[str, str] = {
                 name: _text(file[folder][name].attrs["unit"])
                 for folder, names in (("instances", self.inputs), ("features", self.features))
@@ -83,6 +85,11 @@ class Results:
         """Gearboxes x noise levels, or at one noise level one value a gearbox; NaN: none."""
         values = self._read("features", name, self.features)
         return values if noise is None else values[:, self.level(noise)]
+
+    def contact_loss(self, mesh: str) -> Array:
+        """Share of time out of contact, one value a gearbox: the share of its engagement, within the
+        nominal path of contact, in which a tooth pair of the mesh carries no load; NaN: none."""
+        return self._read("contact_loss", mesh, self.meshes)
 
     def level(self, noise: float) -> int:
         """The place of a noise level. KeyError names those that there are."""

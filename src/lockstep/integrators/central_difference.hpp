@@ -19,6 +19,9 @@ struct CentralDifference {
     // Its low-pass is off by (2 pi / steps)^2 / 12 there: 7e-4, and 3e-3 with half as many.
     static constexpr double kStepsInBand = 70.0;
     static constexpr StepCost kCost{0.32, 0.34, 0.34};
+    // Where no sample parts two steps, positions have drifted to the second one's middle already,
+    // this part of its length ahead of the velocities.
+    static constexpr double kPositionsAhead = 0.5;
 
     // The trapezoidal rule with the input at the step's middle alone.
     template <class System>

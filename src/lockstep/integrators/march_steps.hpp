@@ -10,6 +10,7 @@
 
 #include "lockstep/integrators/march_state.hpp"
 #include "lockstep/integrators/sensor_filter.hpp"
+#include "lockstep/integrators/step_states.hpp"
 #include "lockstep/plan/march.hpp"
 #include "machine/dispatch.hpp"
 
@@ -363,6 +364,9 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
         if (step.sample >= 0) {
             write_sample<Model::kWidth>(plan, state, step.sample, record);
         }
+        if (!record.step_states.empty()) {
+            write_step_state<Integrator, Model>(plan, lanes, i, state, record);
+        }
         if constexpr (kInterpolates) {
             if (step.inside > 0) {
                 before = state;
@@ -380,6 +384,9 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
                 std::copy_n(stages.estimate, kRow, record.estimate.data() + i * kRow);
             }
         }
+    }
+    if (!record.step_states.empty()) {
+        write_step_state<Integrator, Model>(plan, lanes, steps, state, record);
     }
 }
 

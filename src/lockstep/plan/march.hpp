@@ -38,10 +38,13 @@ struct TileState {
 // estimate: [step][kEstimateRows][lane], the largest position (m) and velocity (m/s) over the
 // degrees of freedom and the largest estimated errors of these; for integrators that estimate their
 // error in a plan that asks for it (bogacki_shampine.hpp), left empty otherwise.
+// step_states: [step + 1][2 x degree of freedom][lane], positions (m) and then velocities (m/s) at
+// the start of every step and at the end of the last one; left empty unless it is asked for.
 inline constexpr int kEstimateRows = 4;
 struct MeshRecord {
     machine::AlignedVector acceleration, te, motion;
     machine::AlignedVector estimate = {};
+    machine::AlignedVector step_states = {};
 };
 
 // A pair whose stiffness differs between lanes during some steps of this mesh.

@@ -1,6 +1,9 @@
-// A tile whose healthy meshes are composed of what each gear's tooth errors do (composition.hpp),
-// in the lanes whose tooth pairs stay in contact; faults are marched from there.
+// A tile whose healthy mesh periods are superposed (composition.hpp) in the lanes whose tooth pairs
+// stay in contact. The perturbation due to a fault is integrated from the superposed states.
 #pragma once
+
+#include <optional>
+#include <ranges>
 
 #include "lockstep/tile/composition.hpp"
 #include "lockstep/tile/marched_tile.hpp"
@@ -16,27 +19,28 @@ class ComposedTile : MarchedTile<W> {
     TileResult run() {
         settle();
         march_composed();
+        add_contact_loss_of_span();
         return std::move(result_);
     }
 
   private:
     using Base = MarchedTile<W>;
-    using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::hear_records, Base::march, Base::march_everything, Base::new_record, Base::orbit_,
+    using Base::add_contact_loss_of_span, Base::add_record, Base::contact_, Base::distance,
+        Base::diverged, Base::faults_, Base::faulty, Base::forget_contact, Base::hear_records,
+        Base::march, Base::march_counting, Base::march_everything, Base::new_record, Base::orbit_,
         Base::plan_, Base::record_of, Base::result_, Base::retire, Base::schedule_, Base::settings_,
         Base::settle, Base::settled_, Base::state_;
 
-    // Mesh period k with its motion, and how its tooth pairs are pressed.
-    machine::AlignedVector march_part_mesh(const Pressing& pressing, int k,
-                                           const MeshOverrides& overrides, const MeshRecord* orbit,
-                                           MeshRecord& record) {
-        record = make_record(plan_, W, true);
+    // Integrates mesh period k with its step states and returns the bounds of contact in it.
+    machine::AlignedVector march_part_mesh(int k, const MeshOverrides& overrides,
+                                           const MeshRecord* orbit, MeshRecord& record) {
+        record = new_record();
+        contact_->ask_for_steps(record);
         march(k, overrides, record);
-        return pressing.least(record, overrides.gaps, orbit);
+        return contact_->least_pressing(record, overrides.gaps, orbit);
     }
 
-    ComposedPart march_part(const Pressing& pressing, const Composition& whole, int teeth,
-                            LaneMask<W>& periodic) {
+    ComposedPart march_part(const Composition& whole, int teeth, LaneMask<W>& periodic) {
         const ToothErrors errors = errors_of_part(*faults_.tooth_errors, teeth);
         MeshRecord unseen = new_record();
         ComposedPart part;
@@ -47,11 +51,9 @@ class ComposedTile : MarchedTile<W> {
         for (int k = 0; k < teeth; ++k) {
             part.states.push_back(state_);
             MeshRecord& record = part.records.emplace_back();
-            part.pressing.push_back(march_part_mesh(pressing, k, {{}, tooth_gaps(plan_, errors, k)},
-                                                    &whole.orbit, record));
-            if (!settings_.with_motion) {
-                record.motion = {};
-            }
+            part.pressing.push_back(
+                march_part_mesh(k, {{}, tooth_gaps(plan_, errors, k)}, &whole.orbit, record));
+            record.step_states = {};
         }
         for (int l = 0; l < W; ++l) {
             periodic[static_cast<std::size_t>(l)] =
@@ -62,18 +64,28 @@ class ComposedTile : MarchedTile<W> {
         return part;
     }
 
-    Composition march_parts(LaneMask<W>& periodic) {
-        const Pressing pressing(plan_);
+    // The orbit to which parts can be added; none if no lane may be superposed, or keeps contact in
+    // the orbit itself.
+    std::optional<Composition> march_orbit() {
         Composition whole;
         whole.orbit_state = orbit_;
         state_ = orbit_;
-        whole.orbit_pressing = march_part_mesh(pressing, 0, {}, nullptr, whole.orbit);
+        const auto may = [this](int lane) { return may_compose(lane); };
+        if (std::ranges::none_of(std::views::iota(0, W), may)) {
+            return std::nullopt;
+        }
+        whole.orbit_pressing = march_part_mesh(0, {}, nullptr, whole.orbit);
+        const std::vector<char> touching = whole.keeps_contact(0, 0, W);
+        return std::ranges::count(touching, 1) > 0 ? std::optional(std::move(whole)) : std::nullopt;
+    }
+
+    void march_parts(Composition& whole, LaneMask<W>& periodic) {
         periodic = settled_;
         for (const int teeth : part_periods(*faults_.tooth_errors)) {
-            whole.parts.push_back(march_part(pressing, whole, teeth, periodic));
+            whole.parts.push_back(march_part(whole, teeth, periodic));
         }
+        whole.orbit.step_states = {};
         whole.take_orbit_once();
-        return whole;
     }
 
     bool may_compose(int lane) const {
@@ -81,20 +93,18 @@ class ComposedTile : MarchedTile<W> {
                (settings_.compose_faulty || !faulty(lane));
     }
 
-    // The meshes of the span composed where a lane keeps contact, marched where it does not.
+    // The mesh periods of the span: superposed in lanes that keep contact, else integrated in full.
     void march_composed() {
         result_.composed.assign(W, false);
-        bool any = false;
-        for (int l = 0; l < W; ++l) {
-            any = any || may_compose(l);
-        }
-        if (!any) {
+        std::optional<Composition> orbit = march_orbit();
+        if (!orbit) {
             state_ = orbit_;
             march_everything(settings_.hear != nullptr);
             return;
         }
+        Composition& whole = *orbit;
         LaneMask<W> kept;
-        const Composition whole = march_parts(kept);
+        march_parts(whole, kept);
         const std::vector<char> touching =
             whole.keeps_contact(-settings_.run_in_meshes, settings_.march_meshes, W);
         bool all = true;
@@ -110,6 +120,7 @@ class ComposedTile : MarchedTile<W> {
         if (!all) {
             state_ = orbit_;
             march_everything(false);
+            forget_contact(kept);
         }
         MeshRecord composed = new_record();
         for (int k = 0; k < settings_.march_meshes; ++k) {
@@ -143,7 +154,8 @@ class ComposedTile : MarchedTile<W> {
         }
     }
 
-    // What faults change in composed lanes, mesh by mesh from the run-in's first.
+    // Integrates the perturbation due to faults in superposed lanes, mesh period by mesh period
+    // from the first of the run-in.
     class Changes {
       public:
         Changes(ComposedTile& tile, const Composition& whole, const LaneMask<W>& kept)
@@ -153,7 +165,7 @@ class ComposedTile : MarchedTile<W> {
               record_(tile.new_record()),
               healthy_(tile.state_) {}
 
-        // Into the record of mesh k, of the run-in none.
+        // Changes the record of mesh k; null during the run-in.
         void change(int k, MeshRecord* into) {
             const LaneMask<W> quiet = leave(k);
             if (std::ranges::none_of(away_, std::identity())) {
@@ -161,7 +173,7 @@ class ComposedTile : MarchedTile<W> {
             }
             whole_.state(k, healthy_);
             copy_lanes<W>(healthy_, tile_.state_, quiet);
-            tile_.march(k, tile_.schedule_.all_overrides(k), record_);
+            tile_.march_counting(k, tile_.schedule_.all_overrides(k), record_, away_);
             whole_.state(k + 1, healthy_);
             if (into != nullptr) {
                 copy_lanes<W>(record_, *into, away_);
@@ -170,7 +182,7 @@ class ComposedTile : MarchedTile<W> {
         }
 
       private:
-        // Lanes leave what was composed where a fault passes; returns those that had not before.
+        // Marks lanes as perturbed where a fault passes; returns those that were not before.
         LaneMask<W> leave(int k) {
             const bool passes = tile_.schedule_.passes(k);
             LaneMask<W> quiet;
@@ -202,7 +214,7 @@ class ComposedTile : MarchedTile<W> {
         LaneMask<W> away_{};
     };
 
-    // Of lanes that all keep contact.
+    // Records the signals of lanes that all keep contact.
     void hear_composed(const Composition& whole, const LaneMask<W>& kept) {
         Changes changes(*this, whole, kept);
         MeshRecord composed = new_record();

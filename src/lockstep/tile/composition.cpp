@@ -1,44 +1,13 @@
 #include "lockstep/tile/composition.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
-
-#include "dynamics/gearbox.hpp"
 
 namespace gearpod::lockstep {
 namespace {
 
-constexpr int kStretches = 24;  // of a mesh period
-
 std::size_t place(int k, std::size_t period) {
     const auto length = static_cast<int>(period);
     return static_cast<std::size_t>((k % length + length) % length);
-}
-
-// What a pair's static transmission error takes from its deflection there, m.
-double static_error(const MarchPlan& plan, int step, int pair) {
-    return plan.nodes.error.empty()
-               ? 0.0
-               : plan.nodes.error[static_cast<std::size_t>(step) * plan.grid.stage_nodes.size() *
-                                      static_cast<std::size_t>(plan.nodes.pairs) +
-                                  static_cast<std::size_t>(pair)];
-}
-
-// d += weight times the motion, or times what it lacks of the orbit's.
-void add_motion(std::size_t lanes, double weight, const double* __restrict motion,
-                const double* __restrict orbit, double* __restrict d) {
-    if (orbit == nullptr) {
-#pragma omp simd
-        for (std::size_t l = 0; l < lanes; ++l) {
-            d[l] += weight * motion[l];
-        }
-        return;
-    }
-#pragma omp simd
-    for (std::size_t l = 0; l < lanes; ++l) {
-        d[l] += weight * (motion[l] - orbit[l]);
-    }
 }
 
 void add_up(std::span<const machine::AlignedVector* const> parts, machine::AlignedVector& sum) {
@@ -102,75 +71,6 @@ int part_meshes(std::span<const int> periods, int run_in_meshes) {
         meshes += period + run_in_meshes;
     }
     return meshes;
-}
-
-Pressing::Pressing(const MarchPlan& plan) : plan_(plan) {
-    const StiffnessNodes& table = plan.nodes;
-    for (std::size_t s = 0; s < plan.grid.steps.size(); ++s) {
-        if (plan.grid.steps[s].sample < 0) {
-            continue;
-        }
-        const auto step = static_cast<int>(s);
-        for (int pair = 0; pair < table.pairs; ++pair) {
-            Touching touching{plan.grid.steps[s].sample, pair, step, table.tooth_pairs, 0};
-            for (int j = 0; j < table.tooth_pairs; ++j) {
-                if (table.tooth_stiffness[tooth_pair_at(plan, step, 0, j, pair)] > 0.0) {
-                    touching.first_slot = std::min(touching.first_slot, j);
-                    touching.last_slot = j + 1;
-                }
-            }
-            touching_.push_back(touching);
-        }
-    }
-    for (int pair = 0; pair < table.pairs; ++pair) {
-        const Eigen::VectorXd row = dynamics::mesh_row(plan.layout, pair);
-        row_.emplace_back();
-        for (Eigen::Index i = 0; i < row.size(); ++i) {
-            if (row(i) != 0.0) {
-                row_.back().push_back({static_cast<std::size_t>(i), row(i)});
-            }
-        }
-    }
-}
-
-machine::AlignedVector Pressing::least(const MeshRecord& record, std::span<const PairGaps> gaps,
-                                       const MeshRecord* orbit) const {
-    const auto samples = plan_.samples();
-    const std::size_t lanes = record.te.size() / samples;
-    const std::size_t motion = record.motion.size() / samples;  // of a sample
-    const auto pairs = static_cast<std::size_t>(plan_.nodes.pairs);
-    const auto slots = static_cast<std::size_t>(plan_.nodes.tooth_pairs);
-    machine::AlignedVector least(kStretches * pairs * slots * lanes, INFINITY), d(lanes);
-    for (const Touching& t : touching_) {
-        const auto sample = static_cast<std::size_t>(t.sample);
-        std::ranges::fill(d, orbit == nullptr ? -static_error(plan_, t.step, t.pair) : 0.0);
-        for (const auto& [degree, weight] : row_[static_cast<std::size_t>(t.pair)]) {
-            const std::size_t at = sample * motion + degree * lanes;
-            add_motion(lanes, weight, record.motion.data() + at,
-                       orbit != nullptr ? orbit->motion.data() + at : nullptr, d.data());
-        }
-        const PairGaps* const own = gaps_of_pair(gaps, t.pair, t.step);
-        for (int slot = t.first_slot; slot < t.last_slot; ++slot) {
-            const std::size_t stretch = sample * kStretches / samples;
-            const auto j = static_cast<std::size_t>(slot);
-            const std::size_t row =
-                ((stretch * pairs + static_cast<std::size_t>(t.pair)) * slots + j) * lanes;
-            const double place =
-                plan_.nodes.tooth_place[tooth_pair_at(plan_, t.step, 0, slot, t.pair)];
-            for (std::size_t l = 0; l < lanes; ++l) {
-                const std::size_t i = j * lanes + l;
-                const double gap =
-                    own != nullptr ? std::fma(place, own->growth[i], own->gap[i]) : 0.0;
-                const double pressed = d[l] - gap;
-                double& least_here = least[row + l];
-                // NaN is no contact.
-                least_here = pressed > least_here     ? least_here
-                             : std::isfinite(pressed) ? pressed
-                                                      : -INFINITY;
-            }
-        }
-    }
-    return least;
 }
 
 void Composition::record(int k, MeshRecord& record) const {

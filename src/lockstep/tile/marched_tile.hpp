@@ -1,11 +1,12 @@
-// A tile under way: its state, its records, and the march to its orbit and of every mesh of the
-// span.
+// A tile during integration: its state, its records, the integration until the periodic orbit is
+// reached, and that of every mesh period of the span.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "lockstep/integrators/sensor_filter.hpp"
@@ -15,6 +16,7 @@
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_lanes.hpp"
 #include "lockstep/tile/tile_records.hpp"
+#include "lockstep/tile/tooth_contact.hpp"
 
 namespace gearpod::lockstep {
 
@@ -31,12 +33,16 @@ class MarchedTile {
           driven_(make_driven(plan, inputs, settings.excitation)),
           rotation_(plan.layout, inputs),
           state_(rest_state(plan, inputs)) {
+        if (dynamics::separates(plan.mesh_law)) {
+            contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
+            apart_.assign(static_cast<std::size_t>(plan.nodes.pairs) * W, 0.0);
+        }
         result_.status.assign(W, LaneStatus::ok);
         result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
     }
 
   protected:
-    // A motion this large is no gearbox any more; it only grows from there.
+    // A motion larger than this has diverged.
     static constexpr double kDivergedMotion_m = 1.0;
 
     bool faulty(int lane) const {
@@ -57,7 +63,7 @@ class MarchedTile {
         }
     }
 
-    // Mesh period `mesh` as it is driven.
+    // Integrates mesh period `mesh` under its input excitation.
     void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         if (driven_ != nullptr) {
             (*driven_)(mesh, overrides, state_, record);
@@ -67,7 +73,71 @@ class MarchedTile {
         after_mesh();
     }
 
-    // A healthy mesh period that is like all others.
+    // The same of mesh k of the span, whose contact loss counts in the lanes of the mask.
+    void march_counting(int k, const MeshOverrides& overrides, MeshRecord& record,
+                        const LaneMask<W>& lanes) {
+        if (!contact_ || k < 0 || !counts_contact(k)) {
+            march(k, overrides, record);
+            return;
+        }
+        record.step_states.swap(step_states_);
+        contact_->ask_for_steps(record);
+        march(k, overrides, record);
+        contact_->add_time_apart(record, overrides.gaps, lanes, apart_);
+        record.step_states.swap(step_states_);
+    }
+
+    // Clears the counts of superposed lanes, whose tooth pairs do not part.
+    void forget_contact(const LaneMask<W>& lanes) {
+        for (int l = 0; l < W; ++l) {
+            if (lanes[static_cast<std::size_t>(l)]) {
+                fill_lane<W>(apart_, l, 0.0);
+            }
+        }
+    }
+
+    // Sets TileResult::contact_loss from so many counted mesh periods; NaN in diverged lanes.
+    void add_contact_loss(int meshes) {
+        if (!contact_) {
+            return;
+        }
+        result_.contact_loss = apart_;
+        for (std::size_t i = 0; i < apart_.size(); ++i) {
+            result_.contact_loss[i] /= contact_->time_engaged(static_cast<int>(i / W)) * meshes;
+        }
+        for (int l = 0; l < W; ++l) {
+            if (result_.status[static_cast<std::size_t>(l)] == LaneStatus::diverged) {
+                fill_lane<W>(result_.contact_loss, l, NAN);
+            }
+        }
+    }
+
+    // The same after integrating the mesh periods of the span.
+    void add_contact_loss_of_span() {
+        int meshes = 0;
+        for (int k = 0; k < settings_.march_meshes; ++k) {
+            meshes += counts_contact(k) ? 1 : 0;
+        }
+        add_contact_loss(meshes);
+    }
+
+    // The same for the healthy mesh period that repeats, which is integrated once more.
+    void add_contact_loss_of_orbit() {
+        if (!contact_) {
+            return;
+        }
+        LaneMask<W> all;
+        all.fill(true);
+        MeshRecord record = new_record();
+        contact_->ask_for_steps(record);
+        state_ = orbit_;
+        march_settling(record);
+        state_ = orbit_;
+        contact_->add_time_apart(record, {}, all, apart_);
+        add_contact_loss(1);
+    }
+
+    // Integrates a healthy mesh period that is like all others.
     void march_settling(MeshRecord& record) {
         if (driven_ != nullptr && settings_.excitation->repeats()) {
             (*driven_)(0, {}, state_, record);
@@ -84,8 +154,8 @@ class MarchedTile {
 
     MeshRecord new_record() const { return make_record(plan_, W, settings_.with_motion); }
 
-    // Distance of two states, relative to the motion; velocities are weighed at the sensor's band
-    // edge, filtered accelerations against the largest recorded one.
+    // Distance of two states relative to the motion. Velocities are weighted at the sensor's band
+    // edge, filtered accelerations by the largest recorded one.
     double distance(const TileState& a, const TileState& b, const MeshRecord& record,
                     int lane) const {
         const double scale = largest<W>(b.q, lane);
@@ -110,7 +180,7 @@ class MarchedTile {
                !std::isfinite(largest<W>(state_.filter, lane));
     }
 
-    // Takes a lane that diverged out of the march: its records say NaN, its state rests at zero.
+    // Takes a diverged lane out of the integration: its records become NaN, its state zero.
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {
@@ -123,7 +193,7 @@ class MarchedTile {
         fill_lane<W>(orbit_.filter, lane, 0.0);
     }
 
-    // Lanes that did not get back to their orbit in the mesh periods they had.
+    // Marks lanes that did not return to their orbit within the allowed mesh periods.
     void mark_unsettled(const std::array<bool, W>& settled) {
         for (std::size_t l = 0; l < W; ++l) {
             if (!settled[l]) {
@@ -132,7 +202,7 @@ class MarchedTile {
         }
     }
 
-    // Marches until every lane's mesh period repeats the one before, and keeps that one.
+    // Integrates until every lane's mesh period repeats the one before, and keeps that one.
     void settle() {
         result_.records.push_back(new_record());
         orbit_ = state_;
@@ -172,7 +242,7 @@ class MarchedTile {
         state_ = orbit_;
     }
 
-    // Where mesh k of the span is recorded.
+    // Adds the record of mesh k of the span.
     MeshRecord& add_record(int k) {
         result_.content[static_cast<std::size_t>(k)] = static_cast<int>(result_.records.size());
         return result_.records.emplace_back(new_record());
@@ -183,7 +253,7 @@ class MarchedTile {
             .records[static_cast<std::size_t>(result_.content[static_cast<std::size_t>(k)])];
     }
 
-    // Every mesh of the span for itself, into a record of its own or to who hears it.
+    // Integrates every mesh period of the span, into a record of its own or for settings_.hear.
     void march_everything(bool heard) {
         MeshRecord unkept = new_record();
         const auto keep_state = [&] {
@@ -191,9 +261,12 @@ class MarchedTile {
                 result_.states.push_back(state_);
             }
         };
+        LaneMask<W> all;
+        all.fill(true);
         for (int k = -settings_.run_in_meshes; k < settings_.march_meshes; ++k) {
             keep_state();
-            march(k, schedule_.all_overrides(k), k < 0 || heard ? unkept : add_record(k));
+            march_counting(k, schedule_.all_overrides(k), k < 0 || heard ? unkept : add_record(k),
+                           all);
             if (k >= 0 && heard) {
                 settings_.hear(k, unkept);
             }
@@ -206,7 +279,7 @@ class MarchedTile {
         }
     }
 
-    // Gives what was kept to who hears it.
+    // Hands the kept records to settings_.hear.
     void hear_records() {
         for (int k = 0; k < settings_.march_meshes; ++k) {
             settings_.hear(k, record_of(k));
@@ -222,6 +295,9 @@ class MarchedTile {
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     const std::unique_ptr<DrivenMarch<W>> driven_;  // null: nothing drives it unevenly
     const RigidRotation rotation_;
+    std::optional<ToothContact> contact_;  // where teeth can part
+    machine::AlignedVector apart_;         // ToothContact::add_time_apart of the counted meshes
+    machine::AlignedVector step_states_;   // MeshRecord::step_states of these
     TileState state_;
     TileState orbit_;        // the healthy orbit at an integer phase
     LaneMask<W> settled_{};  // on that orbit

@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "lockstep/driven/driven_forces.hpp"
 #include "lockstep/driven/excitation_rows.hpp"
 #include "lockstep/tile/static_lanes.hpp"
+#include "lockstep/tile/tooth_contact.hpp"
 #include "machine/stop.hpp"
 
 namespace gearpod::lockstep {
@@ -46,6 +48,12 @@ class QuasiStatic {
                                       largest_stiffness(plan.nodes), contacts_of(plan))),
           steady_force_(lanes_.force),
           state_(lanes_) {
+        if (dynamics::separates(plan.mesh_law)) {
+            contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
+            const auto pairs = static_cast<std::size_t>(plan.nodes.pairs);
+            contact_time_.engaged.assign(pairs, 0.0);
+            contact_time_.apart.assign(pairs * W, 0.0);
+        }
         result_.status.assign(W, LaneStatus::ok);
         drive(inputs);
         if (plan.grid.stage_nodes.front() != 0.0) {
@@ -55,15 +63,18 @@ class QuasiStatic {
     }
 
     TileResult run() {
-        add_record(0, {});
         const bool repeats = settings_.excitation == nullptr || settings_.excitation->repeats();
-        if (faults_.tooth_errors || !repeats) {
+        const bool one_by_one = faults_.tooth_errors || !repeats;
+        add_record(0, {}, !one_by_one);
+        if (one_by_one) {
             for (int k = 0; k < settings_.march_meshes; ++k) {
-                result_.content.push_back(add_record(k, schedule_.all_overrides(k)));
+                result_.content.push_back(
+                    add_record(k, schedule_.all_overrides(k), counts_contact(k)));
             }
         } else {
             solve_pattern();
         }
+        result_.contact_loss = contact_time_.ratio();
         retire_loose_lanes();
         return std::move(result_);
     }
@@ -73,7 +84,7 @@ class QuasiStatic {
         const int length = faults_.pattern.length;
         for (int k = 0; k < length; ++k) {
             const std::vector<PairOverride> passages = schedule_.overrides(k);
-            result_.content.push_back(passages.empty() ? 0 : add_record(0, {passages, {}}));
+            result_.content.push_back(passages.empty() ? 0 : add_record(0, {passages, {}}, false));
         }
         for (int k = length; k < settings_.march_meshes; ++k) {
             result_.content.push_back(result_.content[static_cast<std::size_t>(k % length)]);
@@ -177,7 +188,8 @@ class QuasiStatic {
         }
     }
 
-    int add_record(int mesh, const MeshOverrides& overrides) {
+    // `counted`: adds the mesh period to the contact loss.
+    int add_record(int mesh, const MeshOverrides& overrides, bool counted) {
         machine::leave_if_stopped();
         if (rows_ != nullptr) {
             rows_->fill(mesh);
@@ -193,6 +205,10 @@ class QuasiStatic {
                 solve_static(lanes_, state_);
                 write(static_cast<std::size_t>(sample), record);
                 note_status();
+                if (counted && contact_) {
+                    contact_->add_position(i, state_.q, overrides.gaps, 1.0 / plan_.grid.samples,
+                                           contact_time_);
+                }
             }
         }
         result_.records.push_back(std::move(record));
@@ -231,6 +247,9 @@ class QuasiStatic {
             if (result_.status[l] != LaneStatus::diverged) {
                 continue;
             }
+            for (std::size_t i = l; i < result_.contact_loss.size(); i += W) {
+                result_.contact_loss[i] = NAN;
+            }
             for (MeshRecord& record : result_.records) {
                 for (auto* values : {&record.te, &record.motion}) {
                     for (std::size_t i = l; i < values->size(); i += W) {
@@ -250,6 +269,8 @@ class QuasiStatic {
     DrivenForces<W> forces_;                // only with
     std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
+    std::optional<ToothContact> contact_;  // where teeth can part
+    ContactTime contact_time_;
     TileResult result_;
 };
 

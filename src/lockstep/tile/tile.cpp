@@ -23,7 +23,9 @@ class TileMarch : MarchedTile<W> {
         settle();
         if (settings_.march_meshes > 0) {
             march_everything(settings_.hear != nullptr);
+            add_contact_loss_of_span();
         } else {
+            add_contact_loss_of_orbit();
             march_pattern();
         }
         return std::move(result_);
@@ -31,9 +33,10 @@ class TileMarch : MarchedTile<W> {
 
   private:
     using Base = MarchedTile<W>;
-    using Base::add_record, Base::distance, Base::diverged, Base::faults_, Base::faulty,
-        Base::march, Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_,
-        Base::result_, Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
+    using Base::add_contact_loss_of_orbit, Base::add_contact_loss_of_span, Base::add_record,
+        Base::distance, Base::diverged, Base::faults_, Base::faulty, Base::march,
+        Base::march_everything, Base::mark_unsettled, Base::new_record, Base::orbit_, Base::result_,
+        Base::retire, Base::schedule_, Base::settings_, Base::settle, Base::state_;
 
     // One mesh of the pattern: quiet lanes stay on their orbit, the others march.
     void march_pattern_mesh(int k, std::array<bool, W>& quiet,

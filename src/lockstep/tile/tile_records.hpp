@@ -1,4 +1,4 @@
-// What a tile is asked for, and what it leaves.
+// Settings and results of a tile.
 #pragma once
 
 #include <functional>
@@ -50,6 +50,12 @@ struct TileResult {
     std::vector<LaneStatus> status;  // per lane
     // Per lane, with TileSettings::compose: its healthy meshes were composed, not marched.
     std::vector<char> composed;
+    // [gear pair][lane]: the contact loss ratio, the share of its engagement within the nominal
+    // path of contact in which a tooth pair carries no load, averaged over the tooth pairs. Counted
+    // in one of kContactMeshes mesh periods of the span with its faults (tooth_contact.hpp); where
+    // mesh periods repeat, in the healthy one. Superposed meshes have none. Empty where teeth
+    // cannot part, and with TileSettings::healthy.
+    machine::AlignedVector contact_loss;
     int marched = 0;  // mesh periods that the tile marched or solved in all
 };
 
