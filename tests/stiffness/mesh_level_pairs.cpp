@@ -51,10 +51,10 @@ LevelPair external(const std::string& name, int z_1, int z_2, double module_m,
 }
 
 LevelPair discs(const std::string& name, int z_1, int z_2, double x_1, double x_2, double helix_deg,
-                const std::string& elements) {
+                const std::string& elements, double bore = 1.0 / 3.0) {
     LevelPair pair = external(name, z_1, z_2, 4e-3, {x_1, x_2}, 0.02, helix_deg * kDegree);
-    pair.held_1_m = pair.geometry.gear(1).root_radius() / 3;
-    pair.held_2_m = pair.geometry.gear(2).root_radius() / 3;
+    pair.held_1_m = bore * pair.geometry.gear(1).root_radius();
+    pair.held_2_m = bore * pair.geometry.gear(2).root_radius();
     pair.force_N = 300e3 * 0.02 / std::cos(kNormalAngle);
     pair.elements = elements;
     return pair;
@@ -163,6 +163,7 @@ double mean_of_rows(const LevelPair& pair, double compliance) {
 std::vector<LevelPair> all_pairs() {
     std::vector<LevelPair> pairs{
         discs("19/48", 19, 48, 0, 0, 0, "discs-19-48"),
+        discs("19/48, rims", 19, 48, 0, 0, 0, "rims-19-48", 0.75),
         discs("30/60", 30, 60, 0, 0, 0, "discs-30-60"),
         discs("20/30, shifts 0.4 and 0.2", 20, 30, 0.4, 0.2, 0, "discs-20-30"),
         discs("17/43, shift 0.3", 17, 43, 0.3, 0, 0, ""),

@@ -78,7 +78,7 @@ inline std::vector<GearSet> wind_turbines() {
         {"DTU 10 MW, stage 1",
          driven(working(wide(teeth(26, 31, 89, 5, 30), 8, 800), 0.2702, 877.033), "carrier", 10000,
                 9.6),
-         4},
+         3},
         {"DTU 10 MW, stage 2",
          driven(working(wide(teeth(26, 41, 109, 3, 20), 8, 520), 0.2787, 684.273), "carrier", 10000,
                 42.5),

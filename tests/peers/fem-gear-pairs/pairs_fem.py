@@ -42,9 +42,9 @@ def liang_ring():
     return Pair(planet, ring, 25 * MODULE, STEEL, 450e3 / 4 / (19 * MODULE / 2 * math.cos(planet.angle)))
 
 
-def steel_discs(teeth, shifts):
+def steel_discs(teeth, shifts, bore=1 / 3):
     """External pair of the ISO 6336-1 table (tests/stiffness/test_iso_6336.cpp): m = 4 mm, 20 mm wide,
-    bores of a third of the root circles, 300 N/mm on the pitch circle."""
+    300 N/mm on the pitch circle. bore: over the root circle."""
     module, material = 4.0, (2.06e5, 0.3, 20.0)
     sum_of_shifts, sum_of_teeth = sum(shifts), sum(teeth)
     distance = 0.5 * module * sum_of_teeth
@@ -55,7 +55,7 @@ def steel_discs(teeth, shifts):
     shortening = max(0.0, sum_of_shifts - (distance / module - 0.5 * sum_of_teeth))
     gears = [Gear(z, module, x, shortening=shortening) for z, x in zip(teeth, shifts)]
     for gear in gears:
-        gear.held = gear.root / 3
+        gear.held = bore * gear.root
     return Pair(*gears, distance, material, 300.0 * 20.0 / math.cos(TRANSVERSE_ANGLE))
 
 
@@ -80,6 +80,7 @@ CASES = {"bell-sun": (lambda: bell("sun"), 0.0), "bell-ring": (lambda: bell("rin
          "liang-ring": (liang_ring, 0.0), "liang-ring-2.15": (liang_ring, 2.15),
          "liang-ring-4.28": (liang_ring, 4.28),
          "discs-19-48": (lambda: steel_discs((19, 48), (0, 0)), 0.0),
+         "rims-19-48": (lambda: steel_discs((19, 48), (0, 0), 0.75), 0.0),
          "discs-30-60": (lambda: steel_discs((30, 60), (0, 0)), 0.0),
          "discs-20-30": (lambda: steel_discs((20, 30), (0.4, 0.2)), 0.0),
          "turbine-sun": (lambda: wind_turbine("sun"), 0.0),
@@ -87,7 +88,7 @@ CASES = {"bell-sun": (lambda: bell("sun"), 0.0), "bell-ring": (lambda: bell("rin
 
 
 # For the level of mesh stiffness (docs/validation/mesh-stiffness-level.md): fewer rows, plane strain.
-LEVEL_CASES = ("discs-19-48", "discs-30-60", "discs-20-30", "turbine-sun", "turbine-ring")
+LEVEL_CASES = ("discs-19-48", "rims-19-48", "discs-30-60", "discs-20-30", "turbine-sun", "turbine-ring")
 
 
 def loaded_side(geo, gear, at, contact, until=None):
