@@ -46,22 +46,34 @@ constexpr std::array kOptions{
 // Name of the study in problems.
 const std::string kName = "new planetary";
 
+bool says(const Problem& problem, const char* words) {
+    return problem.what.find(words) != std::string::npos;
+}
+
 // Names the options in place of the keys of a study that is not written yet.
-Problems as_options(Problems problems) {
-    for (Problem& problem : problems) {
-        problem.file = kName;
-        problem.line = 0;
-        const auto at = std::ranges::find_if(
-            kOptions, [&](const auto& option) { return problem.key == option.first; });
-        if (problem.what.find("tip circles given") != std::string::npos) {
-            problem.remedy = "the options are --addendum, --sun-tip, --planet-tip and --ring-tip";
-        }
-        if (at != kOptions.end()) {
-            problem.key = at->second;
-        } else {
-            problem.remedy = "the value follows by rule: look at --module, --torque and --speed";
-        }
+Problem as_option(Problem problem) {
+    problem.file = kName;
+    problem.line = 0;
+    if (says(problem, "tooth pairs of a gear pair touch at once")) {
+        problem.key = "--helix, --face-width";
+        problem.remedy = "give narrower teeth or a smaller helix angle";
+        return problem;
     }
+    if (says(problem, "tip circles given")) {
+        problem.remedy = "the options are --addendum, --sun-tip, --planet-tip and --ring-tip";
+    }
+    const auto at = std::ranges::find_if(
+        kOptions, [&](const auto& option) { return problem.key == option.first; });
+    if (at != kOptions.end()) {
+        problem.key = at->second;
+    } else {
+        problem.remedy = "the value follows by rule: look at --module, --torque and --speed";
+    }
+    return problem;
+}
+
+Problems as_options(Problems problems) {
+    std::ranges::transform(problems, problems.begin(), as_option);
     return problems;
 }
 

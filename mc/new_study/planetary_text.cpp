@@ -109,9 +109,14 @@ std::string operation(const NominalGears& g, const InputLoad& load) {
            line(g.data.input + "_speed_rpm", load.speed_rpm);
 }
 
-constexpr const char* kEffects =
-    "\n[effects]\nmotion = \"translational-torsional\"\nfoundation = \"elastic-ring\"\n"
-    "mesh_damping = \"ratio\"\npath = \"hamming\"\n"
+std::string effects() {
+    return "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
+           line("foundation", "\"elastic-ring\"",
+                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
+           line("mesh_damping", "\"ratio\"", "") + line("path", "\"hamming\"", "");
+}
+
+constexpr const char* kFault =
     "\n[fault]                                     # another gear, side or kind: gearpod describe "
     "--keys fault\n"
     "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
@@ -222,8 +227,8 @@ std::string gearbox_teeth(const NominalGears& g) {
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
                            const std::string& command) {
     return header(g, command) + gearbox_teeth(g) + "tooth_profile = \"fillet\"\n" + bodies(d) +
-           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + kEffects + sensor(d) +
-           random(d, load) + kAnswer;
+           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + effects() + kFault +
+           sensor(d) + random(d, load) + kAnswer;
 }
 
 }  // namespace gearpod::mc

@@ -69,6 +69,7 @@ TEST_CASE("new writes studies of real gear sets, or refuses what no kernel integ
         if (!within_kernels(set)) {
             CHECK(made.text.empty());
             REQUIRE(made.problems.size() == 1);
+            CHECK(made.problems[0].key == "--helix, --face-width");
             CHECK(made.problems[0].what.find("tooth pairs of a gear pair touch at once") !=
                   std::string::npos);
             continue;
