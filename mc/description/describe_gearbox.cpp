@@ -208,12 +208,13 @@ void print_rigid_bodies(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes()) {
         const auto standard = stiffness::iso_6336_stiffness(
             *mesh.geometry, study.gearbox.helix_angle_rad, material_of(study, mesh.members));
-        ratios.push_back(standard ? fmt::format("{} {:.2f}", mesh_name(mesh.members),
-                                                mean_total(*mesh.stiffness) / standard->mesh)
-                                  : fmt::format("{} about 2 to 2.5", mesh_name(mesh.members)));
+        ratios.push_back(mesh_name(mesh.members) +
+                         (standard
+                              ? fmt::format(" {:.2f}", mean_total(*mesh.stiffness) / standard->mesh)
+                              : " about 2.0 to 2.5"));
     }
     print_entry("rigid gear bodies",
-                fmt::format("too stiff: the mean over that of ISO 6336-1, method B, is {}; "
+                fmt::format("make meshes too stiff: {} times the mean of ISO 6336-1, method B; "
                             "effects.foundation = \"elastic-ring\" lets the bodies give way "
                             "(docs/validation/mesh-stiffness-level.md)",
                             fmt::join(ratios, ", ")));
