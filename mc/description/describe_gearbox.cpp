@@ -12,6 +12,7 @@
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/gears.hpp"
 #include "mc/study/schema/sizes.hpp"
+#include "stiffness/iso_6336.hpp"
 
 namespace gearpod::mc {
 namespace {
@@ -188,13 +189,35 @@ void print_shifts(const Scene& scene) {
     }
 }
 
-// What a helical pair's contact ratio consists of.
+// Parts of a helical pair's contact ratio.
 std::string helical_parts(const stiffness::MeshStiffness& mesh) {
     const double transverse = mesh.slice().contact_ratio();
     return transverse < mesh.contact_ratio()
                ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
                              mesh.contact_ratio() - transverse)
                : "";
+}
+
+// Says how much stiffer than real teeth a mesh is whose gear bodies do not give way.
+void print_rigid_bodies(const Scene& scene) {
+    const Study& study = scene.study();
+    if (study.effects.foundation != Foundation::none || stiffness_given(study)) {
+        return;
+    }
+    std::vector<std::string> ratios;
+    for (const SceneMesh& mesh : scene.meshes()) {
+        const auto standard = stiffness::iso_6336_stiffness(
+            *mesh.geometry, study.gearbox.helix_angle_rad, material_of(study, mesh.members));
+        ratios.push_back(mesh_name(mesh.members) +
+                         (standard
+                              ? fmt::format(" {:.2f}", mean_total(*mesh.stiffness) / standard->mesh)
+                              : " about 2.0 to 2.5"));
+    }
+    print_entry("rigid gear bodies",
+                fmt::format("make meshes too stiff: {} times the mean of ISO 6336-1, method B; "
+                            "effects.foundation = \"elastic-ring\" lets the bodies give way "
+                            "(docs/validation/mesh-stiffness-level.md)",
+                            fmt::join(ratios, ", ")));
 }
 
 }  // namespace
@@ -213,6 +236,7 @@ void print_gearbox(const Scene& scene) {
             fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
                         helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
     }
+    print_rigid_bodies(scene);
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));
     print_members(scene.study());
     print_fault_sizes(scene);

@@ -12,13 +12,14 @@
 
 #include "gears/power_flow.hpp"
 #include "mc/new_study/planetary_text.hpp"
+#include "mc/numerics/study_scene.hpp"
 #include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/gears.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// Options of `new planetary` by the keys that they become.
+// Options of `new planetary` by the keys that they set.
 constexpr std::array kOptions{
     std::pair{"gearbox.sun_teeth", "--sun"},
     std::pair{"gearbox.planet_teeth", "--planet"},
@@ -31,44 +32,64 @@ constexpr std::array kOptions{
     std::pair{"gearbox.face_width_mm", "--face-width"},
     std::pair{"gearbox.sun_shift", "--sun-shift"},
     std::pair{"gearbox.planet_shift", "--planet-shift"},
+    std::pair{"gearbox.ring_shift", "--ring-shift"},
+    std::pair{"gearbox.addendum_coefficient", "--addendum"},
+    std::pair{"gearbox.sun_tip_mm", "--sun-tip"},
+    std::pair{"gearbox.planet_tip_mm", "--planet-tip"},
+    std::pair{"gearbox.ring_tip_mm", "--ring-tip"},
     std::pair{"gearbox.centre_distance_mm", "--centre-distance"},
     std::pair{"gearbox.tooth_quality", "--quality"},
     std::pair{"operation.input", "--input"},
     std::pair{"operation.torque_N_m", "--torque"},
 };
 
-// The file that problems name.
+// Name of the study in problems.
 const std::string kName = "new planetary";
 
-// Problems of a study that is not written yet, as those of the options.
-Problems as_options(Problems problems) {
-    for (Problem& problem : problems) {
-        problem.file = kName;
-        problem.line = 0;
-        const auto at = std::ranges::find_if(
-            kOptions, [&](const auto& option) { return problem.key == option.first; });
-        if (at != kOptions.end()) {
-            problem.key = at->second;
-        } else {
-            problem.remedy = "it follows by rule: look at --module, --torque and --speed";
-        }
+bool says(const Problem& problem, const char* words) {
+    return problem.what.find(words) != std::string::npos;
+}
+
+// Names the options in place of the keys of a study that is not written yet.
+Problem as_option(Problem problem) {
+    problem.file = kName;
+    problem.line = 0;
+    if (says(problem, "tooth pairs of a gear pair touch at once")) {
+        problem.key = "--helix, --face-width";
+        problem.remedy = "give narrower teeth or a smaller helix angle";
+        return problem;
     }
+    if (says(problem, "tip circles given")) {
+        problem.remedy = "the options are --addendum, --sun-tip, --planet-tip and --ring-tip";
+    }
+    const auto at = std::ranges::find_if(
+        kOptions, [&](const auto& option) { return problem.key == option.first; });
+    if (at != kOptions.end()) {
+        problem.key = at->second;
+    } else {
+        problem.remedy = "the value follows by rule: look at --module, --torque and --speed";
+    }
+    return problem;
+}
+
+Problems as_options(Problems problems) {
+    std::ranges::transform(problems, problems.begin(), as_option);
     return problems;
 }
 
-// The ring of standard gears. Tooth numbers may be anything yet.
+// Ring of standard gears. The tooth numbers are not checked yet.
 int usual_ring(const PlanetaryDatasheet& data) {
     constexpr std::int64_t kMost = 1 << 30;
     return static_cast<int>(std::clamp(data.sun + 2 * std::int64_t{data.planet}, -kMost, kMost));
 }
 
-// Whole millimetres where they are ten or more; anything where the module itself is refused.
+// Rounded to whole millimetres from ten on. Any number if the module itself is refused.
 double usual_width_mm(const PlanetaryDatasheet& data) {
     const double width = 1e3 * usual_face_width_m(1e-3 * data.module_mm);
     return !(width > 0.0) || !std::isfinite(width) ? 1.0 : width < 10.0 ? width : std::round(width);
 }
 
-// From two of torque, speed and power.
+// Torque and speed from two of torque, speed and power.
 InputLoad load_of(const PlanetaryDatasheet& data) {
     constexpr double kRadPerS = std::numbers::pi / 30.0;
     const double power_W = 1e3 * data.power_kW.value_or(0.0);
@@ -96,7 +117,7 @@ Problems load_problems(const PlanetaryDatasheet& data) {
     return problems;
 }
 
-// The teeth, and nothing that rules would add: it tells whether they are possible.
+// Study of the teeth without what the rules add. Reading it tells whether the teeth are possible.
 std::string teeth_alone(const NominalGears& gears) {
     return gearbox_teeth(gears) +
            "tooth_profile = \"fillet\"\nsupport_stiffness_N_m = 1e9\n"
@@ -108,7 +129,7 @@ std::string teeth_alone(const NominalGears& gears) {
            "[ensemble]\ninstances = 1\nthreshold_instances = 1\nseed = 1\n";
 }
 
-// Bodies, bearings and loads by the rules.
+// Bodies, bearings and loads that follow by the rules.
 DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const InputLoad& load) {
     DerivedGearbox d;
     const gears::Gear sun = gear_of(study, Member::sun), planet = gear_of(study, Member::planet),
@@ -118,10 +139,12 @@ DerivedGearbox derive(const Study& study, const PlanetaryDatasheet& data, const 
     const auto height = [](const gears::Gear& g) {
         return std::abs(g.tip_radius() - g.root_radius());
     };
+    const auto bore_radius = [&](const gears::Gear& g) {
+        return std::max(g.root_radius() - usual_rim_m(height(g)), kLeastBore * g.root_radius());
+    };
     d.centre_distance_m = distance;
-    d.sun_body = {sun.pitch_radius(), sun.root_radius() - usual_rim_m(height(sun)), width};
-    d.planet_body = {planet.pitch_radius(), planet.root_radius() - usual_rim_m(height(planet)),
-                     width};
+    d.sun_body = {sun.pitch_radius(), bore_radius(sun), width};
+    d.planet_body = {planet.pitch_radius(), bore_radius(planet), width};
     d.ring_body = {ring.root_radius() + 3.0 * height(ring), ring.pitch_radius(), width};
     d.bearing = bearing_in_bore(2.0 * d.planet_body.inner_m, width);
     const double pin_radius = 0.5 * d.bearing.inner_diameter_m;
@@ -157,8 +180,8 @@ NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& comman
     }
     const InputLoad load = load_of(data);
     const std::string text = planetary_text(gears, derive(*teeth.study, data, load), load, command);
-    // What the rules make of extreme gears may be no study.
-    problems = as_options(read_study_text(text, kName).problems);
+    // Reading finds values out of range, the scene what only building the gearbox shows.
+    problems = as_options(make_scene(kName, read_study_text(text, kName)).problems);
     return problems.empty() ? NewStudy{text, {}} : NewStudy{"", problems};
 }
 

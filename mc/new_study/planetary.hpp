@@ -1,4 +1,4 @@
-// A study of a planetary gearbox from what its datasheet says.
+// Makes the study of a planetary gearbox from its datasheet.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 namespace gearpod::mc {
 
 struct NewStudy {
-    std::string text;  // TOML with comments; only without problems
+    std::string text;  // TOML with comments; empty if there are problems
     Problems problems;
 };
 
-// The study that follows by rules.hpp; `command` says in its first comment how it was made. The
-// problems' keys are the options that gave the value.
+// Makes the study of a datasheet by the rules of rules.hpp. It passes every check of `describe`;
+// otherwise the result has one problem for each reason and no text. Keys of problems are the
+// options that gave the value. `command` goes into the study's first comment.
 NewStudy new_planetary(const PlanetaryDatasheet& data, const std::string& command);
 
 }  // namespace gearpod::mc

@@ -90,7 +90,7 @@ std::string bearings(const DerivedGearbox& d) {
     return text + damping;
 }
 
-// Of the pins' places: the rms of a normal law that keeps the tolerance in 95 of 100.
+// Root mean square of the pins' places: a normal law that keeps the tolerance in 95 of 100.
 double pin_rms_um(const DerivedGearbox& d) {
     return 1e6 * grade_7_tolerance_m(d.centre_distance_m) / 4.0;
 }
@@ -109,26 +109,46 @@ std::string operation(const NominalGears& g, const InputLoad& load) {
            line(g.data.input + "_speed_rpm", load.speed_rpm);
 }
 
-constexpr const char* kEffects =
-    "\n[effects]\nmotion = \"translational-torsional\"\nfoundation = \"elastic-ring\"\n"
-    "mesh_damping = \"ratio\"\npath = \"hamming\"\n"
+std::string effects() {
+    return "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
+           line("foundation", "\"elastic-ring\"",
+                "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
+           line("mesh_damping", "\"ratio\"", "") + line("path", "\"hamming\"", "");
+}
+
+constexpr const char* kFault =
     "\n[fault]                                     # another gear, side or kind: gearpod describe "
     "--keys fault\n"
     "kind = \"crack\"\nmember = \"planet\"\nside = \"ring\"\nplanet = 1\ndepth_mm = 0\n"
     "angle_deg = 45\n";
 
-// The accelerometer hears 20 mesh harmonics, up to what one of general purpose is good for.
+// Sensor rates, Hz.
+struct SensorRates {
+    double low_pass = 0, sampling = 0;
+};
+
+// Twenty mesh harmonics, up to what an accelerometer of general purpose is good for. Gears that
+// mesh faster than that still have enough samples in a mesh period for the encoders and the
+// windows.
+SensorRates sensor_rates(double mesh_frequency_Hz) {
+    constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
+                     kFewestPerMesh = 12.0;
+    const double low_pass = std::min(kHarmonics * mesh_frequency_Hz, kHighest_Hz);
+    return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
+}
+
 std::string sensor(const DerivedGearbox& d) {
-    const double low_pass = std::min(20.0 * d.mesh_frequency_Hz, 10000.0);
+    const SensorRates rates = sensor_rates(d.mesh_frequency_Hz);
     return "\n[sensor]\n" +
-           line("low_pass_Hz", low_pass,
+           line("low_pass_Hz", rates.low_pass,
                 fmt::format("20 times the mesh frequency, {} Hz; 10 kHz at most",
                             figures(d.mesh_frequency_Hz))) +
-           line("sampling_Hz", 2.56 * low_pass, "2.56 times the low-pass, as analysers have it") +
+           line("sampling_Hz", rates.sampling,
+                "2.56 times the low-pass, as analysers have it; 12 a mesh period at least") +
            line("path_exponent", 0.1, "Liang (2016), section 5.1") +
            line("noise_m_s2", 0.1,
                 "the rest of the machine: no datasheet has it; measure, or calibrate") +
-           line("encoder_sampling_Hz", std::max(2.56 * low_pass, 50.0 * d.mesh_frequency_Hz), "") +
+           line("encoder_sampling_Hz", rates.sampling, "with the sensor's samples") +
            line("encoder_noise_arcsec", 1.0, "of a good encoder: chosen") +
            "noise_levels = [0, 1, 4]\n";
 }
@@ -189,8 +209,11 @@ std::string gearbox_teeth(const NominalGears& g) {
     }
     text += line("pressure_angle_deg", data.pressure_angle_deg);
     for (const auto& [key, value] :
-         {std::pair{"sun_shift", data.sun_shift}, std::pair{"planet_shift", data.planet_shift},
-          std::pair{"centre_distance_mm", data.centre_distance_mm}}) {
+         {std::pair{"addendum_coefficient", data.addendum}, std::pair{"sun_shift", data.sun_shift},
+          std::pair{"planet_shift", data.planet_shift}, std::pair{"ring_shift", data.ring_shift},
+          std::pair{"centre_distance_mm", data.centre_distance_mm},
+          std::pair{"sun_tip_mm", data.sun_tip_mm}, std::pair{"planet_tip_mm", data.planet_tip_mm},
+          std::pair{"ring_tip_mm", data.ring_tip_mm}}) {
         if (value) {
             text += fmt::format("{} = {}\n", key, *value);
         }
@@ -204,8 +227,8 @@ std::string gearbox_teeth(const NominalGears& g) {
 std::string planetary_text(const NominalGears& g, const DerivedGearbox& d, const InputLoad& load,
                            const std::string& command) {
     return header(g, command) + gearbox_teeth(g) + "tooth_profile = \"fillet\"\n" + bodies(d) +
-           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + kEffects + sensor(d) +
-           random(d, load) + kAnswer;
+           accuracy(g, d) + masses(d) + bearings(d) + operation(g, load) + effects() + kFault +
+           sensor(d) + random(d, load) + kAnswer;
 }
 
 }  // namespace gearpod::mc

@@ -16,7 +16,7 @@ struct NominalGears {
     double face_width_mm = 0;
 };
 
-// What the rules make of it.
+// Values that follow by the rules.
 struct DerivedGearbox {
     double centre_distance_m = 0;
     Annulus sun_body, planet_body, ring_body;

@@ -1,4 +1,4 @@
-// Rules of thumb that stand in for what a datasheet leaves out. SI units.
+// Rules of thumb for what a datasheet leaves out. SI units.
 // Sources:
 // - Shigley: Budynas, Nisbett, Shigley's Mechanical Engineering Design, chapters 13 and 14.
 // - AGMA 2001-D04, annex B, and Shigley, section 14-16: the rim-thickness factor.
@@ -15,11 +15,14 @@ inline constexpr double kSteelDensity_kg_m3 = 7850.0;
 // Four circular pitches; Shigley's rule is three to five.
 double usual_face_width_m(double normal_module_m);
 
-// Under the teeth, of which it has 1.2 heights: from there on a rim bends the root no further
-// (AGMA's backup ratio).
+// Rim under the teeth: 1.2 tooth heights, from which on a rim bends the root no further (AGMA's
+// backup ratio).
 double usual_rim_m(double tooth_height_m);
 
-// Of steel. Radii in metres.
+// Bore over root circle of gears with few teeth, whose rim would close the bore; chosen.
+inline constexpr double kLeastBore = 0.3;
+
+// Steel ring. Radii in metres.
 struct Annulus {
     double outer_m = 0, inner_m = 0, width_m = 0;
 

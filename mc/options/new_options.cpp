@@ -1,4 +1,4 @@
-// What `new` is told of a datasheet.
+// Options of `new`: the datasheet of a gearbox.
 #include <algorithm>
 
 #include "mc/options/options.hpp"
@@ -6,10 +6,10 @@
 namespace gearpod::mc {
 
 void add_new(CLI::App& app, NewOptions& options, int& code) {
-    auto* command = app.add_subcommand(
-        "new",
-        "writes a commented study from a datasheet: what it leaves out by rules of thumb, each "
-        "with its source");
+    auto* command = app.add_subcommand("new",
+                                       "writes a commented study from a datasheet; rules of thumb, "
+                                       "each with its source, give what "
+                                       "the datasheet leaves out");
     PlanetaryDatasheet& data = options.planetary;
     command->add_option("kind", options.kind, "kind of gearbox")
         ->required()
@@ -23,10 +23,17 @@ void add_new(CLI::App& app, NewOptions& options, int& code) {
     command->add_option("--pressure-angle", data.pressure_angle_deg,
                         "normal pressure angle, degrees (default 20)");
     command->add_option("--face-width", data.face_width_mm, "mm (default: four circular pitches)");
+    command->add_option("--addendum", data.addendum, "addendum over the module (default 1)");
     command->add_option("--sun-shift", data.sun_shift, "profile shift, in modules");
     command->add_option("--planet-shift", data.planet_shift, "profile shift, in modules");
+    command->add_option("--ring-shift", data.ring_shift,
+                        "profile shift, in modules; positive makes its teeth thicker (ISO 21771)");
     command->add_option("--centre-distance", data.centre_distance_mm,
                         "of sun and planets, mm (default: what the shifts ask for)");
+    const std::string tip = "diameter of the tip circle, mm (default: from addendum and shift)";
+    command->add_option("--sun-tip", data.sun_tip_mm, tip);
+    command->add_option("--planet-tip", data.planet_tip_mm, tip);
+    command->add_option("--ring-tip", data.ring_tip_mm, tip);
     command->add_option("--quality", data.quality, "ISO 1328 grade of the teeth (default 6)");
     command->add_option("--input", data.input, "member that drives (default sun); the ring stands")
         ->check(CLI::IsMember({"sun", "carrier"}));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace gearpod::gears {
 
@@ -84,23 +86,80 @@ std::vector<std::string> undercut_problems(const Gear& gear) {
                     gear.teeth, gear.profile_shift, least)};
 }
 
-WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
-                             const DrawnShifts& drawn) {
-    WorkingShifts set;
-    double distance = 0;
-    if (drawn.centre_distance_m) {
-        distance = *drawn.centre_distance_m;
-        const double sum = tight_shift_sum(gear_1, gear_2, distance);
-        const double half = drawn.first    ? *drawn.first
-                            : drawn.second ? sum - *drawn.second
-                                           : 0.5 * sum;
-        set.first = half;
-        set.second = drawn.second.value_or(sum - half);
-    } else {
-        set.first = drawn.first.value_or(0);
-        set.second = drawn.second.value_or(0);
-        distance = tight_centre_distance(shifted(gear_1, set.first), shifted(gear_2, set.second));
+namespace {
+
+// Distance at which a planet of whatever shift fits between a sun and a ring of these shifts. The
+// planet's shift that the sun's mesh asks for grows with the distance, the ring's falls.
+double distance_between(const Gear& sun, const Gear& planet, const Gear& ring) {
+    const auto excess = [&](double distance) {
+        return tight_shift_sum(sun, planet, distance) - sun.profile_shift -
+               (tight_shift_sum(planet, ring, distance) - ring.profile_shift);
+    };
+    const double reference = reference_centre_distance(sun, planet);
+    if (is_reference(planet, ring, reference) && excess(reference) == 0) {
+        return reference;
     }
+    double low = std::max(base_centre_distance(sun, planet), base_centre_distance(planet, ring));
+    double high = 2 * low;
+    constexpr int kBisections = 100;  // to the last digit
+    for (int i = 0; i < kBisections; ++i) {
+        const double middle = 0.5 * (low + high);
+        (excess(middle) < 0 ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+// True if the shift of sun or planet follows from the ring's, which is drawn without the distance.
+bool follows_ring(const Gear* ring, const DrawnShifts& drawn) {
+    return ring != nullptr && drawn.ring && !drawn.centre_distance_m &&
+           !(drawn.first && drawn.second);
+}
+
+// Distance that drawn shifts fix: those of sun and planet, planet and ring, or sun and ring.
+double drawn_distance(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
+                      const DrawnShifts& drawn) {
+    const Gear first = shifted(gear_1, drawn.first.value_or(0));
+    if (!follows_ring(ring, drawn)) {
+        return tight_centre_distance(first, shifted(gear_2, drawn.second.value_or(0)));
+    }
+    const Gear outer = shifted(*ring, *drawn.ring);
+    return drawn.second ? tight_centre_distance(shifted(gear_2, *drawn.second), outer)
+                        : distance_between(first, gear_2, outer);
+}
+
+// Shifts of the first two gears at a distance. They sum up to what fits unless both are drawn.
+std::pair<double, double> shifts_at(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
+                                    const DrawnShifts& drawn, double distance) {
+    const double sum = tight_shift_sum(gear_1, gear_2, distance);
+    if (drawn.first) {
+        return {*drawn.first, drawn.second.value_or(sum - *drawn.first)};
+    }
+    if (drawn.second) {
+        return {sum - *drawn.second, *drawn.second};
+    }
+    if (ring != nullptr && drawn.ring) {
+        const double second = tight_shift_sum(gear_2, *ring, distance) - *drawn.ring;
+        return {sum - second, second};
+    }
+    return {0.5 * sum, 0.5 * sum};
+}
+
+}  // namespace
+
+WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
+                             const DrawnShifts& as_drawn) {
+    WorkingShifts set;
+    DrawnShifts drawn = as_drawn;
+    const bool by_ring = follows_ring(ring, drawn);
+    if (!drawn.centre_distance_m && !(by_ring && drawn.second)) {
+        drawn.first = drawn.first.value_or(0);
+    }
+    if (!drawn.centre_distance_m && !by_ring) {
+        drawn.second = drawn.second.value_or(0);
+    }
+    const double distance =
+        drawn.centre_distance_m.value_or(drawn_distance(gear_1, gear_2, ring, drawn));
+    std::tie(set.first, set.second) = shifts_at(gear_1, gear_2, ring, drawn, distance);
     if (ring != nullptr) {
         set.ring = drawn.ring.value_or(tight_shift_sum(gear_2, *ring, distance) - set.second);
     }

@@ -15,8 +15,8 @@
 
 namespace gearpod::gears {
 
-// Of reference and of base circles: the sum of an external pair's radii, the difference of an
-// internal one's.
+// Centre distance of touching reference circles and of touching base circles: the sum of an
+// external pair's radii, the difference of an internal one's.
 double reference_centre_distance(const Gear& gear_1, const Gear& gear_2);
 double base_centre_distance(const Gear& gear_1, const Gear& gear_2);
 
@@ -36,7 +36,7 @@ double tight_shift_sum(const Gear& gear_1, const Gear& gear_2, double centre_dis
 // where 18 have no undercut at all.
 std::vector<std::string> undercut_problems(const Gear& gear);
 
-// What a drawing says of a set's shifts, in modules, and its centre distance; `ring` of a planetary
+// Shifts of a set as drawn, in modules, and its centre distance; `ring` of a planetary
 // set, whose first gear is the sun and second the planet.
 struct DrawnShifts {
     std::optional<double> first = {}, second = {}, ring = {};
@@ -53,9 +53,11 @@ struct WorkingShifts {
     double tip_shortening = 0;
 };
 
-// What is drawn, completed without backlash. A distance alone is shared out equally to the two
-// gears' shifts; without it, shifts not given are 0; the ring follows the planet. The gears are
-// those without shift; ring: null for a pair.
+// Completes what is drawn so that no mesh has backlash. A distance alone is shared out equally to
+// the first two gears' shifts. Without a distance, the ring's shift decides if it is drawn: with
+// the planet's it fixes the distance and the sun's shift, otherwise the planet's follows (the sun's
+// is 0 if it is not drawn). Other shifts that are not drawn are 0. If more is drawn than fits, the
+// ring's mesh has backlash or overlaps. The gears are those without shift; ring: null for a pair.
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                              const DrawnShifts& drawn);
 

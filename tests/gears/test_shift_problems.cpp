@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "gears/mesh_geometry.hpp"
@@ -87,6 +88,53 @@ TEST_CASE("what is not drawn of a set's shifts follows without backlash") {
     CHECK(fuller.first + fuller.second == Approx(set.first + set.second));
     CHECK(fuller.second == 0.2);
     CHECK(fuller.ring == 0.1);
+}
+
+// KISSsoft's report on the second stage of the NREL 5 MW gearbox (test_working_pair.cpp): shifts
+// 0.3890, 0.5039 and 0.1171 at 584 mm. Any two of the shifts give the third and the distance.
+TEST_CASE("two shifts of a set give the third and the centre distance") {
+    const auto standard = [](int teeth) {
+        Gear gear = ::gear(teeth);
+        gear.module_m = 21e-3;
+        return gear;
+    };
+    const Gear sun = standard(18), planet = standard(36), ring = standard(-93);
+    for (const DrawnShifts& drawn :
+         {DrawnShifts{0.3890, 0.5039, {}, {}}, DrawnShifts{{}, 0.5039, 0.1171, {}},
+          DrawnShifts{0.3890, {}, 0.1171, {}}}) {
+        const WorkingShifts set = working_shifts(sun, planet, &ring, drawn);
+        REQUIRE(set.centre_distance_m);
+        CHECK(1e3 * *set.centre_distance_m == Approx(584).margin(5e-3));
+        CHECK(set.first == Approx(0.3890).margin(2e-4));
+        CHECK(set.second == Approx(0.5039).margin(2e-4));
+        CHECK(set.ring == Approx(0.1171).margin(2e-4));
+    }
+    // The distance and the ring's shift give the others.
+    const WorkingShifts set = working_shifts(sun, planet, &ring, {{}, {}, 0.1171, 0.584});
+    CHECK(set.first == Approx(0.3890).margin(2e-4));
+    CHECK(set.second == Approx(0.5039).margin(2e-4));
+}
+
+TEST_CASE("whatever is drawn of a set's shifts without its distance, no mesh has backlash") {
+    const Gear ring = gear(-99);
+    constexpr std::optional<double> kNone;
+    for (const std::optional<double>& first : {kNone, std::optional(0.3)})
+        for (const std::optional<double>& second : {kNone, std::optional(-0.1)})
+            for (const std::optional<double>& outer : {kNone, std::optional(0.4)}) {
+                if (first && second && outer)
+                    continue;  // fixes more than there is
+                const WorkingShifts set =
+                    working_shifts(gear(27), gear(35), &ring, {first, second, outer, {}});
+                CHECK(set.first == first.value_or(set.first));
+                CHECK(set.second == second.value_or(set.second));
+                CHECK(set.ring == outer.value_or(set.ring));
+                const MeshGeometry sun(gear(27, set.first), gear(35, set.second),
+                                       set.centre_distance_m);
+                const MeshGeometry rim(gear(35, set.second), gear(-99, set.ring),
+                                       sun.centre_distance());
+                CHECK(sun.backlash() == Approx(0).margin(1e-12));
+                CHECK(rim.backlash() == Approx(0).margin(1e-12));
+            }
 }
 
 TEST_CASE("teeth are as thick as the pitch circle's spaces leave them room") {

@@ -1,5 +1,6 @@
-// Mean mesh stiffness beside ISO 6336-1:2006, method B (c_gamma_alpha), for steel gears with and
+// Mean mesh stiffness against ISO 6336-1:2006, method B (c_gamma_alpha), for steel gears with and
 // without profile shift and helix.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,8 @@
 #include "gears/working_pair.hpp"
 #include "stiffness/additive_mesh.hpp"
 #include "stiffness/coupled_mesh.hpp"
+#include "stiffness/iso_6336.hpp"
+#include "tests/stiffness/mesh_level_pairs.hpp"
 
 using namespace gearpod;
 using namespace gearpod::stiffness;
@@ -24,22 +27,6 @@ struct Pair {
     double helix() const { return helix_deg * std::numbers::pi / 180; }
 };
 constexpr double kNormalAngle = 20 * std::numbers::pi / 180;
-
-// c', N/(mm um): ISO 6336-1:2006, Eqs. 81 to 86, of steel discs (C_R = 1) cut by the standard rack
-// (C_B of h_fP = 1.25 m), with the factor C_M = 0.8 by which measured teeth are softer. Helical
-// teeth: those of the normal section's gear, z / (cos^2 base helix cos helix), times cos helix.
-double single_stiffness(const Pair& p) {
-    const double c = std::cos(p.helix()), s = std::sin(p.helix()) * std::cos(kNormalAngle);
-    const double z_1 = p.z_1 / ((1 - s * s) * c), z_2 = p.z_2 / ((1 - s * s) * c);
-    const double q = 0.04723 + 0.15551 / z_1 + 0.25791 / z_2 - 0.00635 * p.x_1 -
-                     0.11654 * p.x_1 / z_1 - 0.00193 * p.x_2 - 0.24188 * p.x_2 / z_2 +
-                     0.00529 * p.x_1 * p.x_1 + 0.00182 * p.x_2 * p.x_2;
-    return 0.8 * (1 + 0.5 * (1.2 - 1.25)) / q * c;
-}
-// c_gamma_alpha, Eq. 92.
-double mesh_stiffness(const Pair& p, double contact_ratio) {
-    return single_stiffness(p) * (0.75 * contact_ratio + 0.25);
-}
 
 constexpr double kModule = 4e-3;
 const Material kSteel{2.06e11, 0.3, 0.02, true};
@@ -63,8 +50,11 @@ gears::MeshGeometry geometry(const Pair& p) {
 }
 
 // N/(mm um).
+double per_width(double stiffness_N_m) {
+    return stiffness_N_m / kSteel.face_width_m * 1e-9;
+}
 double by_mesh(const MeshStiffness& mesh) {
-    return mean_total(mesh) / kSteel.face_width_m * 1e-9;
+    return per_width(mean_total(mesh));
 }
 
 // Also of helical teeth: the mean over the mesh period is that of their slices.
@@ -100,7 +90,7 @@ struct Ratios {
 
 Ratios ratios(const Pair& p) {
     const gears::MeshGeometry mesh = geometry(p);
-    const double iso = mesh_stiffness(p, mesh.contact_ratio());
+    const double iso = per_width(iso_6336_stiffness(mesh, p.helix(), kSteel).value().mesh);
     return {mesh.contact_ratio(), iso, by_mesh(AdditiveMesh(mesh, steel(p), Profile::fillet)) / iso,
             with_bodies(mesh, steel(p), FoundationModel::elastic_ring, Profile::fillet) / iso,
             with_bodies(mesh, steel(p), FoundationModel::sainsot, Profile::fillet) / iso};
@@ -108,12 +98,43 @@ Ratios ratios(const Pair& p) {
 
 }  // namespace
 
-// KISSsoft's report on the second stage of the NREL 5 MW gearbox (tests/gears): c' = 12.240 with a
-// body coefficient of 0.862, c_gamma_alpha = 15.640.
-TEST_CASE("ISO 6336's stiffness is the one that is printed for 18 and 36 shifted teeth") {
-    const Pair p{18, 36, 0.389, 0.5039};
-    CHECK(0.862 * single_stiffness(p) == Approx(12.240).epsilon(6e-4));
-    CHECK(0.862 * mesh_stiffness(p, 1.370) == Approx(15.640).epsilon(6e-4));
+// KISSsoft's reports on the stages of the NREL 5 MW gearbox (tests/gears): c' and c_gamma_alpha
+// with the gear blank factor of a web of a quarter of the face width, which they round to three
+// decimals.
+TEST_CASE("ISO 6336's stiffness is the one that KISSsoft prints for the NREL 5 MW gearbox") {
+    const std::vector<mesh_level::LevelPair> pairs = mesh_level::all_pairs();
+    struct Printed {
+        const char* pair;
+        double single, mesh;  // N/(mm um)
+    };
+    for (const Printed& printed : {Printed{"18/36", 12.240, 15.640},
+                                   {"36/93 internal", 14.053, 20.563},
+                                   {"24/95, 10 deg", 13.832, 18.632}}) {
+        INFO(printed.pair);
+        const auto pair = std::find_if(pairs.begin(), pairs.end(),
+                                       [&](const auto& p) { return p.name == printed.pair; });
+        REQUIRE(pair != pairs.end());
+        const auto iso = iso_6336_stiffness(pair->geometry, pair->helix_rad, pair->material);
+        REQUIRE(iso);
+        const double unit = 1e9 * pair->material.face_width_m / pair->report_blank;
+        CHECK(iso->single / unit == Approx(printed.single).epsilon(1e-3));
+        CHECK(iso->mesh / unit == Approx(printed.mesh).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("ISO 6336's formula has limits, and counts the pinion first") {
+    const auto stiffness_of = [](const gears::Gear& one, const gears::Gear& two) {
+        return iso_6336_stiffness({one, two}, 0.0, kSteel);
+    };
+    gears::Gear small{20, false, kModule, kNormalAngle}, large{60, false, kModule, kNormalAngle};
+    CHECK(stiffness_of(small, large)->mesh == Approx(stiffness_of(large, small)->mesh));
+    large.profile_shift = -0.3;
+    CHECK(!stiffness_of(large, large));
+    gears::Gear stub = large;
+    stub.profile_shift = 0;
+    stub.addendum_coefficient = 0.62;
+    CHECK(gears::MeshGeometry(stub, stub).contact_ratio() < 1.2);
+    CHECK(!stiffness_of(stub, stub));
 }
 
 // Rigid bodies make any pair more than twice as stiff. Sainsot's bodies, which do not feel the

@@ -1,4 +1,4 @@
-// Checks of the gears: that they exist, mesh, fit together and have sound bodies and errors.
+// Checks of the gears: they exist, mesh, fit together and have sound bodies.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,17 +10,11 @@
 #include "mc/study/reading/parts.hpp"
 
 namespace gearpod::mc {
-namespace {
-
-using std::numbers::pi;
-
-constexpr double kMmPerM = 1e3;
 
 std::string teeth_key(Member member) {
     return fmt::format("gearbox.{}_teeth", member_name(member));
 }
 
-// Those that the meshes of this kind of gearbox need, each once.
 std::vector<Member> toothed_members(const Study& study) {
     std::vector<Member> members;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
@@ -40,6 +34,12 @@ bool teeth_usable(const StudyDraft& draft) {
     }
     return draft.usable("gearbox.kind");
 }
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kMmPerM = 1e3;
 
 void check_positions(StudyDraft& draft, int planets) {
     const std::string key = "gearbox.planet_positions_deg";
@@ -138,8 +138,8 @@ void check_train(StudyDraft& draft) {
     }
 }
 
-// What is to blame for two gears that do not mesh: the centre distance or the first shift given,
-// else a pressure angle below the standard one, else the smaller gear's teeth.
+// Key to blame for two gears that do not mesh: the centre distance or the first shift given, else a
+// pressure angle below the standard one, else the smaller gear's teeth.
 std::string mesh_key(const StudyDraft& draft, const MeshMembers& mesh, const gears::Gear& gear_1,
                      const gears::Gear& gear_2) {
     for (const std::string& key : shift_keys()) {
@@ -167,6 +167,33 @@ void check_mesh(StudyDraft& draft, const MeshMembers& mesh) {
                      fmt::format("{} and {} do not mesh ({})", member_name(mesh.driver),
                                  member_name(mesh.driven), what),
                      "");
+    }
+}
+
+// Backlash of planets and ring that nobody asked for: more shifts are given than fit, but not the
+// planet's, the ring's and the centre distance, which would say that it is meant.
+void check_ring_backlash(StudyDraft& draft) {
+    constexpr double kRounded = 0.01;  // modules, by shifts of two decimals
+    const Study& s = draft.study;
+    const EachMember<MemberValues>& bodies = s.gearbox.bodies;
+    if (s.gearbox.kind != GearboxKind::planetary || !bodies[Member::ring].profile_shift ||
+        (bodies[Member::planet].profile_shift && s.gearbox.centre_distance_m)) {
+        return;
+    }
+    const gears::Gear planet = gear_of(s, Member::planet);
+    gears::Gear ring = gear_of(s, Member::ring);
+    const double distance = centre_distance_m(s);
+    const double backlash = gears::MeshGeometry(planet, ring, distance).backlash();
+    if (backlash > kRounded * ring.module_m) {
+        ring.profile_shift = gears::tight_shift_sum(planet, ring, distance) - planet.profile_shift;
+        draft.reject(
+            "gearbox.ring_shift",
+            fmt::format("leaves {:.4f} mm of backlash between planets and ring at a centre "
+                        "distance of {:.6g} mm (a shift of {:.4f} leaves none)",
+                        kMmPerM * backlash, kMmPerM * distance,
+                        ring.profile_shift / normal_over_transverse(s.gearbox)),
+            "give that one, or none; if the backlash is meant, give planet_shift and "
+            "centre_distance_mm as well");
     }
 }
 
@@ -215,6 +242,7 @@ void check_gear_shapes(StudyDraft& draft) {
     }
     // Teeth whose mates reach below their base circle are named for that.
     if (draft.problems.size() == before) {
+        check_ring_backlash(draft);
         check_reliefs(draft);
         for (const Member member : toothed_members(draft.study)) {
             for (const std::string& what : gears::undercut_problems(gear_of(draft.study, member))) {
@@ -292,74 +320,6 @@ void check_square_waves(StudyDraft& draft) {
     check_levels(draft, "mesh", meshes[MeshKind::pinion_gear]);
 }
 
-void check_phases(StudyDraft& draft, const std::string& mesh, const std::vector<double>& error,
-                  const std::vector<double>& phase) {
-    const std::string error_key = fmt::format("gearbox.{}_error_um", mesh),
-                      phase_key = fmt::format("gearbox.{}_error_phase_deg", mesh);
-    if (!phase.empty() && phase.size() != error.size() &&
-        draft.all_usable({error_key, phase_key})) {
-        draft.reject(phase_key,
-                     fmt::format("has {} phases for {} amplitudes in {}_error_um", phase.size(),
-                                 error.size(), mesh),
-                     "give one phase for each amplitude, or none");
-    }
-}
-
-// Lists with a value for each planet.
-void check_planet_lists(StudyDraft& draft) {
-    const Study& s = draft.study;
-    if (s.gearbox.kind != GearboxKind::planetary || !draft.usable("gearbox.planets")) {
-        return;
-    }
-    const UnlikePlanets& p = s.planets;
-    for (const auto& [key, list] :
-         {std::pair{"gearbox.pin_tangential_um", &p.pin_tangential_m},
-          std::pair{"gearbox.pin_radial_um", &p.pin_radial_m},
-          std::pair{"gearbox.planet_bearing_stiffness_factors", &p.bearing_stiffness},
-          std::pair{"gearbox.planet_bearing_damping_factors", &p.bearing_damping},
-          std::pair{"gearbox.planet_mass_factors", &p.mass}}) {
-        if (!list->empty() && static_cast<int>(list->size()) != s.gearbox.planets) {
-            draft.reject(key,
-                         fmt::format("has {} values, but there are {} planets", list->size(),
-                                     s.gearbox.planets),
-                         "give one for each planet, or leave the key out");
-        }
-    }
-}
-
-void check_teeth_listed(StudyDraft& draft, const std::string& key, const std::vector<double>& list,
-                        const std::string& teeth_key, int teeth) {
-    if (!list.empty() && static_cast<int>(list.size()) != teeth &&
-        draft.all_usable({key, teeth_key, "gearbox.planets"})) {
-        draft.reject(key, fmt::format("has {} deviations for {} teeth", list.size(), teeth),
-                     "give one for each tooth, of planets one planet after the other");
-    }
-}
-
-// Measured deviations, one a tooth.
-void check_measured_teeth(StudyDraft& draft) {
-    if (!teeth_usable(draft)) {
-        return;
-    }
-    for (const Member member : toothed_members(draft.study)) {
-        const MemberValues& body = draft.study.gearbox.bodies[member];
-        const int gears = member == Member::planet ? draft.study.gearbox.planets : 1;
-        const int teeth = gears * teeth_of(draft.study, member).value_or(0);
-        const std::string name(member_name(member));
-        check_teeth_listed(draft, "gearbox." + name + "_index_um", body.index_m, teeth_key(member),
-                           teeth);
-        check_teeth_listed(draft, "gearbox." + name + "_ring_side_index_um", body.ring_side_index_m,
-                           teeth_key(member), teeth);
-    }
-}
-
-void check_errors(StudyDraft& draft) {
-    const MeshErrors& e = draft.study.errors;
-    check_phases(draft, "sun_planet", e.sun_planet_m, e.sun_planet_phase_rad);
-    check_phases(draft, "ring_planet", e.ring_planet_m, e.ring_planet_phase_rad);
-    check_phases(draft, "mesh", e.mesh_m, e.mesh_phase_rad);
-}
-
 }  // namespace
 
 void check_gears(StudyDraft& draft) {
@@ -367,9 +327,7 @@ void check_gears(StudyDraft& draft) {
     check_gear_shapes(draft);
     check_bodies(draft);
     check_square_waves(draft);
-    check_planet_lists(draft);
-    check_measured_teeth(draft);
-    check_errors(draft);
+    check_tooth_errors(draft);
 }
 
 }  // namespace gearpod::mc

@@ -1,6 +1,9 @@
 // The parts of reading a study, in turn; each adds what it finds wrong to the draft.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "mc/study/draft.hpp"
 #include "mc/study/keys/key.hpp"
 
@@ -20,6 +23,14 @@ void check_presence(StudyDraft& draft);
 
 // gear_checks.cpp: the gears among themselves.
 void check_gears(StudyDraft& draft);
+// Toothed members of this kind of gearbox, each once; the key of a member's tooth number; true if
+// all of these keys can be used.
+std::vector<Member> toothed_members(const Study& study);
+std::string teeth_key(Member member);
+bool teeth_usable(const StudyDraft& draft);
+
+// tooth_error_checks.cpp: planets that differ, tooth deviations, transmission errors.
+void check_tooth_errors(StudyDraft& draft);
 
 // checks.cpp: what else no key can know alone.
 void check_consistency(StudyDraft& draft);

@@ -27,7 +27,7 @@ MarchPlan pushing_plan(Integrator integrator, int samples, int steps) {
     const LiangTrain& train = LiangTrain::instance();
     MarchPlan plan = train.plan(samples, steps, dynamics::Motion::translational_torsional);
     plan.integrator = integrator;
-    plan.mesh_law = dynamics::MeshLaw::pushing;
+    plan.mesh_law = dynamics::MeshLaw::unilateral;
     plan.grid.stage_nodes = stage_nodes(integrator);
     plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
     add_tooth_pairs(train.pairs, plan.grid, plan.nodes);
@@ -177,7 +177,7 @@ TEST_CASE("The share of time out of contact of deep gaps is that of the double-p
         const stiffness::SquareWaveMesh mesh(3e8, 6e8, ratio);
         const PairSet pairs{{&mesh}, {0.0}, false};
         MarchPlan plan = gearbox.plan(32, 32, Integrator::rk4);
-        plan.mesh_law = dynamics::MeshLaw::pushing;
+        plan.mesh_law = dynamics::MeshLaw::unilateral;
         plan.grid = make_phase_grid(32, 32, contact_transitions(pairs));
         plan.nodes = tabulate(pairs, plan.grid, dynamics::MeshDamping::proportional);
         add_tooth_pairs(pairs, plan.grid, plan.nodes);

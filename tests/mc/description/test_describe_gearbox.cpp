@@ -1,4 +1,4 @@
-// What describe says of a gearbox' members, of fault sizes, and of damping that is left out.
+// Output of describe about members, fault sizes, omitted damping and rigid bodies.
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -50,4 +50,19 @@ TEST_CASE("describe shows fault sizes in the file's unit and as shares of the la
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(said.mentions("0.5, 1, 1.5, 2, 3, 4.28 mm; 5.83, 11.7, 17.5, 23.3, 35, 49.9 %"));
+}
+
+// Teeth of 19/31/81 on rigid bodies. Elastic bodies have no such line.
+TEST_CASE("describe says how much stiffer than ISO 6336-1 rigid gear bodies make the meshes") {
+    const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
+                              " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
+    INFO(said.output);
+    REQUIRE(said.code == 0);
+    CHECK(said.mentions("sun-planet 2.29, ring-planet 2.26 times the mean of ISO 6336-1"));
+    const auto elastic =
+        program("describe " + test::study("bell-206b.toml") +
+                " --set ensemble.instances=5 --set ensemble.threshold_instances=1");
+    INFO(elastic.output);
+    REQUIRE(elastic.code == 0);
+    CHECK(!elastic.mentions("rigid gear bodies"));
 }

@@ -72,6 +72,71 @@ TEST_CASE("Power stands in for torque or speed") {
     CHECK(all_of(new_planetary(data, "c").problems).find("--power") != std::string::npos);
 }
 
+// The stage of a Bell 206B meshes at 567 Hz, SpectraQuest's rig of 28/36/100 teeth at 656 Hz.
+TEST_CASE("Gears that mesh faster than 512 Hz have studies") {
+    for (const double speed_rpm : {343.8, 3000.0, 60000.0}) {
+        mc::PlanetaryDatasheet data;
+        data.sun = 27;
+        data.planet = 35;
+        data.ring = 99;
+        data.planets = 4;
+        data.module_mm = 3.175;
+        data.sun_shift = 0.3;
+        data.centre_distance_mm = 100.0125;
+        data.input = "carrier";
+        data.power_kW = 250;
+        data.speed_rpm = speed_rpm;
+        const mc::NewStudy made = new_planetary(data, "new planetary");
+        INFO(speed_rpm << ": " << format(made.problems));
+        REQUIRE(made.problems.empty());
+        const auto study = mc::read_study_text(made.text, "s.toml").study;
+        REQUIRE(study);
+        CHECK(study->sensor.low_pass_Hz == 10000.0);
+        CHECK(study->sensor.encoder_sampling_Hz == study->sensor.sampling_Hz);
+        CHECK(study->sensor.sampling_Hz >= std::max(25600.0, 12 * 99 * speed_rpm / 60));
+    }
+}
+
+// Without shift, tips of the ring's teeth reach below the planet's base circle.
+TEST_CASE("Tip circles that a message advises are options") {
+    mc::PlanetaryDatasheet data;
+    data.sun = 40;
+    data.planet = 16;
+    data.module_mm = 2;
+    data.power_kW = 1;
+    data.speed_rpm = 500;
+    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    INFO(refused);
+    CHECK(refused.find("tip circles given") != std::string::npos);
+    CHECK(refused.find("--ring-tip") != std::string::npos);
+    data.ring_tip_mm = 141;
+    const mc::NewStudy made = new_planetary(data, "new planetary");
+    INFO(format(made.problems));
+    REQUIRE(made.problems.empty());
+    const auto study = mc::read_study_text(made.text, "s.toml").study;
+    REQUIRE(study);
+    CHECK(1e3 * *study->gearbox.bodies[mc::Member::ring].tip_diameter_m == Approx(141));
+    // Options of shifts and addenda go the same way.
+    data.addendum = 0.9;
+    data.sun_shift = 0.1;
+    data.ring_shift = -0.1;
+    const std::string text = new_planetary(data, "new planetary").text;
+    for (const char* key : {"addendum_coefficient = 0.9", "sun_shift = 0.1", "ring_shift = -0.1"}) {
+        CHECK(text.find(key) != std::string::npos);
+    }
+}
+
+// Contradicting shifts are one problem that names the value that fits.
+TEST_CASE("Shifts that leave backlash are refused with the one that fits") {
+    mc::PlanetaryDatasheet data = wind_turbine();
+    data.sun_shift = data.planet_shift = 0.1;
+    data.ring_shift = -0.4;
+    const std::string refused = all_of(new_planetary(data, "new planetary").problems);
+    INFO(refused);
+    CHECK(refused.find("new planetary: --ring-shift: leaves") == 0);
+    CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);
+}
+
 TEST_CASE("What geometry refuses is refused with the numbers, all at once") {
     const auto refused = [](const auto& change) {
         mc::PlanetaryDatasheet data = wind_turbine();

@@ -160,6 +160,40 @@ TEST_CASE("Shifted gears that cannot be are refused with the numbers that show i
     CHECK(names(problems_of({"gearbox.sun_shift=3"}), "gearbox.sun_shift", "must be > -2 and < 2"));
 }
 
+// The pair 17/96 of a geometry report: shifts 0.2 and 0.5 (0.5 outwards), 14 mm, 557.089 mm, 21.125
+// degrees. A sun of 62 teeth goes with it.
+TEST_CASE("The shifts of planet and ring give the centre distance and the sun's shift") {
+    const mc::Study study = test::study_of_text(
+        tests::kExampleStudy,
+        {"gearbox.planets=3", "gearbox.sun_teeth=62", "gearbox.planet_teeth=17",
+         "gearbox.ring_teeth=96", "gearbox.module_mm=14", "gearbox.planet_shift=0.2",
+         "gearbox.ring_shift=-0.5", "gearbox.tooth_profile='fillet'", "fault.depth_mm=0"});
+    CHECK(1e3 * mc::centre_distance_m(study) == Approx(557.089).margin(5e-4));
+    CHECK(mc::working_angle_rad(study, MeshKind::ring_planet) * 180 / std::numbers::pi ==
+          Approx(21.125).margin(5e-4));
+    CHECK(mc::gear_of(study, Member::sun).profile_shift == Approx(0.1).margin(5e-4));
+    const Scene scene(study);
+    for (const mc::SceneMesh& mesh : scene.meshes()) {
+        CHECK(mesh.geometry->backlash() == Approx(0).margin(1e-12));
+    }
+}
+
+TEST_CASE("A ring's shift that leaves backlash is refused with the one that leaves none") {
+    // Sun and planet fix the distance, at which the ring's shift is another.
+    const std::string three = "gearbox.ring_shift";
+    const auto loose = problems_of({"gearbox.sun_teeth=27", "gearbox.planet_teeth=35",
+                                    "gearbox.ring_teeth=99", "gearbox.sun_shift=0.3",
+                                    "gearbox.planet_shift=0.2286", "gearbox.ring_shift=0.1"});
+    INFO(format(loose));
+    CHECK(names(loose, three, "of backlash between planets and ring"));
+    CHECK(names(loose, three, "(a shift of 0.24"));
+    // With the distance and the planet's shift it is meant.
+    CHECK(mc::read_study_text(tests::kExampleStudy, "study.toml",
+                              bell_with({"gearbox.planet_shift=0.2286", "gearbox.ring_shift=0.1"}))
+              .study);
+    CHECK(names(problems_of(bell_with({"gearbox.ring_shift=0.1"})), three, "of backlash"));
+}
+
 TEST_CASE("Real sets that standard teeth cannot build run with their windows on every gear") {
     for (const char* name : {"bell-206b.toml", "snu-rig.toml"}) {
         INFO(name);

@@ -12,7 +12,8 @@ import os
 import numpy as np
 
 from plane_fem import Geometry, compliance
-from teeth import Contact, Gear, Pair, shifts_for, turned, weber
+from teeth import (TRANSVERSE_ANGLE, Contact, Gear, Pair, inverse_involute, involute, shifts_for,
+                   turned, weber)
 
 STEEL = (2.068e5, 0.3, 38.1)
 MODULE = 3.175
@@ -41,9 +42,53 @@ def liang_ring():
     return Pair(planet, ring, 25 * MODULE, STEEL, 450e3 / 4 / (19 * MODULE / 2 * math.cos(planet.angle)))
 
 
+def steel_discs(teeth, shifts, bore=1 / 3):
+    """External pair of the ISO 6336-1 table (tests/stiffness/test_iso_6336.cpp): m = 4 mm, 20 mm wide,
+    300 N/mm on the pitch circle. bore: over the root circle."""
+    module, material = 4.0, (2.06e5, 0.3, 20.0)
+    sum_of_shifts, sum_of_teeth = sum(shifts), sum(teeth)
+    distance = 0.5 * module * sum_of_teeth
+    if sum_of_shifts:
+        working = inverse_involute(involute(TRANSVERSE_ANGLE)
+                                   + 2 * sum_of_shifts * math.tan(TRANSVERSE_ANGLE) / sum_of_teeth)
+        distance *= math.cos(TRANSVERSE_ANGLE) / math.cos(working)
+    shortening = max(0.0, sum_of_shifts - (distance / module - 0.5 * sum_of_teeth))
+    gears = [Gear(z, module, x, shortening=shortening) for z, x in zip(teeth, shifts)]
+    for gear in gears:
+        gear.held = bore * gear.root
+    return Pair(*gears, distance, material, 300.0 * 20.0 / math.cos(TRANSVERSE_ANGLE))
+
+
+def wind_turbine(which):
+    """Second stage of the NREL 5 MW reference gearbox: 18/36 (sun) or 36/93 (ring), m = 21 mm. Bores of
+    half the root circles; the ring's rim is three tooth heights."""
+    module, distance, sun_shift, material = 21.0, 584.0, 0.389, (2.06e5, 0.3, 550.0)
+    both = shifts_for(18, 36, module, distance)
+    planet_shift = both - sun_shift
+    ring_shift = shifts_for(36, 93, module, distance, True) - planet_shift
+    shortening = max(0.0, both - (distance / module - 27))
+    sun = Gear(18, module, sun_shift, shortening=shortening)
+    planet = Gear(36, module, planet_shift, shortening=shortening)
+    ring = Gear(93, module, ring_shift, internal=True)
+    sun.held, planet.held = sun.root / 2, planet.root / 2
+    ring.held = ring.root + 3 * (ring.root - ring.tip)
+    return Pair(*((sun, planet) if which == "sun" else (planet, ring)), distance, material,
+                1000.0 * 550.0)
+
+
 CASES = {"bell-sun": (lambda: bell("sun"), 0.0), "bell-ring": (lambda: bell("ring"), 0.0),
          "liang-ring": (liang_ring, 0.0), "liang-ring-2.15": (liang_ring, 2.15),
-         "liang-ring-4.28": (liang_ring, 4.28)}
+         "liang-ring-4.28": (liang_ring, 4.28),
+         "discs-19-48": (lambda: steel_discs((19, 48), (0, 0)), 0.0),
+         "rims-19-48": (lambda: steel_discs((19, 48), (0, 0), 0.75), 0.0),
+         "discs-30-60": (lambda: steel_discs((30, 60), (0, 0)), 0.0),
+         "discs-20-30": (lambda: steel_discs((20, 30), (0.4, 0.2)), 0.0),
+         "turbine-sun": (lambda: wind_turbine("sun"), 0.0),
+         "turbine-ring": (lambda: wind_turbine("ring"), 0.0)}
+
+
+# For the level of mesh stiffness (docs/validation/mesh-stiffness-level.md): fewer rows, plane strain.
+LEVEL_CASES = ("discs-19-48", "rims-19-48", "discs-30-60", "discs-20-30", "turbine-sun", "turbine-ring")
 
 
 def loaded_side(geo, gear, at, contact, until=None):
@@ -163,13 +208,13 @@ def mesh_row(size, pair, taus, crack=0.0, cracked=None, element="CPE6"):
     return stiffness(flank), stiffness(centre + contact), gears
 
 
-def phases(contact_ratio):
-    """(pairs, phase): five with the more pairs, five with the fewer."""
+def phases(contact_ratio, count=5):
+    """(pairs, phase): so many with the more pairs, so many with the fewer."""
     whole = math.floor(contact_ratio)
     part = contact_ratio - whole
     margin = min(0.04, 0.1 * part, 0.1 * (1 - part))
-    return ([(whole + 1, p) for p in np.linspace(margin, part - margin, 5)]
-            + [(whole, p) for p in np.linspace(part + margin, 1 - margin, 5)])
+    return ([(whole + 1, p) for p in np.linspace(margin, part - margin, count)]
+            + [(whole, p) for p in np.linspace(part + margin, 1 - margin, count)])
 
 
 def cracked_rows(size, name, pair, crack, mesh):
@@ -186,11 +231,12 @@ def cracked_rows(size, name, pair, crack, mesh):
 
 
 def healthy_rows(size, name, pair, mesh, teeth):
-    for pairs, phase in phases(pair.contact_ratio):
+    level = name in LEVEL_CASES
+    for pairs, phase in phases(pair.contact_ratio, 3 if level else 5):
         taus = tuple(phase + i for i in range(pairs))
         flank, centre, gears = mesh_row(size, pair, taus)
-        stress = mesh_row(size, pair, taus, element="CPS6")[0]
-        put(mesh, f"{name},{phase:.6f},{pairs},,{flank:.6g},{centre:.6g},{stress:.6g}")
+        stress = "" if level else f"{mesh_row(size, pair, taus, element='CPS6')[0]:.6g}"
+        put(mesh, f"{name},{phase:.6f},{pairs},,{flank:.6g},{centre:.6g},{stress}")
         for which in (1, 2):
             for i, tau in enumerate(taus):
                 c = [1e-3 * m[i, i] for m in gears[which - 1]]
