@@ -54,19 +54,21 @@ CrackIntensity CrackPath::intensity(double depth_m) const {
     const Vector along{across.x / ligament, across.y / ligament};
     const Vector middle{-along.x * width / 2, -half_thickness_ - along.y * width / 2};
     const double share = depth_m / width, root = std::sqrt(std::numbers::pi * depth_m);
-    const double tension = edge_crack_tension(share) * root / width;
-    const double bending = 6 * edge_crack_bending(share) * root / (width * width);
+    double tension = edge_crack_tension(share) * root / width;
+    double bending = 6 * edge_crack_bending(share) * root / (width * width);
     const double shear = edge_crack_shear(share) * root / width;
 
     const ToothFactors& of = fillet_ ? kFillet : kCorner;
     const double surface = std::exp(-depth_m / (kFading * length()));
-    const double moment = bending * (kDeepMoment + (of.surface_moment - kDeepMoment) * surface);
     const double lever =
         bending * width * (of.deep_lever + (of.surface_lever - of.deep_lever) * surface);
+    const double moment = kDeepMoment + (of.surface_moment - kDeepMoment) * surface;
+    tension *= moment;
+    bending *= moment;
     CrackIntensity k;
-    k.constant = moment * sense_ * base_radius_;
-    k.cosine = moment * (-sense_ * axial_ - middle.x) - tension * along.x - lever * along.y;
-    k.sine = moment * middle.y + tension * along.y - lever * along.x;
+    k.constant = bending * sense_ * base_radius_;
+    k.cosine = bending * (-sense_ * axial_ - middle.x) - tension * along.x - lever * along.y;
+    k.sine = bending * middle.y + tension * along.y - lever * along.x;
     k.sliding_cosine = -shear * along.y;
     k.sliding_sine = -shear * along.x;
     return k;

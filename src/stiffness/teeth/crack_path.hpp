@@ -12,7 +12,7 @@
 // force N, a shear force V and a moment M. In a strip as wide as crack and ligament together, w = a
 // + b, they cause the stress intensities (edge_crack.hpp)
 //
-//     K_I  = (N / w F_t(a/w) + 6 (m M + k V w) / w^2 F_b(a/w)) sqrt(pi a) / L,
+//     K_I  = (m N / w F_t(a/w) + 6 (m M + k V w) / w^2 F_b(a/w)) sqrt(pi a) / L,
 //     K_II = V / w F_s(a/w) sqrt(pi a) / L.
 //
 // A strip under far loads has m = 1 and k = 0. A tooth is short and ends in a fillet or corner:

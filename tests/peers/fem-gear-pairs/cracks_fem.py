@@ -37,7 +37,7 @@ def pair_of(mate, profile):
 BOTH = ("fillet", "root-circle")
 TEETH = {"sun": ("sun", 1, BOTH), "planet-sun": ("sun", 2, BOTH), "planet-ring": ("ring", 1, BOTH),
          "ring": ("ring", 2, BOTH), "bell-sun": ("bell-sun", 1, ("fillet",)),
-         "bell-planet": ("bell-ring", 1, ("fillet",))}
+         "bell-planet": ("bell-sun", 2, ("fillet",))}
 
 
 def depth_of(gear, share):

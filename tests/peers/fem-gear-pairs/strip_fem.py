@@ -52,6 +52,12 @@ def energies(size, crack):
     return 0.5 * np.einsum("ij,ij->j", forces[free], moved)
 
 
+def factors(size, share):
+    """Of tension and bending."""
+    rate = (energies(size, share + STEP) - energies(size, share - STEP)) / STEP
+    return np.sqrt(rate / (1 - POISSON**2) / (math.pi * share))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", type=float, default=1.0, help="factor on all element sizes")
@@ -60,9 +66,8 @@ def main():
     with open(os.path.join(chosen.folder, "strip.csv"), "w") as table:
         put(table, "share,tension,bending")
         for share in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
-            rate = (energies(chosen.size, share + STEP) - energies(chosen.size, share - STEP)) / STEP
-            factors = np.sqrt(rate / (1 - POISSON**2) / (math.pi * share))
-            put(table, f"{share:g},{factors[0]:.5f},{factors[1]:.5f}")
+            tension, bending = factors(chosen.size, share)
+            put(table, f"{share:g},{tension:.5f},{bending:.5f}")
 
 
 if __name__ == "__main__":
