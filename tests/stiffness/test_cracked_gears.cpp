@@ -7,9 +7,11 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "gears/working_pair.hpp"
 #include "stiffness/coupled_mesh.hpp"
+#include "stiffness/faults/spatial_crack.hpp"
 #include "stiffness/faults/tooth_crack.hpp"
 #include "stiffness/teeth/crack_compliance.hpp"
 #include "stiffness/teeth/tooth_compliance.hpp"
@@ -175,6 +177,39 @@ TEST_CASE("the critical section is the fillet's 30 degree tangent", "[crack]") {
     }
     const ToothProfile ring(test_pairs::internal(81), Profile::fillet);
     CHECK(ring.critical() == ring.root());
+}
+
+TEST_CASE("a spatial crack of one depth is the plane crack by fracture mechanics", "[crack]") {
+    for (const char* tooth : kTeeth) {
+        INFO(tooth);
+        const CrackedPair pair(tooth, Profile::fillet);
+        const double depth_m = 0.3 * pair.cracks.largest_size(), width_m = kLiangSteel.face_width_m;
+        const auto spatial = [&](double end_depth_m, double length_m, double height_m) {
+            const CrackGrowth growth{{depth_m},   {end_depth_m}, {length_m}, {height_m}, {height_m},
+                                     kCrackAngle, kCrackAngle,   0,          0,          16};
+            const SpatialCrack family(pair.gears.geometry, kLiangSteel, Profile::fillet,
+                                      pair.gears.cracked, growth, nullptr,
+                                      CrackLaw::fracture_mechanics);
+            const auto crack = family.at(1);
+            const double tau[] = {0.2, 0.8, 1.3};
+            std::vector<double> compliance(3);
+            crack->beam_compliance(tau, compliance);
+            return compliance;
+        };
+        const auto plane = pair.cracks.at(depth_m);
+        const double tau[] = {0.2, 0.8, 1.3};
+        std::vector<double> whole(3), cracked(3);
+        plane->beam_compliance(tau, cracked);
+        pair.cracks.at(1e-9)->beam_compliance(tau, whole);
+        const auto through = spatial(depth_m, width_m, 0), half = spatial(0, 0.5 * width_m, 0),
+                   higher = spatial(depth_m, width_m, 0.5e-3);
+        for (int i = 0; i < 3; ++i) {
+            CHECK(through[i] == Approx(cracked[i]).epsilon(1e-9));
+            CHECK(half[i] > whole[i]);
+            CHECK(half[i] < cracked[i]);
+            CHECK(higher[i] < cracked[i]);
+        }
+    }
 }
 
 TEST_CASE("loss of mesh stiffness by a crack, over the finite elements'", "[.fem]") {

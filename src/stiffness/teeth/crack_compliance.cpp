@@ -8,7 +8,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr int kPoints = 12;
+constexpr int kDepthPoints = 12;
 constexpr double kRounding = 1e-12;
 
 }  // namespace
@@ -21,7 +21,7 @@ CrackCompliance::CrackCompliance(const CrackPath& path, const Material& material
                          (material.youngs_modulus_Pa * material.face_width_m);
     const auto ligament = [&](double depth) { return path.ligament(depth); };
     const auto add_panel = [&](double from, double to) {
-        for_gauss_points<kPoints>(from, to, [&](double weight, double depth) {
+        for_gauss_points<kDepthPoints>(from, to, [&](double weight, double depth) {
             points_.push_back({scale * weight / material.bending_factor,
                                scale * weight / material.shear_factor, path.intensity(depth)});
         });
