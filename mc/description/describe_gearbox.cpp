@@ -100,6 +100,7 @@ void print_fault_sizes(const Scene& scene) {
                             fmt::join(shares, ", "), largest / unit.to_si, unit.name);
     }
     print_entry("fault sizes", text);
+    print_entry("fault origin", study.fault.kind->origin(study, all));
 }
 
 void print_planetary(const PlanetaryDrive& drive) {

@@ -16,8 +16,12 @@ namespace {
 stiffness::RootCrack root_crack(const Scene& scene) {
     const Study& study = scene.study();
     const FaultPlace place = fault_places(study.fault).front();
-    return {scene.meshes()[place.mesh].geometry.value(), profile_of(study), place.gear,
-            crack_angle_rad(study), study.gearbox.face_width_m.value()};
+    return {scene.meshes()[place.mesh].geometry.value(),
+            profile_of(study),
+            place.gear,
+            crack_angle_rad(study),
+            study.gearbox.face_width_m.value(),
+            crack_law(study)};
 }
 
 // Linear between the points of a curve, whose ends go on beyond it.

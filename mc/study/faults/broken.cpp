@@ -28,6 +28,10 @@ class BrokenKind final : public FaultKind {
     // Any tooth can lose any share.
     void check(StudyDraft&) const override {}
 
+    std::string origin(const Study&, std::span<const double>) const override {
+        return "the whole tooth pair loses this share of its stiffness, whatever the profile";
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,
                                                               const FaultyTooth&) const override {
         return std::make_unique<const stiffness::BrokenTooth>();

@@ -54,6 +54,10 @@ class ChipKind final : public FaultKind {
         }
     }
 
+    std::string origin(const Study&, std::span<const double>) const override {
+        return "taken off one end of the tip, and down the flank from the tip circle";
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Chip& chip = study.fault.shapes.get<Chip>();

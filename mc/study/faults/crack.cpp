@@ -15,7 +15,7 @@ struct Crack : FaultShape {
 
 // clang-format off
 constexpr FaultSize kCrackSize{"depth_mm", number<&Crack::depth_m>, kMm, kNotNegative, "depth along the crack"};
-constexpr FaultKey kCrackOthers[] = {kCrackAngle};
+constexpr FaultKey kCrackOthers[] = {kCrackAngle, kCrackLaw};
 // clang-format on
 
 class CrackKind final : public FaultKind {
@@ -32,11 +32,15 @@ class CrackKind final : public FaultKind {
                            "longer " + than_the_tooth(draft.study)});
     }
 
+    std::string origin(const Study& study, std::span<const double> sizes) const override {
+        return crack_origin(study, sizes);
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         return std::make_unique<const stiffness::ToothCrack>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
-            crack_angle_rad(study));
+            crack_angle_rad(study), crack_law(study));
     }
 };
 

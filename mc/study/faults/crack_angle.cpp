@@ -1,22 +1,76 @@
 #include "mc/study/faults/crack_angle.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string_view>
 
 #include "mc/study/faults/limits.hpp"
 #include "mc/study/gears.hpp"
-#include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/crack_path.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
 
 namespace gearpod::mc {
 
+namespace {
+
+stiffness::ToothProfile faulty_tooth(const Study& study) {
+    return {gear_of(study, study.fault.member.value()), profile_of(study)};
+}
+
+std::string_view start_name(const Study& study) {
+    using stiffness::Profile;
+    if (gear_of(study, study.fault.member.value()).internal) {
+        return "the flank's end on the root circle";
+    }
+    switch (profile_of(study)) {
+        case Profile::base_circle:
+            return "the flank's end on the base circle";
+        case Profile::root_circle:
+            return "the flank's end on the root circle";
+        case Profile::fillet:
+            break;
+    }
+    return crack_law(study) == stiffness::CrackLaw::sections
+               ? "the fillet's end on the root circle"
+               : "the fillet's surface at its 30 deg tangent (the critical section)";
+}
+
+}  // namespace
+
 double crack_angle_rad(const Study& study) {
-    return study.fault.shapes.get<CrackAngle>().angle_rad;
+    return study.fault.shapes.get<CrackShape>().angle_rad;
+}
+
+stiffness::CrackLaw crack_law(const Study& study) {
+    const bool fillet = profile_of(study) == stiffness::Profile::fillet;
+    return study.fault.shapes.get<CrackShape>().law.value_or(
+        fillet ? stiffness::CrackLaw::fracture_mechanics : stiffness::CrackLaw::sections);
 }
 
 double max_crack_depth_m(const Study& study) {
-    const stiffness::ToothProfile tooth(gear_of(study, study.fault.member.value()),
-                                        profile_of(study));
-    return stiffness::max_crack_depth(tooth, crack_angle_rad(study));
+    return stiffness::max_crack_depth(faulty_tooth(study), crack_law(study),
+                                      crack_angle_rad(study));
+}
+
+double critical_section_m(const Study& study) {
+    const stiffness::ToothProfile tooth = faulty_tooth(study);
+    return crack_law(study) == stiffness::CrackLaw::sections
+               ? 2.0 * tooth.root_half_thickness()
+               : stiffness::CrackPath(tooth, crack_angle_rad(study)).thickness();
+}
+
+std::string crack_origin(const Study& study, std::span<const double> depths_m) {
+    const double section_m = critical_section_m(study), sine = std::sin(crack_angle_rad(study));
+    std::vector<std::string> depths, shares;
+    for (const double depth_m : depths_m) {
+        depths.push_back(fmt::format("{:.4g}", depth_m * kMmPerM));
+        shares.push_back(fmt::format("{:.3g}", 100.0 * depth_m * sine / section_m));
+    }
+    return fmt::format(
+        "depth along the crack from {}, {:.4g} mm thick there; {} mm takes {} % of that section",
+        start_name(study), section_m * kMmPerM, fmt::join(depths, ", "), fmt::join(shares, ", "));
 }
 
 std::string than_the_tooth(const Study& study) {

@@ -1,29 +1,45 @@
-// The angle that all kinds of crack have, and how deep one can go at it.
+// What all kinds of crack share: their angle, their law, and how deep one can go.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "mc/study/faults/fault_kind.hpp"
 #include "mc/study/keys/access.hpp"
 #include "mc/study/keys/units.hpp"
+#include "stiffness/teeth/crack_law.hpp"
 
 namespace gearpod::mc {
 
-struct CrackAngle : FaultShape {
+struct CrackShape : FaultShape {
     double angle_rad = 0.78539816339744828;  // 45 degrees, Liang (2016), section 3.1
+    std::optional<stiffness::CrackLaw> law;  // by default crack_law() of the tooth profile
 
-    bool operator==(const CrackAngle&) const = default;
+    bool operator==(const CrackShape&) const = default;
 };
 
+inline constexpr ChoiceName kCrackLaws[] = {
+    name("sections", stiffness::CrackLaw::sections),
+    name("fracture-mechanics", stiffness::CrackLaw::fracture_mechanics)};
+
 // clang-format off
-inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackAngle::angle_rad>, kDeg, inside(0, 90), Need::optional, "the tables of cracked teeth hold for one angle", "angle between crack and tooth centre line; of a spatial crack where it begins"};
+inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackShape::angle_rad>, kDeg, inside(0, 90), Need::optional, "the tables of cracked teeth hold for one angle", "angle between crack and tooth centre line; of a spatial crack where it begins"};
+inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrackLaws), kNone, kAny, Need::optional, kFaultShape, "how a crack softens its tooth: by the \"sections\" it leaves (the sources), or by \"fracture-mechanics\" from the critical section; the latter by default for teeth with fillets"};
 // clang-format on
 
 double crack_angle_rad(const Study& study);
+// The law of the study's cracks: its own, or fracture mechanics for teeth with fillets and sections
+// for others.
+stiffness::CrackLaw crack_law(const Study& study);
 
-// Length of the longest crack that the faulty member's tooth holds, m: there it breaks. The study
-// must have the tooth geometry.
+// Depth at which the faulty member's tooth breaks, m. The study must have the tooth geometry.
 double max_crack_depth_m(const Study& study);
+// Thickness of that tooth where its cracks start, m.
+double critical_section_m(const Study& study);
+// Where the study's cracks start, how thick the tooth is there and what share of that section each
+// of these depths takes, for the user.
+std::string crack_origin(const Study& study, std::span<const double> depths_m);
 // "than the tooth (a crack at 45 deg leaves it after 4.2 mm)".
 std::string than_the_tooth(const Study& study);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,6 +62,10 @@ class FaultKind {
     virtual void check(StudyDraft& draft) const = 0;
     virtual std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const = 0;
+
+    // Where the fault lies on the tooth and from where its sizes (SI) are measured, for the user.
+    // The study must have the tooth geometry if the kind shapes the tooth.
+    virtual std::string origin(const Study& study, std::span<const double> sizes) const = 0;
 
     // The size first.
     std::vector<FaultKey> keys() const;

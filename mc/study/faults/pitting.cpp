@@ -115,6 +115,10 @@ class PittingKind final : public FaultKind {
         check_band(draft, pits);
     }
 
+    std::string origin(const Study&, std::span<const double>) const override {
+        return "a rectangle on the working flank, its depth measured from the flank";
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Pits& pits = study.fault.shapes.get<Pits>();

@@ -28,6 +28,10 @@ class ReductionKind final : public FaultKind {
     // Any tooth can lose any share.
     void check(StudyDraft&) const override {}
 
+    std::string origin(const Study&, std::span<const double>) const override {
+        return "the whole mesh loses this share of its stiffness while the tooth is in contact";
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,
                                                               const FaultyTooth&) const override {
         return std::make_unique<const stiffness::Reduction>();

@@ -30,10 +30,11 @@ struct Growth : FaultShape {
 constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
 constexpr FaultKey kSpatialCrackOthers[] = {
     kCrackAngle,
+    kCrackLaw,
     {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 where it begins"},
     {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until it gets there"},
     {"growth_length_mm", numbers<&Growth::length_m>, kMm, kPositive, Need::required, kFaultShape, "lengths L_c along the face width"},
-    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 over the root where it begins"},
+    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 over the section from which cracks start, where it begins"},
     {"growth_end_height_mm", numbers<&Growth::end_height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l2 at the other end face"},
     {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
     {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "wave on the height, a of Yang (2022), Eq. 65; 0 for none"},
@@ -140,6 +141,10 @@ class SpatialCrackKind final : public FaultKind {
         }
     }
 
+    std::string origin(const Study& study, std::span<const double>) const override {
+        return crack_origin(study, study.fault.shapes.get<Growth>().depth_m);
+    }
+
     std::unique_ptr<const stiffness::ToothFaultFamily> family(
         const Study& study, const FaultyTooth& tooth) const override {
         const Growth& g = study.fault.shapes.get<Growth>();
@@ -157,7 +162,7 @@ class SpatialCrackKind final : public FaultKind {
         growth.slices = g.slices;
         return std::make_unique<const stiffness::SpatialCrack>(
             tooth.geometry.value(), material_of(study, tooth.mesh), profile_of(study), tooth.gear,
-            growth, tooth.foundation);
+            growth, tooth.foundation, crack_law(study));
     }
 };
 

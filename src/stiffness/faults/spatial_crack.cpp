@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "stiffness/faults/slice_rule.hpp"
+#include "stiffness/teeth/crack_compliance.hpp"
 #include "stiffness/teeth/section_moments.hpp"
 #include "stiffness/tooth_pair_curve.hpp"
 
@@ -16,7 +17,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// Of the healthy tooth's stiffness; the second where slices differ, which leaves small kinks.
+// Relative to the healthy tooth's stiffness. Slices that differ leave small kinks.
 constexpr double kUniformTolerance = 1e-11, kTolerance = 1e-5;
 
 // Stiffnesses per unit of the healthy face width; zero where the compliance is infinite.
@@ -45,15 +46,8 @@ class CrackOfOneStage : public ToothFault {
           healthy_(family.profile_, {}) {
         if (!surface.cracked())
             return;
-        const double root_width = 2 * family.profile_.root_half_thickness();
-        for (const double t : rule_.points()) {
-            const Crack crack = surface.crack(t);
-            slices_.emplace_back(family.profile_, crack);
-            const double below = std::cos(crack.angle_rad) * crack.depth_m - crack.height_m;
-            const double cut =
-                below > 0 ? below * std::tan(crack.angle_rad) : 0;  // of the root's width
-            longer_lever_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
-        }
+        for (const double t : rule_.points())
+            add_slice(surface.crack(t));
         find_heights();
         find_breaks();
         const SectionSweep whole = swept_to(healthy_, family.angle_at(family.contact_ratio_ / 2));
@@ -87,9 +81,30 @@ class CrackOfOneStage : public ToothFault {
         return sweep;
     }
 
-    // Height of the section at u over the root section.
+    bool by_sections() const { return family_.law_ == CrackLaw::sections; }
+
+    void add_slice(const Crack& crack) {
+        if (!by_sections()) {
+            slices_.push_back(healthy_);
+            added_.emplace_back(CrackPath(family_.profile_, crack.angle_rad, crack.height_m),
+                                family_.material_, crack.depth_m);
+            longer_lever_.push_back(1);
+            return;
+        }
+        slices_.emplace_back(family_.profile_, crack);
+        const double below = std::cos(crack.angle_rad) * crack.depth_m - crack.height_m;
+        const double cut =
+            below > 0 ? below * std::tan(crack.angle_rad) : 0;  // of the root's width
+        const double root_width = 2 * family_.profile_.root_half_thickness();
+        longer_lever_.push_back(inverse(std::max(0.0, 1 - cut / root_width)));
+    }
+
+    // Height of the section at u over the section from which the cracks' heights count.
     double height_at(double u) const {
-        return std::abs(family_.profile_.section(u).axial - family_.profile_.root_axial());
+        const double from = by_sections()
+                                ? family_.profile_.root_axial()
+                                : family_.profile_.section(family_.profile_.critical()).axial;
+        return std::abs(family_.profile_.section(u).axial - from);
     }
 
     int samples() const { return 64 * (1 + static_cast<int>(surface_.height_waves)); }
@@ -107,9 +122,11 @@ class CrackOfOneStage : public ToothFault {
     // cracked sections at either end: the slices in between change one after the other.
     void find_breaks() {
         for (const double height : {lowest_, highest_})
-            add_break(CrackedSections(family_.profile_, {1e-9, 1, height}).start());
-        for (const double t : {0.0, 1.0})
-            add_break(CrackedSections(family_.profile_, surface_.crack(t)).boundary());
+            add_break(by_sections() ? CrackedSections(family_.profile_, {1e-9, 1, height}).start()
+                                    : CrackPath(family_.profile_, 1, height).start());
+        if (by_sections())
+            for (const double t : {0.0, 1.0})
+                add_break(CrackedSections(family_.profile_, surface_.crack(t)).boundary());
         std::sort(breaks_.begin(), breaks_.end());
     }
     void add_break(double u) {
@@ -147,16 +164,20 @@ class CrackOfOneStage : public ToothFault {
     SliceStiffness slice_stiffness(std::size_t slice, const Touch& touch,
                                    SectionSweep& sweep) const {
         const CrackedSections& sections = slices_[slice];
-        if (sections.broken() || (sections.past_centre() && touch.u <= sections.boundary()))
+        if (sections.broken() || (sections.past_centre() && touch.u <= sections.boundary()) ||
+            (!by_sections() && added_[slice].broken()))
             return {};
         sweep.advance(touch.u);
-        return stiffness_of(sweep.moments(), touch, longer_lever_[slice]);
+        const double added =
+            by_sections() ? 0 : added_[slice].added(family_.profile_.involute_angle(touch.u));
+        return stiffness_of(sweep.moments(), touch, longer_lever_[slice], added);
     }
 
-    SliceStiffness stiffness_of(const SectionMoments& moments, const Touch& touch,
-                                double lever) const {
+    SliceStiffness stiffness_of(const SectionMoments& moments, const Touch& touch, double lever,
+                                double added = 0) const {
         return {
-            inverse(bending_compliance(moments, family_.profile_, family_.material_, touch.cosine)),
+            inverse(bending_compliance(moments, family_.profile_, family_.material_, touch.cosine) +
+                    added),
             inverse(shear_compliance(moments, family_.material_, touch.cosine)),
             lever > 0 ? inverse(touch.foundation.total(lever)) : 0};
     }
@@ -204,20 +225,22 @@ class CrackOfOneStage : public ToothFault {
     SliceRule rule_;
     CrackedSections healthy_;
     std::vector<CrackedSections> slices_;
-    std::vector<double> longer_lever_;  // S / S'; 0 where the root is cut through
-    double lowest_ = 0, highest_ = 0;   // start of the crack over the root section
+    std::vector<CrackCompliance> added_;  // by the slices, by fracture mechanics
+    std::vector<double> longer_lever_;    // S / S'; 0 where the root is cut through
+    double lowest_ = 0, highest_ = 0;     // start of the crack over the root section
     std::vector<double> breaks_;
     ToothPairCurve curve_;
 };
 
 SpatialCrack::SpatialCrack(const gears::MeshGeometry& geometry, const Material& material,
                            Profile profile, int which, CrackGrowth growth,
-                           const FilletFoundation* foundation)
+                           const FilletFoundation* foundation, CrackLaw law)
     : profile_(geometry.gear(which == 2 ? 2 : 1), profile),
       material_(material),
       which_(which),
       growth_(std::move(growth)),
       foundation_(foundation),
+      law_(law),
       contact_ratio_(geometry.contact_ratio()),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which == 2 ? 2 : 1))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which == 2 ? 2 : 1))) {

@@ -13,6 +13,11 @@
 // Foundation: the part of the crack below the root section narrows the root, S' = S - q_b sin g
 // with q_b = q - l / cos g, and so makes the lever over the width longer by S / S'. What that adds
 // to the foundation's compliance is counted with the beam's.
+//
+// By fracture mechanics (teeth/crack_law.hpp) a slice has the whole tooth's compliance and, with
+// its bending, what the crack adds in a tooth of that depth throughout
+// (teeth/crack_compliance.hpp). That holds the give of the root, so the foundation stays; heights
+// count from the critical section.
 #pragma once
 
 #include <memory>
@@ -20,6 +25,7 @@
 #include "gears/mesh_geometry.hpp"
 #include "stiffness/faults/crack_surface.hpp"
 #include "stiffness/foundation/fillet_foundation.hpp"
+#include "stiffness/teeth/crack_law.hpp"
 #include "stiffness/teeth/material.hpp"
 #include "stiffness/teeth/tooth_fault.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
@@ -33,7 +39,8 @@ class SpatialCrack : public ToothFaultFamily {
     // the mesh has it, or null; it must outlive the family. Throws std::invalid_argument with all
     // of growth_problems(), or unless which is 1 or 2.
     SpatialCrack(const gears::MeshGeometry& geometry, const Material& material, Profile profile,
-                 int which, CrackGrowth growth, const FilletFoundation* foundation = nullptr);
+                 int which, CrackGrowth growth, const FilletFoundation* foundation = nullptr,
+                 CrackLaw law = CrackLaw::sections);
 
     std::unique_ptr<const ToothFault> at(double stage) const override;
     double largest_size() const override { return growth_.stages(); }
@@ -48,6 +55,7 @@ class SpatialCrack : public ToothFaultFamily {
     int which_;
     CrackGrowth growth_;
     const FilletFoundation* foundation_;
+    CrackLaw law_;
     double contact_ratio_;
     double contact_start_, contact_rate_;  // involute angle of the contact: start + rate tau
 };

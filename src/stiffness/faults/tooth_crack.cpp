@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/crack_compliance.hpp"
 #include "stiffness/teeth/section_moments.hpp"
 
 namespace gearpod::stiffness {
@@ -16,9 +17,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-class CrackOfOneDepth : public ToothFault {
+class CrackBySections : public ToothFault {
   public:
-    CrackOfOneDepth(const ToothCrack& family, double depth_m)
+    CrackBySections(const ToothCrack& family, double depth_m)
         : family_(family), sections_(family.profile_, {depth_m, family.crack_angle_rad_}) {}
 
     int gear() const override { return family_.which_; }
@@ -60,12 +61,47 @@ class CrackOfOneDepth : public ToothFault {
     CrackedSections sections_;
 };
 
+class CrackByFractureMechanics : public ToothFault {
+  public:
+    CrackByFractureMechanics(const ToothCrack& family, double depth_m)
+        : family_(family),
+          healthy_(family.profile_, {}),
+          crack_({family.profile_, family.crack_angle_rad_}, family.material_, depth_m) {}
+
+    int gear() const override { return family_.which_; }
+    bool changes_sections() const override { return true; }
+
+    void beam_compliance(std::span<const double> tau, std::span<double> compliance) const override {
+        if (crack_.broken()) {
+            std::fill(compliance.begin(), compliance.end(), kInfinity);
+            return;
+        }
+        SectionSweep sweep(family_.profile_, healthy_);
+        const bool climbs = family_.contact_rate_ < 0;  // from the root to the tip
+        for (std::size_t i = 0; i < tau.size(); ++i) {
+            const std::size_t next = climbs ? i : tau.size() - 1 - i;
+            const double u = family_.angle_at(tau[next]);
+            const double angle = family_.profile_.involute_angle(u);
+            sweep.advance(u);
+            compliance[next] =
+                stiffness::compliance(sweep.moments(), family_.profile_, family_.material_, angle) +
+                crack_.added(angle);
+        }
+    }
+
+  private:
+    const ToothCrack& family_;
+    CrackedSections healthy_;
+    CrackCompliance crack_;
+};
+
 ToothCrack::ToothCrack(const gears::MeshGeometry& geometry, const Material& material,
-                       Profile profile, int which, double crack_angle_rad)
+                       Profile profile, int which, double crack_angle_rad, CrackLaw law)
     : profile_(geometry.gear(which == 2 ? 2 : 1), profile),
       material_(material),
       which_(which),
       crack_angle_rad_(crack_angle_rad),
+      law_(law),
       contact_ratio_(geometry.contact_ratio()),
       contact_start_(profile_.involute_angle(geometry.contact_angle_at_start(which == 2 ? 2 : 1))),
       contact_rate_(profile_.involute_angle(geometry.contact_angle_rate(which == 2 ? 2 : 1))) {
@@ -77,11 +113,13 @@ ToothCrack::ToothCrack(const gears::MeshGeometry& geometry, const Material& mate
 }
 
 double ToothCrack::largest_size() const {
-    return max_crack_depth(profile_, crack_angle_rad_);
+    return max_crack_depth(profile_, law_, crack_angle_rad_);
 }
 
 std::unique_ptr<const ToothFault> ToothCrack::at(double depth_m) const {
-    return std::make_unique<CrackOfOneDepth>(*this, depth_m);
+    if (law_ == CrackLaw::fracture_mechanics)
+        return std::make_unique<CrackByFractureMechanics>(*this, depth_m);
+    return std::make_unique<CrackBySections>(*this, depth_m);
 }
 
 }  // namespace gearpod::stiffness

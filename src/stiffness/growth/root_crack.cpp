@@ -5,18 +5,22 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "stiffness/growth/edge_crack.hpp"
+#include "stiffness/teeth/edge_crack.hpp"
 
 namespace gearpod::stiffness {
 
 RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int which,
-                     double crack_angle_rad, double face_width_m)
+                     double crack_angle_rad, double face_width_m, CrackLaw law)
     : geometry_(geometry),
       profile_(geometry.gear(which), profile),
       which_(which),
       angle_(crack_angle_rad),
       face_width_(face_width_m),
-      width_(2.0 * profile_.root_half_thickness() / std::sin(crack_angle_rad)) {
+      law_(law),
+      path_(profile_, crack_angle_rad),
+      width_(law == CrackLaw::fracture_mechanics
+                 ? path_.length()
+                 : 2.0 * profile_.root_half_thickness() / std::sin(crack_angle_rad)) {
     if (!(crack_angle_rad > 0.0 && crack_angle_rad <= std::numbers::pi / 2)) {
         throw std::invalid_argument(
             "the crack's angle to the tooth's centre line must lie between 0 and 90 degrees");
@@ -25,10 +29,12 @@ RootCrack::RootCrack(const gears::MeshGeometry& geometry, Profile profile, int w
     const double ratio = geometry.contact_ratio();
     for (int i = 0; i <= kPositions; ++i) {
         const double tau = ratio * i / kPositions;
-        // Pairs that touch at once: those a whole number of mesh periods before and behind.
+        // Pairs that touch at once: those a whole number of mesh periods before and after.
         const double pairs = 1.0 + std::floor(tau) + std::floor(ratio - tau);
-        const Stress stress = stress_at(tau);
-        engagement_.push_back({stress.tension / pairs, stress.bending / pairs});
+        Touch touch = touch_at(tau);
+        touch.share = 1.0 / pairs;
+        touch.stress = {touch.stress.tension / pairs, touch.stress.bending / pairs};
+        engagement_.push_back(touch);
     }
 }
 
@@ -47,24 +53,39 @@ RootCrack::Stress RootCrack::stress_at(double tau) const {
     return {across / area, 6.0 * moment / (area * width_)};
 }
 
-double RootCrack::intensity_of(const Stress& stress, double depth_m, double share) {
-    const double opening =
-        stress.tension * edge_crack_tension(share) + stress.bending * edge_crack_bending(share);
-    return std::max(0.0, opening * std::sqrt(std::numbers::pi * depth_m));
+RootCrack::Touch RootCrack::touch_at(double tau) const {
+    const double a = geometry_.contact_angle(which_, tau);
+    return {std::cos(a), std::sin(a), 1.0, stress_at(tau)};
+}
+
+double RootCrack::largest_opening(double depth_m, std::span<const Touch> touches) const {
+    if (!(depth_m > 0.0)) {
+        return 0.0;
+    }
+    double largest = 0.0;
+    if (law_ == CrackLaw::fracture_mechanics) {
+        const CrackIntensity k = path_.intensity(depth_m);
+        for (const Touch& touch : touches) {
+            largest = std::max(largest, touch.share * k.opening(touch.cosine, touch.sine));
+        }
+        return largest / face_width_;
+    }
+    const double share = depth_m / width_;
+    const double tension = edge_crack_tension(share), bending = edge_crack_bending(share);
+    for (const Touch& touch : touches) {
+        largest =
+            std::max(largest, touch.stress.tension * tension + touch.stress.bending * bending);
+    }
+    return largest * std::sqrt(std::numbers::pi * depth_m);
 }
 
 double RootCrack::intensity(double depth_m, double force_N, double tau) const {
-    return force_N * intensity_of(stress_at(tau), depth_m, depth_m / width_);
+    const Touch touch = touch_at(tau);
+    return force_N * largest_opening(depth_m, {&touch, 1});
 }
 
 double RootCrack::largest_intensity(double depth_m, double force_N) const {
-    const double share = depth_m / width_;
-    const double tension = edge_crack_tension(share), bending = edge_crack_bending(share);
-    double largest = 0.0;
-    for (const Stress& stress : engagement_) {
-        largest = std::max(largest, stress.tension * tension + stress.bending * bending);
-    }
-    return force_N * largest * std::sqrt(std::numbers::pi * depth_m);
+    return force_N * largest_opening(depth_m, engagement_);
 }
 
 }  // namespace gearpod::stiffness

@@ -32,6 +32,7 @@ ToothProfile::ToothProfile(const gears::Gear& gear, Profile profile)
                 add_straight_side(std::sqrt(root_radius * root_radius - half * half));
         }
         waist_ = involute_root_;
+        critical_ = root_;
     }
     const ToothSection root = section(root_);
     root_axial_ = root.axial;
@@ -76,6 +77,10 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
     root_ = fillet_end_ + fillet_end_angle_ - std::atan2(fillet_height_, fillet_axial_);
     // The waist: where the arc runs along the centre line.
     waist_ = fillet_end_ + std::max(0.0, u);
+    // At the angle p of the arc the tangent makes pi/2 - p with the centre line.
+    constexpr double kTangent = std::numbers::pi / 6;
+    critical_ = std::clamp(fillet_end_ + fillet_end_angle_ - (std::numbers::pi / 2 - kTangent),
+                           fillet_end_, root_);
 }
 
 ToothSection ToothProfile::involute_section(double u) const {

@@ -73,6 +73,11 @@ class ToothProfile {
     }
     // u of the foot's thinnest section, of several equal ones that nearest the tip.
     double waist() const { return waist_; }
+    // u of the critical section, where cracks of the root start: in a fillet where the tangent to
+    // the arc makes 30 degrees with the tooth's centre line (ISO 6336-3); the root section
+    // otherwise. Internal teeth end without a fillet on their root circle, so that their tangent
+    // turns through ISO's 60 degrees in the corner there.
+    double critical() const { return critical_; }
     // Radius of the circle along which a crack lengthens the beam below the root chord; 0 if it
     // does not.
     double lengthening_radius() const { return lengthening_radius_; }
@@ -95,7 +100,7 @@ class ToothProfile {
     bool internal_ = false;
     double base_radius_ = 0, half_base_angle_ = 0;
     double root_axial_ = 0, root_half_thickness_ = 0;
-    double involute_root_ = 0, root_ = 0, waist_ = 0, lengthening_radius_ = 0;
+    double involute_root_ = 0, root_ = 0, waist_ = 0, critical_ = 0, lengthening_radius_ = 0;
     // The straight side: from the involute's root section, tapering by h' = dh/dxi.
     double side_axial_ = 0, side_half_thickness_ = 0, side_taper_ = 0;
     // The fillet's arc about (xi, h): the point at the angle p is centre - rho (cos p, sin p).

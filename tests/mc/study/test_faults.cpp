@@ -5,6 +5,7 @@
 
 #include "mc/scene/scene.hpp"
 #include "mc/study/faults/all_faults.hpp"
+#include "mc/study/faults/crack_angle.hpp"
 #include "mc/study/schema/schema.hpp"
 #include "mc/study/schema/sizes.hpp"
 #include "tests/mc/program.hpp"
@@ -159,6 +160,7 @@ TEST_CASE("What a user reads of a fault names its kind and its size") {
         INFO(described.output);
         CHECK(described.code == 0);
         CHECK(described.mentions(std::string(kind->title()) + " on the sun"));
+        CHECK(described.mentions("fault origin"));
 
         const std::string name = "fault.kind = \"" + std::string(kind->name()) + "\"",
                           size = std::string(kind->size().name);
@@ -175,4 +177,38 @@ TEST_CASE("What a user reads of a fault names its kind and its size") {
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
         CHECK(holds(both, "(" + words + " lies on one flank") == kind->shapes_tooth());
     }
+}
+
+TEST_CASE("Cracks follow the law that the study names, or else the one of its tooth profile") {
+    const auto law = [](const std::string& profile, const std::string& key) {
+        std::string text = replaced(text_with(*find_fault("crack")), "[gearbox]\n",
+                                    "[gearbox]\ntooth_profile = \"" + profile + "\"\n");
+        text = replaced(text, "[fault]\n", "[fault]\n" + key);
+        const StudyReading reading = read_study_text(text, "fault.toml");
+        INFO(format(reading.problems));
+        REQUIRE(reading.study);
+        return crack_law(*reading.study);
+    };
+    using gearpod::stiffness::CrackLaw;
+    CHECK(law("fillet", "") == CrackLaw::fracture_mechanics);
+    CHECK(law("root-circle", "") == CrackLaw::sections);
+    CHECK(law("base-circle", "") == CrackLaw::sections);
+    for (const char* profile : {"fillet", "root-circle", "base-circle"}) {
+        CHECK(law(profile, "crack_law = \"sections\"\n") == CrackLaw::sections);
+        CHECK(law(profile, "crack_law = \"fracture-mechanics\"\n") == CrackLaw::fracture_mechanics);
+    }
+    const std::string wrong = problems_of(text_with(*find_fault("crack")), "[fault]\n",
+                                          "[fault]\ncrack_law = \"beams\"\n");
+    CHECK(holds(wrong, "fault.crack_law"));
+    CHECK(holds(wrong, "fracture-mechanics"));
+}
+
+TEST_CASE("A crack's share of the critical section is named") {
+    const Study study = study_with(*find_fault("crack"));
+    const double largest = max_crack_depth_m(study);
+    const double sizes[] = {0.25 * largest, 0.5 * largest};
+    const std::string origin = find_fault("crack")->origin(study, sizes);
+    INFO(origin);
+    CHECK(holds(origin, "root circle"));
+    CHECK(holds(origin, "mm takes 25, 50 % of that section"));
 }

@@ -10,8 +10,10 @@ if not shutil.which("gmsh") or not shutil.which("ccx"):
     print("gmsh or CalculiX not there")
     sys.exit(77)
 try:
+    import cracks_fem
     import helical_fem
     import pairs_fem
+    import strip_fem
 except ImportError as missing:
     print(missing)
     sys.exit(77)
@@ -57,6 +59,13 @@ def main():
             ("flank_N_m", "centre_N_m"), 1e-3)
     compare("drop", pairs_fem.drop_row(1.0, pair, taus), stored("drop.csv", phase=phase),
             ("root_N_m", "root_centre_N_m", "base_N_m", "base_centre_N_m"), 1e-3)
+    for phase, _, cracked, whole, left in cracks_fem.rows(1.0, "planet-sun", "fillet", 0.25):
+        row = stored("cracks.csv", tooth="planet-sun", profile="fillet", share="0.25",
+                     phase=f"{phase:.6f}", cracked=str(cracked))
+        compare(f"planet-sun, 25 %, at {phase + cracked:.3f}", (whole, left), row,
+                ("healthy_N_m", "cracked_N_m"), 1e-3)
+    compare("strip", strip_fem.factors(1.0, 0.3), stored("strip.csv", share="0.3"),
+            ("tension", "bending"), 1e-3)
     for what, tau, solid, slices in helical_fem.rows("helix-20", 1.5, 4):  # coarse
         if what == "mesh":
             row = stored("helical.csv", case="helix-20", what=what, tau=f"{tau:.6f}")

@@ -91,26 +91,78 @@ CASES = {"bell-sun": (lambda: bell("sun"), 0.0), "bell-ring": (lambda: bell("rin
 LEVEL_CASES = ("discs-19-48", "rims-19-48", "discs-30-60", "discs-20-30", "turbine-sun", "turbine-ring")
 
 
-def loaded_side(geo, gear, at, contact, until=None):
-    """Curves of the involute from the tip to its end (or the radius `until`), a node at the
-    contact; and those of them near it, which carry the pressure."""
+def loaded_side(geo, gear, at, contacts, until=None):
+    """Curves of the involute from the tip to its end (or the radius `until`), a node at each
+    contact; and for each contact those near it, which carry the pressure."""
     low = gear.lowest() if until is None else until
     inwards = -1 if gear.internal else 1
-    ends = [gear.tip, low]
-    if contact is not None:
+    stops, spans = [gear.tip], []
+    for contact in sorted(contacts, key=lambda c: -inwards * c.radius):
         upper = min(2 * contact.half_width, 0.9 * inwards * (gear.tip - contact.radius))
         lower = min(2 * contact.half_width, 0.9 * inwards * (contact.radius - low))
-        ends = [gear.tip, contact.radius + inwards * upper, contact.radius,
-                contact.radius - inwards * lower, low]
-    return [geo.curve("Spline", [at(gear.flank(r)) for r in
-                                 np.linspace(a, b, 6 if abs(a - b) < 0.3 * gear.module else 15)])
-            for a, b in zip(ends, ends[1:])]
+        stops += [contact.radius + inwards * upper, contact.radius,
+                  contact.radius - inwards * lower]
+        spans.append((contact, len(stops) - 3))
+    stops.append(low)
+    curves = [geo.curve("Spline", [at(gear.flank(r)) for r in
+                                   np.linspace(a, b, 6 if abs(a - b) < 0.3 * gear.module else 15)])
+              for a, b in zip(stops, stops[1:])]
+    return curves, {contact: curves[first:first + 2] for contact, first in spans}
 
 
-def tooth_outline(geo, gear, tooth, contact=None, crack=0.0, chord=None):
+class Slit:
+    """A crack from the critical point of the loaded side: at 45 degrees to the centre line into the
+    body, beyond the centre line at 45 degrees up again (Liang 2016, Fig. 3.9). An open wedge whose
+    lips are WIDTH apart at its mouth."""
+
+    WIDTH = 0.01
+
+    def __init__(self, gear, depth):
+        self.gear, self.start = gear, gear.critical_point()
+        sign = 1 if gear.internal else -1  # of the direction into the body
+        x, y = self.start
+        down, across = math.cos(CRACK_ANGLE), math.sin(CRACK_ANGLE)
+        first = min(depth, y / across)
+        bend = (x + sign * first * down, y - first * across)
+        rest = depth - first
+        self.tip = (bend[0] - sign * rest * down, bend[1] - rest * across)
+        self.lower, self.upper = [], []  # lips between tip and mouth
+        if rest > 0:
+            self.lower = [bend]
+            self.upper = [(bend[0] - sign * 0.6 * self.WIDTH, bend[1])]
+        self.involute_end = gear.root - self.WIDTH if gear.internal else gear.lowest()
+
+    def foot(self):
+        """Pieces from the involute's end to the root circle, round the slit."""
+        above, below = self.foot_parts()
+        lips = [above[-1][-1] if above else self.gear.flank(self.involute_end), *self.upper,
+                self.tip, *self.lower, self.start]
+        return above + [[a, b] for a, b in zip(lips, lips[1:])] + below
+
+    def foot_parts(self):
+        """The foot above and below the slit."""
+        if self.gear.internal:
+            return [], []
+        foot = self.gear.foot()
+        if self.gear.profile != "fillet":
+            return [[foot[0][0], (self.start[0] + self.WIDTH, self.start[1])]], []
+        centre, radius = self.gear.fillet_centre(), self.gear.arc
+        angle = lambda p: math.atan2(*(np.array(p) - centre)[::-1]) % (2 * math.pi)
+        arc = lambda a, b: [tuple(centre + radius * np.array([math.cos(t), math.sin(t)]))
+                            for t in np.linspace(a, b, 7)]
+        first, last, start = (angle(p) for p in (foot[-1][0], foot[-1][-1], self.start))
+        away = math.copysign(self.WIDTH / radius, first - start)
+        above = arc(first, start + away)
+        above[0] = foot[-1][0]
+        below = arc(start, last)
+        below[0], below[-1] = self.start, foot[-1][-1]
+        return foot[:-1] + [above], [below]
+
+
+def tooth_outline(geo, gear, tooth, contacts=(), crack=0.0, chord=None):
     """Curves of a tooth from its root on the far side round the tip to its root on the loaded one.
-    chord: radius of the involute at which it is cut off instead. Returns (curves, loaded curves,
-    first point, last point)."""
+    chord: radius of the involute at which it is cut off instead. Returns (curves, loaded curves by
+    contact, first point, last point)."""
     at = lambda p: turned(p, 2 * math.pi * tooth / gear.teeth)
     mirrored = lambda p: at((p[0], -p[1]))
     low = gear.lowest() if chord is None else chord
@@ -121,16 +173,13 @@ def tooth_outline(geo, gear, tooth, contact=None, crack=0.0, chord=None):
     curves.append(geo.curve("Spline",
                             [mirrored(gear.flank(r)) for r in np.linspace(low, gear.tip, 15)]))
     curves.append(geo.curve("Line", [mirrored(gear.flank(gear.tip)), at(gear.flank(gear.tip))]))
-    loaded = loaded_side(geo, gear, at, contact, low)
-    curves += loaded
-    if crack:  # a slit from the root chord's end, at 45 degrees
-        tip = (end[0] - crack * math.cos(CRACK_ANGLE), end[1] - crack * math.sin(CRACK_ANGLE))
-        mouth = (end[0] + 0.01, end[1])
-        curves += [geo.curve("Line", [at(a), at(b)])
-                   for a, b in ((foot[0][0], mouth), (mouth, tip), (tip, end))]
-        geo.refine(at(tip), 0.025, 0.15)
-    else:
-        curves += [geo.curve("Spline" if len(p) > 2 else "Line", [at(q) for q in p]) for p in foot]
+    slit = Slit(gear, crack) if crack else None
+    side, loaded = loaded_side(geo, gear, at, contacts, slit.involute_end if slit else low)
+    curves += side
+    pieces = slit.foot() if slit else foot
+    curves += [geo.curve("Spline" if len(p) > 2 else "Line", [at(q) for q in p]) for p in pieces]
+    if slit:
+        geo.refine(at(slit.tip), 0.025, 0.15)
     return curves, loaded, mirrored(end), at(end)
 
 
@@ -150,30 +199,30 @@ def gear_geometry(size, gear, contacts, crack=0.0, cracked=None):
     geo, outlines = Geometry(size), []
     inner = [geo.point(c.beneath()) for c in contacts]
     for tooth in range(gear.teeth):
-        contact = next((c for c in contacts if c.tooth % gear.teeth == tooth), None)
-        outlines.append(tooth_outline(geo, gear, tooth, contact, crack if tooth == cracked else 0))
+        touching = [c for c in contacts if c.tooth % gear.teeth == tooth]
+        outlines.append(tooth_outline(geo, gear, tooth, touching, crack if tooth == cracked else 0))
     loop, loaded = [], {}
     for tooth, (curves, flank, _, last) in enumerate(outlines):
         following = outlines[(tooth + 1) % gear.teeth][2]
         loop += curves + [geo.curve("Circle", [last, (0, 0), following])]
-        loaded[tooth] = flank
+        loaded.update(flank)
     held = geo.circle(gear.held)
     refine_teeth(geo, gear, contacts)
     near = " + ".join(f"Sqrt((x-({c.point[0]:.9g}))^2 + (y-({c.point[1]:.9g}))^2)" for c in contacts)
     geo.background(f"Min({2.0 * gear.module}, {0.4 * gear.module} + 0.06 * ({near}) / {len(contacts)})")
     return geo.finish([held, loop] if gear.internal else [loop, held],
-                      [loaded[c.tooth % gear.teeth] for c in contacts], held, inner)
+                      [loaded[c] for c in contacts], held, inner)
 
 
 def tooth_geometry(size, gear, contact, chord=None):
     """One tooth alone, held along the chord of its root or of the radius given."""
     geo = Geometry(size)
     inner = [geo.point(contact.beneath())]
-    curves, flank, first, last = tooth_outline(geo, gear, 0, contact, chord=chord)
+    curves, flank, first, last = tooth_outline(geo, gear, 0, [contact], chord=chord)
     held = geo.curve("Line", [last, first])
     refine_teeth(geo, gear, [contact])
     geo.background(f"{0.2 * gear.module}")
-    return geo.finish([curves + [held]], [flank], [held], inner)
+    return geo.finish([curves + [held]], [flank[contact]], [held], inner)
 
 
 @functools.lru_cache(maxsize=None)

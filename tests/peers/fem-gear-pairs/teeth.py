@@ -58,6 +58,26 @@ class Gear:
         roll = math.sqrt(max(0.0, (self.root + self.arc)**2 - self.base**2)) - self.arc
         return math.hypot(self.base, max(0.0, roll))
 
+    def fillet_centre(self):
+        """Of the arc on the loaded side, external teeth with fillets."""
+        reach = self.root + self.arc
+        roll = math.sqrt(max(0.0, reach**2 - self.base**2)) - self.arc
+        tangent = self.half_base - max(0.0, roll) / self.base
+        y = roll if roll > 0 else 0.0
+        start = np.array(self.flank(math.hypot(self.base, y)))
+        if roll < 0:
+            end = math.sqrt(reach**2 - self.arc**2)
+            start = np.array([end * math.cos(self.half_base), end * math.sin(self.half_base)])
+        return start + self.arc * np.array([-math.sin(tangent), math.cos(tangent)])
+
+    def critical_point(self):
+        """Start of a root crack on the loaded side: where the tangent to the fillet lies at 30
+        degrees to the tooth's centre line, or, without a fillet, the end of the root chord."""
+        if self.profile == "fillet" and not self.internal:
+            return tuple(self.fillet_centre() - self.arc * np.array([0.5, math.sqrt(0.75)]))
+        foot = self.foot()
+        return foot[-1][-1] if foot else self.flank(self.root)
+
     def foot(self):
         """Pieces below the involute, down to the root circle: lists of points."""
         start = self.flank(self.lowest())

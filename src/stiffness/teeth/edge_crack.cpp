@@ -1,4 +1,4 @@
-#include "stiffness/growth/edge_crack.hpp"
+#include "stiffness/teeth/edge_crack.hpp"
 
 #include <array>
 #include <cmath>
@@ -26,6 +26,10 @@ double edge_crack_tension(double share) {
 
 double edge_crack_bending(double share) {
     return with_ligament(kBending, share);
+}
+
+double edge_crack_shear(double share) {
+    return (1.122 + share * (-0.561 + share * (0.085 + share * 0.180))) / std::sqrt(1.0 - share);
 }
 
 }  // namespace gearpod::stiffness

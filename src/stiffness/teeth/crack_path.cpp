@@ -1,0 +1,82 @@
+#include "stiffness/teeth/crack_path.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "stiffness/teeth/crack.hpp"
+#include "stiffness/teeth/edge_crack.hpp"
+
+namespace gearpod::stiffness {
+
+namespace {
+
+// Factors on the strip's bending stress, from the surface value to the value of deep cracks, and
+// the share of the crack's whole length over which the surface value fades. Calibrated
+// (crack_path.hpp).
+struct ToothFactors {
+    double surface_moment, surface_lever, deep_lever;
+};
+constexpr ToothFactors kFillet{1.10, 0.38, -0.045}, kCorner{1.65, 0.27, -0.11};
+constexpr double kDeepMoment = 0.88, kFading = 0.087;
+
+}  // namespace
+
+CrackPath::CrackPath(const ToothProfile& profile, double angle_rad, double height_m)
+    : cosine_(std::cos(angle_rad)),
+      sine_(std::sin(angle_rad)),
+      sense_(profile.internal() ? -1 : 1),
+      base_radius_(profile.base_radius()),
+      fillet_(profile.fillet_radius() > 0),
+      start_(profile.critical()) {
+    if (height_m > 0)
+        start_ = profile.angle_of_axial(profile.section(start_).axial + sense_ * height_m);
+    const ToothSection at = profile.section(start_);
+    axial_ = at.axial;
+    half_thickness_ = at.half_thickness;
+}
+
+// The tip lies `down` below the start's section, the path's end at its height on the other flank.
+CrackPath::Vector CrackPath::tip_to_end(double depth_m) const {
+    const double down = std::min(depth_m, length() - depth_m) * cosine_;
+    return {down, depth_m * sine_ - 2 * half_thickness_};
+}
+
+double CrackPath::ligament(double depth_m) const {
+    const Vector across = tip_to_end(depth_m);
+    return std::hypot(across.x, across.y);
+}
+
+// The force of 1 N acts along -(sin a, cos a); its moment about the section's centre at the start
+// is R_b - xi cos a, for internal teeth the opposite (tooth_compliance.hpp).
+CrackIntensity CrackPath::intensity(double depth_m) const {
+    const Vector across = tip_to_end(depth_m);
+    const double ligament = std::hypot(across.x, across.y), width = depth_m + ligament;
+    const Vector along{across.x / ligament, across.y / ligament};
+    const Vector middle{-along.x * width / 2, -half_thickness_ - along.y * width / 2};
+    const double share = depth_m / width, root = std::sqrt(std::numbers::pi * depth_m);
+    double tension = edge_crack_tension(share) * root / width;
+    double bending = 6 * edge_crack_bending(share) * root / (width * width);
+    const double shear = edge_crack_shear(share) * root / width;
+
+    const ToothFactors& of = fillet_ ? kFillet : kCorner;
+    const double surface = std::exp(-depth_m / (kFading * length()));
+    const double lever =
+        bending * width * (of.deep_lever + (of.surface_lever - of.deep_lever) * surface);
+    const double moment = kDeepMoment + (of.surface_moment - kDeepMoment) * surface;
+    tension *= moment;
+    bending *= moment;
+    CrackIntensity k;
+    k.constant = bending * sense_ * base_radius_;
+    k.cosine = bending * (-sense_ * axial_ - middle.x) - tension * along.x - lever * along.y;
+    k.sine = bending * middle.y + tension * along.y - lever * along.x;
+    k.sliding_cosine = -shear * along.y;
+    k.sliding_sine = -shear * along.x;
+    return k;
+}
+
+double max_crack_depth(const ToothProfile& profile, CrackLaw law, double angle_rad) {
+    return law == CrackLaw::fracture_mechanics ? CrackPath(profile, angle_rad).length()
+                                               : max_crack_depth(profile, angle_rad);
+}
+
+}  // namespace gearpod::stiffness

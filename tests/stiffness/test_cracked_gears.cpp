@@ -1,0 +1,249 @@
+// Loss of mesh stiffness by a crack, by fracture mechanics, against finite elements of whole gears.
+// Table and how it was made: tests/peers/fem-gear-pairs/README.md.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "gears/working_pair.hpp"
+#include "stiffness/coupled_mesh.hpp"
+#include "stiffness/faults/spatial_crack.hpp"
+#include "stiffness/faults/tooth_crack.hpp"
+#include "stiffness/teeth/crack_compliance.hpp"
+#include "stiffness/teeth/tooth_compliance.hpp"
+#include "tests/stiffness/finite_element_tables.hpp"
+#include "tests/stiffness/gear_pairs.hpp"
+
+using namespace gearpod;
+using namespace gearpod::stiffness;
+using finite_elements::Row;
+using test_pairs::kCrackAngle;
+using test_pairs::kLiangSteel;
+
+namespace {
+
+// A pair of gears with the cracked one, and where their bodies are held.
+struct Gears {
+    gears::MeshGeometry geometry;
+    int cracked;
+    double held_1_m, held_2_m;
+};
+
+gears::Gear shifted(int teeth, bool internal, double shift, double shortening) {
+    gears::Gear gear{teeth, internal, test_pairs::kModule, test_pairs::kPressureAngle};
+    gear.profile_shift = shift;
+    gear.tip_shortening = shortening;
+    return gear;
+}
+
+// Sun and planet of the Bell 206B, studies/bell-206b.toml.
+Gears bell(int cracked) {
+    const gears::Gear ring = shifted(99, true, 0, 0);
+    const auto set = gears::working_shifts(shifted(27, false, 0, 0), shifted(35, false, 0, 0),
+                                           &ring, {0.3, {}, {}, 0.1000125});
+    return {{shifted(27, false, set.first, set.tip_shortening),
+             shifted(35, false, set.second, set.tip_shortening), set.centre_distance_m},
+            cracked,
+            0.024,
+            0.0315};
+}
+
+// As the table names the cracked tooth.
+Gears gears_of(const std::string& tooth) {
+    if (tooth.starts_with("bell"))
+        return bell(tooth == "bell-sun" ? 1 : 2);
+    const gears::Gear planet = test_pairs::external(31);
+    if (tooth == "sun" || tooth == "planet-sun")
+        return {{test_pairs::external(19), planet}, tooth == "sun" ? 1 : 2, 0.013, 0.020};
+    return {{planet, test_pairs::internal(81)}, tooth == "ring" ? 2 : 1, 0.020, 0.155};
+}
+
+struct CrackedPair {
+    CrackedPair(const std::string& tooth, Profile profile)
+        : gears(gears_of(tooth)),
+          mesh(gears.geometry, kLiangSteel, profile,
+               {FoundationModel::elastic_ring, Contact::linear, gears.held_1_m, gears.held_2_m,
+                0.0}),
+          cracks(gears.geometry, kLiangSteel, profile, gears.cracked, kCrackAngle,
+                 CrackLaw::fracture_mechanics) {}
+
+    // Share of the mesh stiffness that is lost at a position since the tooth's engagement began.
+    double loss(double depth_m, double tau) const {
+        const auto crack = cracks.at(depth_m);
+        const auto faulty = mesh.with_fault(*crack);
+        return 1 -
+               total_at(*faulty, mesh.transitions(), tau) / total_at(mesh, tau - std::floor(tau));
+    }
+
+    Gears gears;
+    CoupledMesh mesh;
+    ToothCrack cracks;
+};
+
+Profile profile_named(const std::string& name) {
+    return name == "fillet" ? Profile::fillet : Profile::root_circle;
+}
+
+double position(const Row& row) {
+    return row.number("phase") + row.count("cracked");
+}
+
+double loss_of(const Row& row) {
+    return 1 - row.number("cracked_N_m") / row.number("healthy_N_m");
+}
+
+const char* const kTeeth[] = {"sun", "planet-sun", "planet-ring", "ring"};
+constexpr Profile kProfiles[] = {Profile::fillet, Profile::root_circle};
+
+}  // namespace
+
+TEST_CASE("a crack takes the mesh stiffness that finite elements lose, within 15 %", "[crack]") {
+    int rows = 0;
+    for (const Row& row : finite_elements::table("cracks.csv")) {
+        INFO(row.text("tooth") << " " << row.text("profile") << ", " << row.text("share")
+                               << " of the section, at " << position(row));
+        const CrackedPair pair(row.text("tooth"), profile_named(row.text("profile")));
+        const double depth_m = 1e-3 * row.number("depth_mm");
+        CHECK(pair.cracks.largest_size() * row.number("share") == Approx(depth_m).epsilon(1e-5));
+        const double elements = loss_of(row);
+        CHECK(pair.loss(depth_m, position(row)) ==
+              Approx(elements).margin(std::max(0.15 * elements, 0.005)));
+        ++rows;
+    }
+    CHECK(rows == (4 * 2 + 2) * 4 * 5);
+}
+
+TEST_CASE("the loss grows from the first hundredth of a millimetre to the whole tooth", "[crack]") {
+    for (const char* tooth : kTeeth)
+        for (const Profile profile : kProfiles) {
+            INFO(tooth << (profile == Profile::fillet ? " fillet" : " root circle"));
+            const CrackedPair pair(tooth, profile);
+            // High on the tooth.
+            const double largest = pair.cracks.largest_size(),
+                         tau = pair.gears.cracked == 1 ? 1.3 : 0.3;
+            double before = 0;
+            for (double depth = 1e-5; depth < largest; depth *= 1.2) {
+                const double loss = pair.loss(depth, tau);
+                CHECK(loss > before);
+                CHECK(loss < 1);
+                before = loss;
+            }
+            CHECK(pair.loss(1e-4, tau) > 5e-5);
+            // Other pairs carry the load alone once the tooth is gone.
+            const double gone = pair.loss(largest, tau);
+            CHECK(gone > before);
+            CHECK(pair.loss(largest * (1 - 1e-4), tau) == Approx(gone).epsilon(1e-3));
+            CHECK(pair.loss(2 * largest, tau) == gone);
+        }
+}
+
+TEST_CASE("the added compliance is the integral of the energy release rate", "[crack]") {
+    const gears::MeshGeometry geometry(test_pairs::external(31), test_pairs::internal(81));
+    for (const int which : {1, 2}) {
+        const ToothProfile tooth(geometry.gear(which), Profile::fillet);
+        const CrackPath path(tooth, kCrackAngle);
+        const double angle = geometry.contact_angle(which, 1.1);
+        const double cosine = std::cos(angle), sine = std::sin(angle);
+        const double modulus = kLiangSteel.youngs_modulus_Pa /
+                               (1 - kLiangSteel.poisson_ratio * kLiangSteel.poisson_ratio);
+        for (const double share : {0.1, 0.3, 0.49, 0.7, 0.95}) {
+            const double depth = share * path.length(), step = 1e-5 * depth;
+            const auto added = [&](double a) {
+                return CrackCompliance(path, kLiangSteel, a).added(angle);
+            };
+            const CrackIntensity k = path.intensity(depth);
+            const double opening = k.opening(cosine, sine), sliding = k.sliding(cosine, sine);
+            CHECK((added(depth + step) - added(depth - step)) / (2 * step) ==
+                  Approx(2 * (opening * opening + sliding * sliding) /
+                         (modulus * kLiangSteel.face_width_m))
+                      .epsilon(1e-6));
+        }
+    }
+}
+
+TEST_CASE("the critical section is the fillet's 30 degree tangent", "[crack]") {
+    for (const int teeth : {19, 31, 60}) {
+        const ToothProfile tooth(test_pairs::external(teeth), Profile::fillet);
+        const double u = tooth.critical(), step = 1e-6;
+        CHECK(u > tooth.fillet_end());
+        CHECK(u < tooth.root());
+        const ToothSection above = tooth.section(u - step), below = tooth.section(u + step);
+        CHECK(std::atan2(below.half_thickness - above.half_thickness, above.axial - below.axial) ==
+              Approx(std::numbers::pi / 6).epsilon(1e-5));
+    }
+    const ToothProfile ring(test_pairs::internal(81), Profile::fillet);
+    CHECK(ring.critical() == ring.root());
+}
+
+TEST_CASE("a spatial crack of one depth is the plane crack by fracture mechanics", "[crack]") {
+    for (const char* tooth : kTeeth) {
+        INFO(tooth);
+        const CrackedPair pair(tooth, Profile::fillet);
+        const double depth_m = 0.3 * pair.cracks.largest_size(), width_m = kLiangSteel.face_width_m;
+        const auto spatial = [&](double end_depth_m, double length_m, double height_m) {
+            const CrackGrowth growth{{depth_m},   {end_depth_m}, {length_m}, {height_m}, {height_m},
+                                     kCrackAngle, kCrackAngle,   0,          0,          16};
+            const SpatialCrack family(pair.gears.geometry, kLiangSteel, Profile::fillet,
+                                      pair.gears.cracked, growth, nullptr,
+                                      CrackLaw::fracture_mechanics);
+            const auto crack = family.at(1);
+            const double tau[] = {0.2, 0.8, 1.3};
+            std::vector<double> compliance(3);
+            crack->beam_compliance(tau, compliance);
+            return compliance;
+        };
+        const auto plane = pair.cracks.at(depth_m);
+        const double tau[] = {0.2, 0.8, 1.3};
+        std::vector<double> whole(3), cracked(3);
+        plane->beam_compliance(tau, cracked);
+        pair.cracks.at(1e-9)->beam_compliance(tau, whole);
+        const auto through = spatial(depth_m, width_m, 0), half = spatial(0, 0.5 * width_m, 0),
+                   higher = spatial(depth_m, width_m, 0.5e-3);
+        for (int i = 0; i < 3; ++i) {
+            // A crack that is pressed shut bends the fitted curve.
+            CHECK(through[i] == Approx(cracked[i]).epsilon(1e-6));
+            CHECK(half[i] > whole[i]);
+            CHECK(half[i] < cracked[i]);
+            CHECK(higher[i] > whole[i]);
+        }
+    }
+}
+
+TEST_CASE("loss of mesh stiffness by a crack, over the finite elements'", "[.fem]") {
+    std::puts("| tooth | profile | share | at | elements % | fracture mechanics % | ratio |");
+    for (const Row& row : finite_elements::table("cracks.csv")) {
+        const CrackedPair pair(row.text("tooth"), profile_named(row.text("profile")));
+        const double elements = loss_of(row),
+                     loss = pair.loss(1e-3 * row.number("depth_mm"), position(row));
+        std::printf("| %s | %s | %s | %.3f of %d | %.2f | %.2f | %.3f |%s\n",
+                    row.text("tooth").c_str(), row.text("profile").c_str(),
+                    row.text("share").c_str(), position(row), row.count("pairs"), 100 * elements,
+                    100 * loss, loss / elements,
+                    std::abs(loss - elements) > std::max(0.15 * elements, 0.005) ? " off" : "");
+    }
+}
+
+TEST_CASE("largest loss of the ring mesh in planet-crack.toml by law and profile", "[.fem]") {
+    std::puts("| depth mm | root circle, sections | root circle, fracture | fillet, fracture |");
+    const Gears gears = gears_of("planet-ring");
+    const auto largest = [&](Profile profile, CrackLaw law, double depth_m) {
+        const CrackedPair pair("planet-ring", profile);
+        const ToothCrack cracks(gears.geometry, kLiangSteel, profile, 1, kCrackAngle, law);
+        const auto crack = cracks.at(depth_m);
+        const auto faulty = pair.mesh.with_fault(*crack);
+        double loss = 0;
+        for (double tau = 0.005; tau < gears.geometry.contact_ratio(); tau += 0.01)
+            loss = std::max(loss, 1 - total_at(*faulty, pair.mesh.transitions(), tau) /
+                                          total_at(pair.mesh, tau - std::floor(tau)));
+        return 100 * loss;
+    };
+    for (const double depth_m : {0.1e-3, 0.5e-3, 1e-3, 2e-3, 2.15e-3, 3e-3, 4.28e-3})
+        std::printf("| %.2f | %.2f | %.2f | %.2f |\n", 1e3 * depth_m,
+                    largest(Profile::root_circle, CrackLaw::sections, depth_m),
+                    largest(Profile::root_circle, CrackLaw::fracture_mechanics, depth_m),
+                    largest(Profile::fillet, CrackLaw::fracture_mechanics, depth_m));
+}
