@@ -85,9 +85,11 @@ def write_loaded(path, phases=400):
 
 if __name__ == "__main__":
     for name, pair in pairs().items():
-        t = 0.005 * pair.base_pitch
+        t = 0.003 * pair.base_pitch
         limit = [1e6 * pair.gap(s) / (t / pair.path_length)**2 for s in (pair.start - t, pair.end + t)]
+        closed = [1e6 * c * pair.path_length**2 for c in pair.gap_curvature()]
         print(f"{name:15} contact ratio {pair.contact_ratio:.4f}, path {1e3 * pair.path_length:.4f} mm, working angle "
-              f"{math.degrees(pair.working_angle):.4f} deg; gap at one path length {limit[0]:.0f} before, {limit[1]:.0f} um after")
+              f"{math.degrees(pair.working_angle):.4f} deg; gap at one path length {limit[0]:.0f} before, {limit[1]:.0f} um after "
+              f"(closed form, in the limit: {closed[0]:.0f}, {closed[1]:.0f})")
     write_gaps(HERE / "gap.csv")
     write_loaded(HERE / "loaded.csv")

@@ -187,6 +187,20 @@ class GearPair:
                                  span[i], span[i + 1], xtol=1e-15))
         return float(np.min(misses(np.array(points))))
 
+    def gap_curvature(self):
+        """Limits of gap / s^2 at the start and at the end of the path, in closed form: half of
+        t (t' + t) / (t' r^2), where t is the distance of the contact point from the base circle (radius r) of the
+        gear with the corner, and t' that from the other's; with t - t' in place of t' + t (and its amount) if internal.
+        Independent of gap(): the normal acceleration of the corner, and the curvature of the flank it passes."""
+        a, b, span = self.one, self.two, self.distance * math.sin(self.working_angle)
+        limits = []
+        for s in (self.start, self.end):
+            t1 = a.base * math.tan(self.working_angle) + s
+            t2 = b.base * math.tan(self.working_angle) - b.sign * s
+            corner, other, base = (t2, t1, b.base) if s < 0 else (t1, t2, a.base)
+            limits.append(0.5 * corner * span / (other * base**2))
+        return limits
+
     def gap_table(self, beyond=0.5, points=400):
         """tau and gaps before the start and after the end of the path, up to `beyond` base pitches."""
         tau = beyond * np.linspace(0, 1, points)**1.5
@@ -225,9 +239,7 @@ class MeshTable:
     def __init__(self, pair, onset="extended", relief=None, beyond=0.5):
         self.pair, self.onset, self.beyond = pair, onset, beyond
         self.relief = relief or Relief()
-        grid = np.linspace(0, pair.contact_ratio, 801)
-        self._grid = grid
-        self._stiffness = np.array([pair.pair_stiffness(t) for t in grid])
+        self._grid, self._stiffness = _stiffness_table(pair)
         if onset == "extended":
             self._tau, self._before, self._after = _gap_table(pair, beyond)
 
@@ -265,6 +277,12 @@ class MeshTable:
             more = (k * np.maximum(0, d[:, None] - gap)).sum(1) > force
             high, low = np.where(more, d, high), np.where(more, low, d)
         return d, k * np.maximum(0, d[:, None] - gap)
+
+
+@functools.lru_cache(maxsize=None)
+def _stiffness_table(pair):
+    grid = np.linspace(0, pair.contact_ratio, 801)
+    return grid, np.array([pair.pair_stiffness(t) for t in grid])
 
 
 @functools.lru_cache(maxsize=None)
