@@ -22,7 +22,7 @@ def without_backlash(module, teeth, sun_shift, distance):
     for a, b, sign in ((zs, zp, 1), (zp, zr, -1)):
         working = math.acos(module * (b + sign * a) / 2 * math.cos(alpha) / distance)
         total = (inv(working) - inv(alpha)) * (b + sign * a) / (2 * math.tan(alpha))
-        shifts.append(total - shifts[-1] if sign > 0 else shifts[-1] + total)
+        shifts.append(sign * total - shifts[-1])
     return tuple(shifts)
 
 
@@ -36,10 +36,12 @@ def shifted_pair():
 
 
 def bell_pairs():
-    """27/35/99 of studies/bell-206b.toml, tip circles from addendum and shift."""
+    """27/35/99 of studies/bell-206b.toml; sun and planet with the usual tip shortening."""
     module, distance = 3.175e-3, 0.1000125
     shifts = without_backlash(module, (27, 35, 99), 0.3, distance)
-    return planetary_pairs(module, (27, 35, 99), shifts, distance)
+    shortening = module * ((27 + 35) / 2 + shifts[0] + shifts[1]) - distance
+    tips = [module * (z / 2 + 1 + x) - shortening for z, x in zip((27, 35), shifts)]
+    return planetary_pairs(module, (27, 35, 99), shifts, distance, (*tips, 0.0))
 
 
 def pairs():

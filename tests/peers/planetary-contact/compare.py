@@ -58,7 +58,7 @@ carrier_speed_rpm = {c['carrier_speed_rpm']}
 motion = "translational-torsional"
 inertial_terms = true
 mesh_damping = "ratio"
-path = "none"
+path = "rectangular"
 {ONSET[onset]}
 
 [fault]
@@ -66,14 +66,14 @@ kind = "none"
 
 [sensor]
 sampling_Hz = {samples * mesh_Hz!r}
-low_pass_Hz = 800
+low_pass_Hz = {0.2 * samples * mesh_Hz!r}
 noise_m_s2 = 0
 encoder_sampling_Hz = {samples * mesh_Hz / 4!r}
 encoder_noise_arcsec = 0
 noise_levels = [0]
 
 [numerics]
-horizon = "full"
+horizon = "march"
 
 [ensemble]
 instances = 1
