@@ -9,14 +9,14 @@
 namespace gearpod::mc {
 namespace {
 
-// To four significant figures, with an exponent from a million on.
+// Formats a number to four significant figures, with an exponent from a million on.
 std::string figures(double value) {
     const double rounded = std::strtod(fmt::format("{:.3e}", value).c_str(), nullptr);
     return std::abs(rounded) < 1e6 ? fmt::format("{:.9g}", rounded)
                                    : fmt::format("{:.4g}", rounded);
 }
 
-// A key with its value and where that comes from.
+// Formats a key with its value and the source of the value.
 std::string line(const std::string& key, const std::string& value, const std::string& comment) {
     return comment.empty() ? fmt::format("{} = {}\n", key, value)
                            : fmt::format("{:<43} # {}\n", key + " = " + value, comment);
@@ -113,6 +113,7 @@ std::string effects() {
     return "\n[effects]\n" + line("motion", "\"translational-torsional\"", "") +
            line("foundation", "\"elastic-ring\"",
                 "agrees with finite elements (docs/validation/mesh-stiffness-level.md)") +
+           line("contact_onset", "\"extended\"", "tip corners touch before and after the path") +
            line("mesh_damping", "\"ratio\"", "") + line("path", "\"hamming\"", "");
 }
 
@@ -137,6 +138,11 @@ SensorRates sensor_rates(double mesh_frequency_Hz) {
     return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
 }
 
+// One-sided density of the machine's background at the sensor, m/s^2/sqrt(Hz): 0.1 m/s^2 up to
+// 10 kHz, chosen.
+constexpr const char* kNoiseDensity = "noise_density_m_s2_per_sqrt_Hz";
+constexpr double kBackground = 1e-3;
+
 std::string sensor(const DerivedGearbox& d) {
     const SensorRates rates = sensor_rates(d.mesh_frequency_Hz);
     return "\n[sensor]\n" +
@@ -146,11 +152,13 @@ std::string sensor(const DerivedGearbox& d) {
            line("sampling_Hz", rates.sampling,
                 "2.56 times the low-pass, as analysers have it; 12 a mesh period at least") +
            line("path_exponent", 0.1, "Liang (2016), section 5.1") +
-           line("noise_m_s2", 0.1,
+           line(kNoiseDensity, kBackground,
                 "the rest of the machine: no datasheet has it; measure, or calibrate") +
            line("encoder_sampling_Hz", rates.sampling, "with the sensor's samples") +
            line("encoder_noise_arcsec", 1.0, "of a good encoder: chosen") +
-           "noise_levels = [0, 1, 4]\n";
+           line("noise_levels", "[0.005, 0.25, 1, 4]",
+                "0.005: a low-noise accelerometer alone, 0.5 ug/sqrt(Hz); 0.25: an industrial "
+                "MEMS one, 25 ug/sqrt(Hz)");
 }
 
 std::string varied(const char* key, const std::string& distribution, const char* comment = "") {
@@ -179,7 +187,7 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
                               figures(load.torque_N_m), figures(0.05 * load.torque_N_m),
                               figures(0.85 * load.torque_N_m), figures(1.15 * load.torque_N_m))) +
            varied("sensor.path_exponent", "\"uniform\", low = -0.1, high = 0.1") +
-           varied("sensor.noise_m_s2", lognormal(0.1, 0.2)) +
+           varied("sensor.noise_density_m_s2_per_sqrt_Hz", lognormal(kBackground, 0.2)) +
            fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
                        figures(1e3 * d.deepest_crack_m)) +
            varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");

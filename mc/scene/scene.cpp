@@ -49,7 +49,8 @@ Scene::Scene(Study study, std::shared_ptr<const Drive> drive, SharedStiffness st
 
 Scene Scene::with(const Numerics& numerics) const {
     const Numerics& own = study_.numerics;
-    const bool same_stiffness = own.stiffness_tolerance == numerics.stiffness_tolerance;
+    const bool same_stiffness = own.stiffness_tolerance == numerics.stiffness_tolerance &&
+                                own.face_slices == numerics.face_slices;
     const bool same_plan = differ_in_settling_alone(own, numerics);
     Study study = study_;
     study.numerics = numerics;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stiffness/loaded_mesh.hpp"
+
 namespace gearpod::mc {
 namespace {
 
@@ -10,6 +12,13 @@ gears::DeviationScales grade_5(const Gearbox& gearbox, const gears::Gear& gear) 
     return gears::scales_of(
         gears::tooth_tolerances(normal_module_m, 2.0 * gear.pitch_radius(), 5.0), gear.teeth,
         gear.pressure_angle_rad);
+}
+
+// All tooth pairs that may touch at a position do.
+double sum_of_springs(const stiffness::MeshStiffness& mesh, double tau) {
+    std::vector<stiffness::ContactSpring> springs;
+    add_springs(mesh, tau, tau, springs);
+    return secant_stiffness(springs, 0.0);
 }
 
 }  // namespace
@@ -35,7 +44,10 @@ std::vector<double> SceneStiffness::stiffest_pairs() const {
     for (int i = 0; i < pairs_.pairs(); ++i) {
         double stiffest = 0.0;
         for (int p = 0; p < kPhases; ++p) {
-            stiffest = std::max(stiffest, pairs_.total(i, static_cast<double>(p) / kPhases));
+            const double phase = static_cast<double>(p) / kPhases;
+            stiffest = std::max(stiffest, pairs_.curve(i).has_gaps()
+                                              ? sum_of_springs(pairs_.curve(i), phase)
+                                              : pairs_.total(i, phase));
         }
         k.push_back(stiffest);
     }

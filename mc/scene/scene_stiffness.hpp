@@ -1,6 +1,5 @@
-// The stiffness of a study's gear pairs, healthy and with the fault, and what their quality allows.
-// Of the numerics only stiffness_tolerance has a part in it: scenes that differ in others share
-// one.
+// Stiffness of a study's gear pairs, healthy and with the fault, and the scales of their tooth
+// errors. Scenes share it unless they differ in numerics.stiffness_tolerance or face_slices.
 #pragma once
 
 #include <memory>
@@ -23,11 +22,12 @@ class SceneStiffness {
     const std::vector<SceneMesh>& meshes() const { return meshes_; }
     const lockstep::PairSet& pairs() const { return pairs_; }
     const SceneFault& fault() const { return fault_; }
-    // Every pair's mean over the mesh period, N/m.
+    // Mean stiffness of every pair over the mesh period, N/m.
     const std::vector<double>& mean_pairs() const { return mean_pairs_; }
-    // The teeth of gears of ISO 1328 grade 5; all 0 without a quality.
+    // Tooth error scales of gears of ISO 1328 grade 5; all 0 without a quality.
     const EachMember<gears::DeviationScales>& tooth_scales() const { return tooth_scales_; }
-    // All pairs at their stiffest: the bound for the integrator's step.
+    // Largest stiffness of every pair, with all tooth pairs in contact that may touch: it bounds the
+    // integrator's step.
     std::vector<double> stiffest_pairs() const;
     // Phases in [0, 1) on which steps must end.
     std::vector<double> transitions() const;
