@@ -204,8 +204,7 @@ TEST_CASE("a spatial crack of one depth is the plane crack by fracture mechanics
         const auto through = spatial(depth_m, width_m, 0), half = spatial(0, 0.5 * width_m, 0),
                    higher = spatial(depth_m, width_m, 0.5e-3);
         for (int i = 0; i < 3; ++i) {
-            // A crack that is pressed shut bends the fitted curve.
-            CHECK(through[i] == Approx(cracked[i]).epsilon(1e-6));
+            CHECK(through[i] / cracked[i] == Approx(1.0).epsilon(1e-6));
             CHECK(half[i] > whole[i]);
             CHECK(half[i] < cracked[i]);
             CHECK(higher[i] > whole[i]);

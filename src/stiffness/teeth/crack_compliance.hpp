@@ -5,7 +5,8 @@
 //
 //     delta c = 2 (1 - nu^2) / E  L  integral over the depth of (K_I^2 + K_II^2) / F^2 da,
 //
-// in plane strain, with the intensities of crack_path.hpp. The beam keeps all its sections.
+// in plane strain, with the intensities of crack_path.hpp. The beam keeps all its sections. A crack
+// that the force presses shut counts as open (linear, as in the finite elements).
 #pragma once
 
 #include <vector>

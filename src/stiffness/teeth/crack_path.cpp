@@ -1,5 +1,6 @@
 #include "stiffness/teeth/crack_path.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

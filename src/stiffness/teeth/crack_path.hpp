@@ -23,10 +23,8 @@
 // leaves 0.88. The factors are calibrated with finite elements of whole gears
 // (docs/methods/faults.md), apart for teeth with a fillet and for teeth that end in a corner.
 //
-// Omitted: contact between the crack's faces other than that a crack pressed shut has no K_I.
+// Omitted: contact between the crack's faces.
 #pragma once
-
-#include <algorithm>
 
 #include "stiffness/teeth/crack_law.hpp"
 #include "stiffness/teeth/tooth_profile.hpp"
@@ -34,13 +32,11 @@
 namespace gearpod::stiffness {
 
 // Stress intensities for a unit force on the tooth and a unit face width, m^(-1/2), as functions of
-// the contact angle: linear in its cosine and sine.
+// the contact angle: linear in its cosine and sine. A negative K_I presses the crack shut.
 struct CrackIntensity {
-    double constant = 0, cosine = 0, sine = 0;      // K_I
-    double sliding_cosine = 0, sliding_sine = 0;    // K_II
-    double opening(double cos, double sin) const {  // not negative
-        return std::max(0.0, constant + cosine * cos + sine * sin);
-    }
+    double constant = 0, cosine = 0, sine = 0;    // K_I
+    double sliding_cosine = 0, sliding_sine = 0;  // K_II
+    double opening(double cos, double sin) const { return constant + cosine * cos + sine * sin; }
     double sliding(double cos, double sin) const {
         return sliding_cosine * cos + sliding_sine * sin;
     }
