@@ -37,7 +37,7 @@ bool has_toothed_member(GearboxKind kind, Member member);
 // Its tooth number, if given.
 std::optional<int> teeth_of(const Study& study, Member member);
 
-// Of sun and planets, or of a pair. The study must have gears.
+// Centre distance of sun and planets, or of a pair. The study must have gears.
 double centre_distance_m(const Study& study);
 
 // Whether profile shifts or a centre distance are given, be they those of standard gears.
@@ -48,14 +48,14 @@ std::vector<std::string> shift_keys();
 gears::WorkingShifts working_shifts(const Study& study);
 // A planet's axis and tip circle, in modules; only of studies with shifts given.
 gears::PlanetRoom planet_room(const Study& study);
-// What is ground off a member's flanks, and whether anything is off anyone's.
+// Relief and crowning of a member's flanks; true if any member has some.
 gears::FlankRelief relief_of(const Study& study, Member member);
 bool has_relief(const Study& study);
 // True if tooth pairs have gaps that all gearboxes share: relief, crowning or extended contact.
 bool has_flank_gaps(const Study& study);
 // True if the meshes are computed tooth pair by tooth pair, each of which pushes and does not pull.
 bool has_unilateral_teeth(const Study& study);
-// Of a mesh in the plane in which the gears turn. The study must have gears.
+// Working pressure angle of a mesh in the plane in which the gears turn. The study must have gears.
 double working_angle_rad(const Study& study, MeshKind mesh);
 
 // Whether the study gives the meshes' stiffness instead of the teeth that make it.

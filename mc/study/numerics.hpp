@@ -10,11 +10,11 @@ namespace gearpod::mc {
 
 using lockstep::Precision;
 enum class StepGrid { uniform, graded };
-// What of the span is marched: the orbit and a fault's passages; what each gear's tooth errors do
-// for itself, where no tooth pair leaves contact; every mesh.
+// Mesh periods that are integrated: the periodic orbit and a fault's passages; the effect of each
+// gear's tooth errors by itself, where no tooth pair loses contact; every mesh period.
 enum class Horizon { reuse, superpose, march };
 
-// As many as fill a 512-bit register.
+// Number of lanes that fill a 512-bit register.
 constexpr int full_lanes(Precision precision) {
     return precision == Precision::single_precision ? 16 : 8;
 }
@@ -26,8 +26,8 @@ struct Numerics {
     double step_tolerance = 1e-5;  // of a step of bs3, over the largest motion
     double grid_tolerance = 1e-3;  // of the signals on a graded grid of the others, rms
     int steps_per_mesh = 0;        // 0: chosen from a pilot of the ensemble
-    // Of every feature, relative: integrator, steps and settling are chosen for it; 0: they are
-    // not.
+    // Relative tolerance of every feature, by which integrator, steps and settling are chosen; 0:
+    // they are not chosen.
     double tolerance = 0.0;
     bool verify = false;  // some gearboxes by finer steps after a run; with a tolerance always
     double settle_tolerance = 1e-10;

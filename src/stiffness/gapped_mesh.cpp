@@ -14,7 +14,7 @@ namespace gearpod::stiffness {
 
 namespace {
 
-constexpr double kOfMean = 4e-10;  // tolerance of curves, of the mean mesh stiffness
+constexpr double kCurveTolerance = 4e-10;  // relative to the mean mesh stiffness
 
 class HealthyPairs final : public NominalPairs {
   public:
@@ -101,7 +101,7 @@ GappedMesh::GappedMesh(std::unique_ptr<const MeshStiffness> spur, double overlap
 
 ToothPairCurve GappedMesh::fit(ExtendedPairs& pairs, int tooth,
                                const std::vector<double>& breaks) const {
-    const ToothPairFit make(kOfMean * mean_total(*spur_));
+    const ToothPairFit make(kCurveTolerance * mean_total(*spur_));
     const double from = tooth - path_begin();
     return make(
         [&](std::span<const double> tau, std::span<double> values) {

@@ -24,7 +24,7 @@ struct ContactSpring {
 // Without a force the smallest gap; infinite without any spring.
 double approach_of(std::vector<ContactSpring>& springs, double force_N);
 
-// That force over the approach, N/m; the sum of the stiffnesses without a force.
+// Secant stiffness: that force over the approach, N/m; without a force the sum of the stiffnesses.
 double secant_stiffness(std::vector<ContactSpring>& springs, double force_N);
 
 class LoadedMesh {

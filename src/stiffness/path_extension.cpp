@@ -70,7 +70,7 @@ const ExtendedPairs::Change& ExtendedPairs::change(int tooth, bool joins) {
     return known->second;
 }
 
-// What a pair near its path's end does to another one on its path.
+// Applies the effect of a pair near its path's end on another one on its path.
 void ExtendedPairs::apply(int tooth, int other, bool joins, std::span<const double> tau,
                           std::span<double> values) {
     const auto& factors = change(other, joins).others;

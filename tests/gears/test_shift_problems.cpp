@@ -1,4 +1,4 @@
-// What does not mesh, and what standard teeth keep.
+// Gears that do not mesh, and standard teeth.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// What all kinds of crack share: their angle, their law, and how deep one can go.
+// Properties that all kinds of crack share: their angle, their law, and how deep one can go.
 #pragma once
 
 #include <optional>

@@ -39,7 +39,7 @@ struct FaultKey {
     std::string_view doc;
 };
 
-// Of the mesh in which the faulty tooth acts.
+// Mesh in which the faulty tooth acts.
 struct FaultyTooth {
     MeshMembers mesh;
     const std::optional<gears::MeshGeometry>& geometry;  // empty where the stiffness is given

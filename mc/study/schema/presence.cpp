@@ -123,11 +123,8 @@ Presence relief_shape(const Study& s) {
 }
 
 Presence flank_gaps(const Study& s) {
-    return has_flank_gaps(s)
-               ? kOptional
-               : Presence{Need::forbidden,
-                          "only with relief, crowning or effects.contact_onset = \"extended\"",
-                          {}};
+    constexpr const char* kWhy = "only with relief, crowning or an extended contact_onset";
+    return has_flank_gaps(s) ? kOptional : Presence{Need::forbidden, kWhy, {}};
 }
 
 Presence relief_length(const Study& s, Member member, std::string_view end) {

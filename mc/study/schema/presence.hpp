@@ -1,4 +1,4 @@
-// Which keys must, may or must not be given, depending on the choices of a study.
+// Keys that must, may or must not be given, depending on the choices of a study.
 #pragma once
 
 #include "mc/study/keys/key.hpp"

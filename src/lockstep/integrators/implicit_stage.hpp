@@ -260,8 +260,9 @@ GEARPOD_INLINE void solve_meshes(int pairs, const double* __restrict g, const do
     }
 }
 
-// Which flanks of a separating mesh touch where it deflects by `front` beyond its error: t.touching
-// is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane changed.
+// Finds the flanks of a separating mesh that touch where it deflects by `front` beyond its error:
+// t.touching is 1 or 0; t.back is the backlash if the back flanks touch. Returns 1 if any lane
+// changed.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE int part(int i, const double* __restrict front, StageScratch<Model>& t) {
     int changes = 0;

@@ -1,4 +1,4 @@
-// What marching one mesh period of W gearboxes in lockstep takes and gives.
+// Inputs and results of the integration of one mesh period of W realizations in lockstep.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace gearpod::lockstep {
 
-// What all tiles of an ensemble share; immutable while tiles march.
+// Data that all tiles of an ensemble share; immutable during the integration.
 struct MarchPlan {
     dynamics::GearboxLayout layout;
     Integrator integrator = Integrator::rk4;
@@ -47,15 +47,15 @@ struct MeshRecord {
     machine::AlignedVector step_states = {};
 };
 
-// A pair whose stiffness differs between lanes during some steps of this mesh.
+// A gear pair whose stiffness differs between lanes during some steps of a mesh period.
 struct PairOverride {
     int pair = 0;
     int first_step = 0;
     int last_step = 0;                     // one past the last
     machine::AlignedVector stiffness;      // [step - first_step][stage node][lane], N/m
     machine::AlignedVector damping_shape;  // likewise
-    // Of the law `unilateral`: [step - first_step][stage node][tooth pair][lane], N/m; empty if the
-    // plan's nodes know none.
+    // Springs of unilateral contact, [step - first_step][stage node][tooth pair][slice][lane], N/m;
+    // empty if the plan has none.
     machine::AlignedVector tooth_stiffness = {};
 };
 
@@ -68,7 +68,7 @@ struct PairGaps {
     machine::AlignedVector gap, growth;
 };
 
-// What sets a mesh period apart from the plan's.
+// Differences of one mesh period from the plan.
 struct MeshOverrides {
     std::vector<PairOverride> faults;
     std::vector<PairGaps> gaps;  // only of the law `unilateral`

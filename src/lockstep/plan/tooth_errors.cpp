@@ -14,7 +14,7 @@ int tooth_of(int mesh_period, int first, int teeth) {
     return tooth < 0 ? tooth + teeth : tooth;
 }
 
-// Of a tooth pair in one lane, m.
+// Gap of a tooth pair in one lane, m.
 struct TouchingGap {
     double gap = 0.0, growth = 0.0;
 };

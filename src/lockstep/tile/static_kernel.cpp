@@ -11,7 +11,7 @@ namespace {
 constexpr double kNoPivot = 1e-12;
 // A load below this part of the largest one is rounding.
 constexpr double kNoLoad = 1e-6;
-// What of its stiffness a mesh out of contact keeps: a planet between two gaps then rests between
+// Share of its stiffness that a mesh out of contact keeps: a planet between two gaps then rests between
 // them, and its contacts close when the gaps do. Its force is a billionth of a contact's.
 constexpr double kOpenMesh = 1e-9;
 // Larger than any gap, m.

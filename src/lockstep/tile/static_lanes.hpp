@@ -10,7 +10,7 @@
 
 namespace gearpod::lockstep {
 
-// What of W gearboxes does not depend on the phase.
+// Data of W realizations that do not depend on the phase.
 template <int W>
 struct StaticLanes {
     int degrees = 0;

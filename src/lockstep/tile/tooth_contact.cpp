@@ -192,7 +192,7 @@ machine::AlignedVector ToothContact::least_pressing(const MeshRecord& record,
             }
         }
     }
-    // What is not finite once stays so until the end of the mesh period.
+    // A value that is not finite stays so until the end of the mesh period.
     for (std::size_t i = record.step_states.size() - 2 * degrees * width;
          i < record.step_states.size(); ++i) {
         if (!std::isfinite(record.step_states[i])) {

@@ -169,7 +169,7 @@ class ToothByTooth {
         return pressed > 0.0 ? pressed + c * rate : 0.0;
     }
 
-    // Of the tooth pair that begins to engage in mesh m. The sun drives the planets and they drive
+    // Gap of the tooth pair that begins to engage in mesh m. The sun drives the planets and they drive
     // the ring; a driving flank is touched from its root.
     double error(std::size_t pair, int m, double place) const {
         double sum = 0.0;

@@ -18,7 +18,7 @@ namespace {
 
 const gears::PlanetaryTrain kLiang{19, 31, 81, 4};
 
-// Of all gears of the train, without errors: sun, ring, and each planet's two sides.
+// All gears of the train, without errors: sun, ring, and each planet's two sides.
 ToothErrors no_errors(const PairSet& pairs, std::size_t lanes) {
     ToothErrors errors{{}, planetary_teeth(pairs, kLiang, gears::PlanetSense::clockwise)};
     for (const int teeth : {19, 81, 31, 31, 31, 31, 31, 31, 31, 31}) {

@@ -1,4 +1,4 @@
-// What describe says of the teeth's contact.
+// Contact of the teeth in the text of describe.
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;

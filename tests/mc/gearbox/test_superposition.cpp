@@ -1,4 +1,4 @@
-// What superposition makes of gearboxes with real teeth, held against marching every mesh.
+// Superposition of gearboxes with real teeth, compared with full integration.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -29,7 +29,7 @@ Study study_with(const std::string& horizon, const std::vector<std::string>& mor
     return study;
 }
 
-// Of the graded gearboxes 0 to 7.
+// The graded gearboxes 0 to 7.
 class Tile {
   public:
     explicit Tile(const Study& study) : scene_(study), path_(path_grid(scene_)) {
