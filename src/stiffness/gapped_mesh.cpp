@@ -208,6 +208,32 @@ void GappedMesh::total(std::span<const double> tau, double inside,
     }
 }
 
+template <class Weight>
+void GappedMesh::add_path_total(const NominalPairs& pairs, const Weight& weight,
+                                std::span<const double> tau, double inside,
+                                std::span<double> stiffness) const {
+    std::vector<double> own(tau.size()), one(tau.size());
+    for (int slice = 0; slice < slices_; ++slice) {
+        const double late = path_begin() + (slices_ == 1 ? 0 : delay(slice));
+        std::transform(tau.begin(), tau.end(), own.begin(), [&](double at) { return at - late; });
+        if (slices_ == 1) {
+            pairs.total(own, inside - late, one);
+        } else {  // slices change their pairs at positions of their own
+            for (std::size_t i = 0; i < own.size(); ++i)
+                pairs.total({&own[i], 1}, own[i], {&one[i], 1});
+        }
+        for (std::size_t i = 0; i < own.size(); ++i)
+            stiffness[i] += weight(slice) * one[i];
+    }
+}
+
+void GappedMesh::path_total(std::span<const double> tau, double inside,
+                            std::span<double> stiffness) const {
+    std::fill(stiffness.begin(), stiffness.end(), 0.0);
+    add_path_total(
+        HealthyPairs(*spur_), [this](int) { return 1.0 / slices_; }, tau, inside, stiffness);
+}
+
 void GappedMesh::share(std::span<const double> tau, double inside, std::span<double> share) const {
     std::fill(share.begin(), share.end(), 0.0);
     if (inside < 0 || inside > contact_ratio() || force_ == 0)
@@ -274,6 +300,15 @@ class FaultyGappedMesh : public FaultyMesh {
         }
         for (std::size_t i = 0; i < tau.size(); ++i)
             stiffness[i] = secant_stiffness(springs[i], healthy_.force_);
+    }
+
+    void path_total(std::span<const double> tau, double inside,
+                    std::span<double> stiffness) const override {
+        healthy_.path_total(tau, inside, stiffness);
+        const auto lost = [this](int slice) { return -weight(slice); };
+        const auto kept = [this](int slice) { return weight(slice); };
+        healthy_.add_path_total(HealthyPairs(*healthy_.spur_), lost, tau, inside, stiffness);
+        healthy_.add_path_total(FaultyPairs(*healthy_.spur_, *spur_), kept, tau, inside, stiffness);
     }
 
     void tooth_pair(int tooth, std::span<const double> tau, double inside,

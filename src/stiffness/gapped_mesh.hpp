@@ -5,7 +5,8 @@
 // slice unless it is crowned; the slices of a helical pair start their engagement one after the
 // other (helical_mesh.hpp) and have a gap each. Positions tau count from the start of the extended
 // engagement. The total is the secant stiffness under the nominal force: that force over the
-// approach of the gears, which also holds while a fault passes.
+// approach of the gears, which also holds while a fault passes. Mesh damping goes with the sum of
+// the stiffness on the nominal paths instead, as without gaps.
 //
 // Pairs coupled through elastic bodies have the stiffness of all pairs on their paths in contact.
 #pragma once
@@ -48,6 +49,8 @@ class GappedMesh : public MeshStiffness {
     const MeshStiffness& slice() const override { return *spur_; }
     void total(std::span<const double> tau, double inside,
                std::span<double> stiffness) const override;
+    void path_total(std::span<const double> tau, double inside,
+                    std::span<double> stiffness) const override;
     void share(std::span<const double> tau, double inside, std::span<double> share) const override;
     std::vector<double> transitions() const override { return transitions_; }
     std::unique_ptr<const FaultyMesh> with_fault(const ToothFault& fault) const override;
@@ -64,6 +67,11 @@ class GappedMesh : public MeshStiffness {
     // A slice's delay, mesh periods, and its place across the face, -1 to 1.
     double delay(int slice) const { return overlap_ * (slice + 0.5) / slices_; }
     double across(int slice) const { return (2 * slice + 1.0) / slices_ - 1; }
+    // Sum over the slices of weight(slice) times the total that `pairs` has on their paths.
+    template <class Weight>
+    void add_path_total(const NominalPairs& pairs, const Weight& weight,
+                        std::span<const double> tau, double inside,
+                        std::span<double> stiffness) const;
     // Positions on a tooth pair's engagement, ascending, between which a curve is smooth.
     std::vector<double> breaks() const;
     std::vector<double> make_transitions() const;

@@ -36,6 +36,11 @@ class FaultyMesh {
                                  double inside, std::span<double> stiffness) const {
         tooth_pair(tooth, tau, inside, stiffness);
     }
+    // Sum over the tooth pairs on their nominal paths of contact, N/m (MeshStiffness::path_total).
+    virtual void path_total(std::span<const double> tau, double inside,
+                            std::span<double> stiffness) const {
+        total(tau, inside, stiffness);
+    }
     // Positions, ascending, at which the fault's own law makes the total jump.
     virtual std::vector<double> jumps() const { return {}; }
 };
@@ -61,6 +66,12 @@ class MeshStiffness {
     // Total stiffness, N/m, at ascending positions within one stretch.
     virtual void total(std::span<const double> tau, double inside,
                        std::span<double> stiffness) const = 0;
+    // Sum over the tooth pairs on their nominal paths of contact, N/m: the mesh stiffness by which
+    // mesh damping is given. The total itself unless tooth pairs have gaps.
+    virtual void path_total(std::span<const double> tau, double inside,
+                            std::span<double> stiffness) const {
+        total(tau, inside, stiffness);
+    }
     // Load share, 0 to 1, of the tooth pair at tau; 0 outside its engagement.
     virtual void share(std::span<const double> tau, double inside,
                        std::span<double> share) const = 0;

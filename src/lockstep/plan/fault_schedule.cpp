@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/plan/path_totals.hpp"
 #include "lockstep/plan/tooth_pairs.hpp"
 
 namespace gearpod::lockstep {
@@ -91,12 +92,15 @@ PairOverride FaultSchedule::make_override(const FaultPassage& passage, int k, do
             keep_healthy(l, lanes, o);
             continue;
         }
-        const std::vector<double> total = faulty_total(faults_.pairs->curve(passage.pair),
-                                                       *curves[l], faults_.pairs->reversed, steps);
+        const stiffness::MeshStiffness& healthy = faults_.pairs->curve(passage.pair);
+        const bool reversed = faults_.pairs->reversed;
+        const std::vector<double> total = faulty_total(healthy, *curves[l], reversed, steps);
+        const std::vector<double> paths =
+            healthy.has_gaps() ? faulty_path_total(healthy, *curves[l], reversed, steps) : total;
         dynamics::with_mesh_damping(dynamics::mesh_damping(plan_.layout), [&](auto law) {
             for (std::size_t i = 0; i < count; ++i) {
                 o.stiffness[i * lanes + l] = total[i];
-                o.damping_shape[i * lanes + l] = law.shape(total[i]);
+                o.damping_shape[i * lanes + l] = law.shape(paths[i]);
             }
         });
         if (slots > 0) {

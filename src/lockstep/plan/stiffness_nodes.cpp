@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dynamics/effects/mesh_damping.hpp"
+#include "lockstep/plan/path_totals.hpp"
 #include "stiffness/mesh_stiffness.hpp"
 #include "stiffness/teeth/stretch.hpp"
 
@@ -46,6 +47,21 @@ std::vector<double> by_stretches(const StepPositions& steps, std::span<const dou
         total(std::span<const double>(positions).subspan(first, size), inside,
               std::span<double>(values).subspan(first, size));
     }
+    return values;
+}
+
+// The same for pairs that are touched in either order; `last` is the position at which a pair ends.
+template <class Total>
+std::vector<double> in_order(const stiffness::MeshStiffness& healthy, double last,
+                             const std::vector<double>& jumps, bool reversed,
+                             const StepPositions& steps, const Total& total) {
+    if (!reversed) {
+        return by_stretches(steps, healthy.transitions(), jumps, total);
+    }
+    StepPositions mirrored = steps;
+    mirror(mirrored, last);
+    std::vector<double> values = by_stretches(mirrored, healthy.transitions(), jumps, total);
+    std::reverse(values.begin(), values.end());
     return values;
 }
 
@@ -107,34 +123,35 @@ StepPositions steps_under_way(const PhaseGrid& grid, double mesh, double start, 
 
 std::vector<double> healthy_total(const stiffness::MeshStiffness& mesh, bool reversed,
                                   const StepPositions& steps) {
-    const auto total = [&](auto positions, double inside, auto values) {
-        mesh.total(positions, inside, values);
-    };
-    if (!reversed) {
-        return by_stretches(steps, mesh.transitions(), {}, total);
-    }
-    StepPositions mirrored = steps;
-    mirror(mirrored, mesh.contact_ratio());
-    std::vector<double> values = by_stretches(mirrored, mesh.transitions(), {}, total);
-    std::reverse(values.begin(), values.end());
-    return values;
+    return in_order(
+        mesh, mesh.contact_ratio(), {}, reversed, steps,
+        [&](auto positions, double inside, auto values) { mesh.total(positions, inside, values); });
+}
+
+std::vector<double> healthy_path_total(const stiffness::MeshStiffness& mesh, bool reversed,
+                                       const StepPositions& steps) {
+    return in_order(mesh, mesh.contact_ratio(), {}, reversed, steps,
+                    [&](auto positions, double inside, auto values) {
+                        mesh.path_total(positions, inside, values);
+                    });
 }
 
 std::vector<double> faulty_total(const stiffness::MeshStiffness& healthy,
                                  const stiffness::FaultyMesh& faulty, bool reversed,
                                  const StepPositions& steps) {
-    const auto total = [&](auto positions, double inside, auto values) {
-        faulty.total(positions, inside, values);
-    };
-    if (!reversed) {
-        return by_stretches(steps, healthy.transitions(), faulty.jumps(), total);
-    }
-    StepPositions mirrored = steps;
-    mirror(mirrored, faulty.duration());
-    std::vector<double> values =
-        by_stretches(mirrored, healthy.transitions(), faulty.jumps(), total);
-    std::reverse(values.begin(), values.end());
-    return values;
+    return in_order(healthy, faulty.duration(), faulty.jumps(), reversed, steps,
+                    [&](auto positions, double inside, auto values) {
+                        faulty.total(positions, inside, values);
+                    });
+}
+
+std::vector<double> faulty_path_total(const stiffness::MeshStiffness& healthy,
+                                      const stiffness::FaultyMesh& faulty, bool reversed,
+                                      const StepPositions& steps) {
+    return in_order(healthy, faulty.duration(), faulty.jumps(), reversed, steps,
+                    [&](auto positions, double inside, auto values) {
+                        faulty.path_total(positions, inside, values);
+                    });
 }
 
 StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
@@ -144,19 +161,21 @@ StiffnessNodes tabulate(const PairSet& pairs, const PhaseGrid& grid,
     nodes.pairs = pairs.pairs();
     const auto count = static_cast<std::size_t>(nodes.pairs);
     nodes.stiffness.resize(grid.steps.size() * grid.stage_nodes.size() * count);
+    nodes.damping_shape.resize(nodes.stiffness.size());
     for (std::size_t pair = 0; pair < count; ++pair) {
         // From an engagement before the mesh period.
         const StepPositions steps = steps_under_way(grid, 0.0, pairs.start[pair] - 1.0, kForever);
-        const auto total = healthy_total(*pairs.mesh[pair], pairs.reversed, steps);
-        for (std::size_t i = 0; i < total.size(); ++i) {
-            nodes.stiffness[i * count + pair] = total[i];
-        }
+        const stiffness::MeshStiffness& mesh = *pairs.mesh[pair];
+        const auto total = healthy_total(mesh, pairs.reversed, steps);
+        const auto paths =
+            mesh.has_gaps() ? healthy_path_total(mesh, pairs.reversed, steps) : total;
+        dynamics::with_mesh_damping(damping, [&](auto law) {
+            for (std::size_t i = 0; i < total.size(); ++i) {
+                nodes.stiffness[i * count + pair] = total[i];
+                nodes.damping_shape[i * count + pair] = law.shape(paths[i]);
+            }
+        });
     }
-    nodes.damping_shape.resize(nodes.stiffness.size());
-    dynamics::with_mesh_damping(damping, [&](auto law) {
-        std::transform(nodes.stiffness.begin(), nodes.stiffness.end(), nodes.damping_shape.begin(),
-                       [&](double k) { return law.shape(k); });
-    });
     return nodes;
 }
 
