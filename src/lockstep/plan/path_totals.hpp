@@ -4,9 +4,14 @@
 
 #include <vector>
 
-#include "lockstep/plan/stiffness_nodes.hpp"
+namespace gearpod::stiffness {
+class FaultyMesh;
+class MeshStiffness;
+}  // namespace gearpod::stiffness
 
 namespace gearpod::lockstep {
+
+struct StepPositions;  // lockstep/plan/stiffness_nodes.hpp, with the functions' definitions
 
 // As healthy_total and faulty_total, N/m.
 std::vector<double> healthy_path_total(const stiffness::MeshStiffness& mesh, bool reversed,
