@@ -131,6 +131,23 @@ TEST_CASE("the extended contact converges to the abrupt one as the load falls") 
     }
 }
 
+// The laws of mesh damping take the stiffness of the teeth on their paths, whatever their gaps.
+TEST_CASE("the sum over the paths is the total of a mesh without gaps") {
+    const gears::FlankRelief ground{20e-6, 2e-3, 0, 0};
+    const auto plain = elastic(kRingPlanet);
+    const GappedMesh mesh(elastic(kRingPlanet), 0, {kRingPlanet, ground, ground, kReach}, kForce,
+                          1);
+    for (double tau = 0.013; tau < 1; tau += 0.07) {
+        const double at = mesh.path_begin() + tau;
+        double paths = 0, faulty = 0;
+        mesh.path_total({&at, 1}, at, {&paths, 1});
+        CHECK(paths == Approx(secant(*plain, tau)).epsilon(1e-9));
+        const auto half = Reduction().at(0.5);
+        mesh.with_fault(*half)->path_total({&at, 1}, at, {&faulty, 1});
+        CHECK(faulty == Approx(0.5 * paths).epsilon(1e-6));
+    }
+}
+
 // Beyond the path: the pair's own corner gap and the stiffness that it has at the path's end.
 TEST_CASE("teeth on rigid bodies keep their stiffness beyond the path") {
     const GappedMesh mesh = extended(kSunPlanet, false);
