@@ -94,9 +94,9 @@ TEST_CASE("what is not drawn of a set's shifts follows without backlash") {
 // 0.3890, 0.5039 and 0.1171 at 584 mm. Any two of the shifts give the third and the distance.
 TEST_CASE("two shifts of a set give the third and the centre distance") {
     const auto standard = [](int teeth) {
-        Gear gear = ::gear(teeth);
-        gear.module_m = 21e-3;
-        return gear;
+        Gear coarse = gear(teeth);
+        coarse.module_m = 21e-3;
+        return coarse;
     };
     const Gear sun = standard(18), planet = standard(36), ring = standard(-93);
     for (const DrawnShifts& drawn :
