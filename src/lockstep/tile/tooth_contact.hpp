@@ -13,7 +13,7 @@ namespace gearpod::lockstep {
 
 // True for the mesh periods in which contact loss is counted: one in kContactMeshes, spread evenly
 // over a span and over the teeth of every gear (multiples of the golden ratio), mesh 0 among them.
-inline constexpr unsigned kContactMeshes = 12;
+inline constexpr unsigned kContactMeshes = 144;
 constexpr bool counts_contact(int mesh) {
     return static_cast<std::uint32_t>(mesh) * 2654435769u < 0xffffffffu / kContactMeshes;
 }

@@ -202,11 +202,11 @@ TEST_CASE("The share of time out of contact of deep gaps is that of the double-p
     }
 }
 
-TEST_CASE("One mesh period in twelve counts, with every tooth of any gear, and the first") {
+TEST_CASE("One mesh period in 144 counts, with every tooth of any gear, and the first") {
     for (const int teeth : {1, 19, 20, 24, 31, 64, 81}) {
         INFO(teeth << " teeth");
         std::vector<int> counted(static_cast<std::size_t>(teeth), 0);
-        const int meshes = 240 * teeth;
+        const auto meshes = 20 * static_cast<int>(kContactMeshes) * teeth;
         for (int k = 0; k < meshes; ++k) {
             counted[static_cast<std::size_t>(k % teeth)] += counts_contact(k) ? 1 : 0;
         }
