@@ -155,37 +155,49 @@ class GearPair:
         return self.path_length / self.base_pitch
 
     def gap(self, s, samples=4001):
-        """Rotation of gear 1 times its base radius until its flank touches gear 2, the gears standing at their
-        exact ratio at position s. Every point of the flank of gear 2 up to its tip corner is held against the
-        flank of gear 1 up to its tip corner; found by geometry alone, with no formula of the line of action."""
+        """Gap at position s, the gears standing at their exact ratio: rotation times base radius of the gear whose
+        flank the other's tip corner meets (gear 1 before the pitch point, gear 2 after it), until the two touch.
+        Measured so it is a distance along the normal of that flank. Every point of a flank up to its tip corner is
+        held against the other flank up to its tip corner; no formula of the line of action enters."""
         a, b, aw = self.one, self.two, self.working_angle
-        turn_one, turn_two = s / a.base, s / b.base
-        # Flanks of both gears pass through the pitch point at s = 0.
-        pitch_one = float(a.half_angle(a.base / math.cos(aw)))
-        pitch_two = float(b.half_angle(b.base / math.cos(aw)))
+        # Flanks of both gears pass through the pitch point at s = 0. Angles about axis 1 count from the line of
+        # centres, those about axis 2 likewise (external: towards axis 1); both grow with the sense of rotation.
+        at_one = s / a.base - float(a.half_angle(a.base / math.cos(aw)))
+        at_two = s / b.base + float(b.half_angle(b.base / math.cos(aw)))
+        distance = self.distance
 
-        def from_axis_one(radius):
-            """Polar coordinates about axis 1 of the points of flank 2 at given radii about axis 2."""
-            angle = turn_two + pitch_two - b.half_angle(radius)
-            if b.internal:  # axis 2 at (-distance, 0), the pitch point at positive x
-                x, y = radius * np.cos(angle) - self.distance, radius * np.sin(angle)
-            else:  # axis 2 at (distance, 0); its angle counts from the line to axis 1
-                x, y = self.distance - radius * np.cos(angle), radius * np.sin(angle)
+        def about_other(radius, angle):
+            x, y = radius * np.cos(angle), radius * np.sin(angle)
+            x = distance - x if not b.internal else x
+            return x, y
+
+        def from_two(radius):
+            """Points of flank 2, in polar coordinates about axis 1."""
+            x, y = about_other(radius, at_two - b.half_angle(radius))
+            x = x - distance if b.internal else x
             return np.hypot(x, y), np.arctan2(y, x)
 
-        def misses(radius):
-            r, angle = from_axis_one(radius)
-            inside = (r <= a.tip_radius * (1 + 1e-14)) & (r >= a.root_radius)
-            return np.where(inside, a.base * (angle - turn_one + pitch_one - a.half_angle(r)), np.inf)
+        def from_one(radius):
+            """Points of flank 1, in polar coordinates about axis 2."""
+            x, y = about_other(radius, at_one + a.half_angle(radius))
+            x = x + distance if b.internal else x
+            return np.hypot(x, y), np.arctan2(y, x)
 
-        span = np.linspace(max(b.root_radius, 0) if not b.internal else b.tip_radius,
-                           b.tip_radius if not b.internal else b.root_radius, samples)
-        points = list(span)
-        reach = from_axis_one(span)[0] - a.tip_radius  # the tip corner of gear 1 meets the flank of gear 2
-        for i in np.nonzero(reach[:-1] * reach[1:] < 0)[0]:
-            points.append(brentq(lambda q: float(from_axis_one(np.array(q))[0]) - a.tip_radius,
-                                 span[i], span[i + 1], xtol=1e-15))
-        return float(np.min(misses(np.array(points))))
+        if s < 0:  # points of flank 2; gear 1 would turn forwards
+            points = np.linspace(min(b.tip_radius, b.root_radius), max(b.tip_radius, b.root_radius), samples)
+            place, limit = from_two, a.tip_radius
+            miss = lambda r, angle: a.base * (angle - at_one - a.half_angle(r))
+            inside = lambda r: (r <= limit * (1 + 1e-13)) & (r >= a.root_radius)
+        else:  # points of flank 1; gear 2 would turn backwards
+            points = np.linspace(a.root_radius, a.tip_radius, samples)
+            place, limit = from_one, b.tip_radius
+            miss = lambda r, angle: b.base * (at_two - b.half_angle(r) - angle)
+            inside = lambda r: b.sign * (limit - r) >= -1e-13 * limit
+        reach = place(points)[0] - limit  # the other tip corner meets this flank
+        corners = [brentq(lambda q: float(place(np.array(q))[0]) - limit, points[i], points[i + 1], xtol=1e-15)
+                   for i in np.nonzero(reach[:-1] * reach[1:] < 0)[0]]
+        radius, angle = place(np.append(points, corners))
+        return float(np.min(np.where(inside(radius), miss(radius, angle), np.inf)))
 
     def gap_curvature(self):
         """Limits of gap / s^2 at the start and at the end of the path, in closed form: half of

@@ -181,16 +181,18 @@ class Planetary:
         shift = turn - round(turn)
         sun_at, ring_at = sun.teeth * psi / (2 * math.pi), -ring.teeth * psi / (2 * math.pi) + shift
         line = (ctypes.c_double * MAX_DOF)(*line)
-        pair = self.pairs[kind]
-        start = pair.start / pair.base_pitch
-        first = -round(math.floor(sun_at + 1e-9)) + c.get("planet_first", 0)  # its tooth 0 meets the sun first
+        start = [p.start / p.base_pitch for p in self.pairs]
+        # Tooth 0 of every gear is that which first starts its contact after mesh period 0: the sun's and the ring's
+        # with planet 1, a planet's with the sun.
+        first = lambda at: -math.ceil(-at - 1e-9)
+        planet_first = first(sun_at + start[0])
         planet_errors = self.array(1e-6 * np.array(c[("planet_index_um", "planet_ring_side_index_um")[kind]][p]))
         if kind == 0:
-            return Contact(0, sun_at + start, line, errors["sun_index_um"], planet_errors, sun.teeth, zp,
-                           c.get("sun_first", 0), -first, 0, 0)
+            return Contact(0, sun_at + start[0], line, errors["sun_index_um"], planet_errors, sun.teeth, zp,
+                           first(start[0]), planet_first, 0, 0)
         later = round(sun_at + turn - ring_at)  # pair number on the ring of the tooth of pair 0 on the sun
-        return Contact(1, ring_at + start, line, planet_errors, errors["ring_index_um"], zp, ring.teeth,
-                       -first - later, c.get("ring_first", 0), 0, 0)
+        return Contact(1, ring_at + start[1], line, planet_errors, errors["ring_index_um"], zp, ring.teeth,
+                       planet_first - later, first(shift + start[1]), 0, 0)
 
     def transitions(self, last):
         """Mesh periods at which any tooth pair starts or ends its nominal contact (abrupt onset only)."""
