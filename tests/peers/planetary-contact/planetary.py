@@ -23,8 +23,7 @@ DOUBLES = ctypes.POINTER(ctypes.c_double)
 class Mesh(ctypes.Structure):
     _fields_ = [("nodes", ctypes.c_int), ("low", ctypes.c_double), ("high", ctypes.c_double),
                 ("stiffness", DOUBLES), ("gap", DOUBLES), ("contact_ratio", ctypes.c_double),
-                ("slices", ctypes.c_int), ("delay", ctypes.c_double), ("damping_nodes", ctypes.c_int),
-                ("damping_k", DOUBLES), ("damping_factor", ctypes.c_double)]
+                ("slices", ctypes.c_int), ("delay", ctypes.c_double), ("damping_factor", ctypes.c_double)]
 
 
 class Contact(ctypes.Structure):
@@ -78,29 +77,14 @@ class Planetary:
         overlap = width * math.tan(helix) / (2 * math.pi * sun.reference / sun.teeth)
         slices = c.get("slices", 1) if helix else 1
         self.tables = [MeshTable(pair, onset, r, BEYOND) for pair, r in zip(self.pairs, reliefs)]
-        self.build(distance, overlap, slices, any(relief) or onset == "extended")
+        self.build(distance, overlap, slices)
 
     def array(self, values):
         values = np.ascontiguousarray(values, dtype=float)
         self.keep.append(values)
         return values.ctypes.data_as(DOUBLES)
 
-    def secant_stiffness(self, table, overlap, slices):
-        """F / d of the loaded mesh without index errors over one mesh period, phase 0: a pair's middle starts."""
-        phase = np.linspace(0, 1, 2001)
-        shift = overlap * ((np.arange(slices) + 0.5) / slices - 0.5)
-        low, high = np.zeros(len(phase)), np.full(len(phase), 1e-3)
-        pairs = np.arange(-5, 5)
-        tau = phase[:, None, None] - pairs[None, :, None] - shift[None, None, :]
-        k, gap = table.stiffness(tau) / slices, table.gap(tau)
-        k, gap = np.where(np.isfinite(gap), k, 0), np.where(np.isfinite(gap), gap, 0)
-        for _ in range(60):
-            d = 0.5 * (low + high)
-            more = (k * np.maximum(0, d[:, None, None] - gap)).sum((1, 2)) > self.force_nominal
-            high, low = np.where(more, d, high), np.where(more, low, d)
-        return self.force_nominal / d
-
-    def build(self, distance, overlap, slices, secant):
+    def build(self, distance, overlap, slices):
         c, n = self.case, self.case["planets"]
         sun, planet, ring = self.gears
         dof = self.dof = 9 + 3 * n
@@ -161,8 +145,7 @@ class Planetary:
             tau = np.linspace(-beyond, pair.contact_ratio + beyond, NODES)
             self.meshes[kind] = Mesh(
                 NODES, tau[0], tau[-1], self.array(table.stiffness(tau)), self.array(table.gap(tau)),
-                pair.contact_ratio, slices, overlap, 2001 if secant else 0,
-                self.array(self.secant_stiffness(table, overlap, slices)),
+                pair.contact_ratio, slices, overlap,
                 2 * c["mesh_damping_ratio"] * math.sqrt(m["planet"] * m[other] / (m["planet"] + m[other])))
         self.contacts = (Contact * (2 * n))()
         for i, (kind, p, line) in enumerate(self.kind_lines):

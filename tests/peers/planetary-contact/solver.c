@@ -13,8 +13,6 @@ typedef struct {
     double contact_ratio;
     int slices;               /* of the face width; 1 for spur gears */
     double delay;             /* mesh periods by which the last slice lags the first */
-    int damping_nodes;        /* 0: stiffness for damping is the sum over nominal pairs */
-    const double *damping_k;  /* otherwise over one mesh period (phase 0: a pair starts) */
     double damping_factor;    /* 2 zeta sqrt(m1 m2 / (m1 + m2)) */
 } Mesh;
 
@@ -73,10 +71,7 @@ static double mesh_force(const Gearbox *g, Contact *c, double t, double d, doubl
         if (watch > 0.0 && nominal) *(pair > 0.0 ? &c->time_in : &c->time_out) += watch;
     }
     if (elastic <= 0.0) return 0.0;
-    const double k = m->damping_nodes > 0
-                         ? table(m->damping_k, m->damping_nodes, 0.0, 1.0, phase - floor(phase))
-                         : nominal_k;
-    return elastic + m->damping_factor * sqrt(k) * d1;
+    return elastic + m->damping_factor * sqrt(nominal_k) * d1;
 }
 
 static void accelerations(const Gearbox *g, double t, const double *q, const double *v, double *a, double *forces,
