@@ -192,6 +192,7 @@ Results made_up_results(const Study& study, const RunCalibration& calibration,
         results.noise_levels.push_back(study.sensor.noise_levels[level]);
     }
     results.request.noise_levels = results.noise_levels;
+    results.contact_loss.clear();  // no part of the analysis
 
     std::array<Pool, 2> pools{Pool(calibration, shape, Group::threshold),
                               Pool(calibration, shape, Group::graded)};
