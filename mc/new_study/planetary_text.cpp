@@ -138,10 +138,21 @@ SensorRates sensor_rates(double mesh_frequency_Hz) {
     return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
 }
 
-// One-sided density of the machine's background at the sensor, m/s^2/sqrt(Hz): 0.1 m/s^2 up to
-// 10 kHz, chosen.
-constexpr const char* kNoiseDensity = "noise_density_m_s2_per_sqrt_Hz";
-constexpr double kBackground = 1e-3;
+// Background of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which is
+// 0.1 m/s^2 up to 10 kHz, chosen. Samples far closer than the low-pass lets noise change take its
+// rms instead.
+struct Background {
+    const char* key;
+    double value;
+};
+
+Background background(const SensorRates& rates) {
+    constexpr double kDensity = 1e-3, kMostPerLowPass = 50.0;
+    if (rates.sampling <= kMostPerLowPass * rates.low_pass) {
+        return {"noise_density_m_s2_per_sqrt_Hz", kDensity};
+    }
+    return {"noise_m_s2", kDensity * std::sqrt(0.5 * rates.sampling)};
+}
 
 std::string sensor(const DerivedGearbox& d) {
     const SensorRates rates = sensor_rates(d.mesh_frequency_Hz);
@@ -152,7 +163,7 @@ std::string sensor(const DerivedGearbox& d) {
            line("sampling_Hz", rates.sampling,
                 "2.56 times the low-pass, as analysers have it; 12 a mesh period at least") +
            line("path_exponent", 0.1, "Liang (2016), section 5.1") +
-           line(kNoiseDensity, kBackground,
+           line(background(rates).key, background(rates).value,
                 "the rest of the machine: no datasheet has it; measure, or calibrate") +
            line("encoder_sampling_Hz", rates.sampling, "with the sensor's samples") +
            line("encoder_noise_arcsec", 1.0, "of a good encoder: chosen") +
@@ -167,6 +178,7 @@ std::string varied(const char* key, const std::string& distribution, const char*
 
 std::string random(const DerivedGearbox& d, const InputLoad& load) {
     const double bearing = d.bearing.stiffness_N_m(d.pin_load_N);
+    const Background noise = background(sensor_rates(d.mesh_frequency_Hz));
     const auto lognormal = [](double median, double cv) {
         return fmt::format("\"lognormal\", median = {}, cv = {}", figures(median), cv);
     };
@@ -187,7 +199,7 @@ std::string random(const DerivedGearbox& d, const InputLoad& load) {
                               figures(load.torque_N_m), figures(0.05 * load.torque_N_m),
                               figures(0.85 * load.torque_N_m), figures(1.15 * load.torque_N_m))) +
            varied("sensor.path_exponent", "\"uniform\", low = -0.1, high = 0.1") +
-           varied("sensor.noise_density_m_s2_per_sqrt_Hz", lognormal(kBackground, 0.2)) +
+           varied(("sensor." + std::string(noise.key)).c_str(), lognormal(noise.value, 0.2)) +
            fmt::format("# 0 to 80 % of the way through the root, {} mm at 45 degrees\n",
                        figures(1e3 * d.deepest_crack_m)) +
            varied("fault.depth_mm", "\"levels\", values = [" + depths + "]");
