@@ -1,6 +1,6 @@
 #!/bin/sh
 # Holds the compiler to the lockstep kernels: the code of OBJECT that fills registers, of AVX-512
-# (eight doubles, sixteen singles) or AVX2 (four, eight), must be packed (full-width fused
+# (eight doubles, sixteen singles) or AVX2 (four, eight, or twice as many), must be packed (full-width fused
 # multiply-adds) and must call no scalar mathematics: nothing but moves, memory, destructors and exceptions.
 #   check_kernel_code.sh OBJECT
 set -eu
@@ -10,7 +10,7 @@ objdump -dr --no-show-raw-insn "$1" | awk '
         name = $2
         single = name ~ /Li[0-9]+Ef/
         wide = name ~ /march_x86_64_v4I/ && name ~ (single ? "Li16Ef" : "Li8E[dE]")
-        kernel = wide || name ~ /march_x86_64_v3I/ && name ~ (single ? "Li8Ef" : "Li4E[dE]")
+        kernel = wide || name ~ /march_x86_64_v3I/ && name ~ (single ? "Li(8|16)Ef" : "Li[48]E[dE]")
         packed_fma = single ? "vfn?m(add|sub)[0-9]+ps" : "vfn?m(add|sub)[0-9]+pd"
         scalar_fma = "vfn?m(add|sub)[0-9]+s[sd]"
         kernel = kernel && name !~ /[.]cold/  # where exceptions unwind
