@@ -224,6 +224,7 @@ TEST_CASE("The resolved text spells out every key that may be given") {
                                                         "_web_mm",
                                                         "outer",
                                                         "error",
+                                                        "crack_law",
                                                         "noise_density",
                                                         "uncertain_inputs",
                                                         "tones",
