@@ -125,7 +125,7 @@ bool prepare_together(const Ranks& ranks, const std::string& results, const std:
                       const std::function<void()>& prepare) {
     std::string problem;
     if (ranks.leads() && !can_write({"--json", json}, {{"the results file", results}})) {
-        problem = "-";  // which has said why
+        problem = "-";  // can_write() has printed the reason
     } else {
         try {
             prepare();
@@ -161,7 +161,7 @@ int answer_together(const Ranks& ranks, Progress& progress, const std::string& j
         return answered.failed == 0 ? kDone : kSomeFailed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", exception_text(error));
-        return kBadInput;  // nothing is kept
+        return kBadInput;  // there is no checkpoint to resume from
     }
 }
 

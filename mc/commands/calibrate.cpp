@@ -1,4 +1,5 @@
-// calibrate STUDY --healthy REC...: what makes a study's healthy gearboxes look like measured ones.
+// Command `calibrate STUDY --healthy REC...`: finds the inputs with which simulated healthy
+// gearboxes match measured ones.
 #include "mc/calibration/calibrate.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the lines of a manifest those labelled healthy, or all if none has a label.
+// Keeps the recordings labelled healthy, or all recordings if none has a label.
 void keep_healthy(RecordingList& list) {
     const bool labelled = std::ranges::any_of(
         list.recordings, [](const Recording& one) { return one.condition != Condition::unknown; });
@@ -30,7 +31,7 @@ void keep_healthy(RecordingList& list) {
     });
 }
 
-// The records' own features; what could not be read is a problem.
+// Computes the features of the recordings. Adds a problem for each recording that cannot be read.
 std::vector<HealthyRecord> measured_records(const CalibrateOptions& options,
                                             const RecordingList& list, const Scene& scene,
                                             Problems& problems) {
@@ -123,7 +124,7 @@ class Command {
         return can_write({"--json", options_.json}, read) && good;
     }
 
-    // Those named, or the usual ones.
+    // Uses the priors given by --prior, or else the default ones.
     void choose_inputs(const Study& study) {
         if (!inputs_.empty()) {
             return;
@@ -143,7 +144,7 @@ class Command {
         for (const CalibratedInput& input : inputs_) {
             random.overrides.push_back(input.as_override());
         }
-        // Teeth with errors ask for other defaults than teeth that are alike.
+        // Random tooth errors change the default values of other keys, so the study is read again.
         const StudyReading written = read_study(random.path, random.overrides);
         if (!written.study) {
             print_problems(written.problems);

@@ -30,7 +30,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Lengths of the steps, and where the short ones lie.
+// Prints the lengths of the time steps and where the short ones lie.
 void print_steps(const Scene& scene) {
     const lockstep::PhaseGrid& grid = scene.plan().grid;
     const auto [shortest, longest] = std::minmax_element(grid.lengths.begin(), grid.lengths.end());
@@ -65,8 +65,8 @@ void print_steps(const Scene& scene) {
                             since[since.size() / 2]));
 }
 
-// Whether the healthy gearboxes suffice for the false-alarm rate: known before anything is
-// computed.
+// Prints if the number of healthy gearboxes suffices for the false-alarm rate. This needs no
+// simulation.
 void print_false_alarms(const Study& study) {
     const double rate = study.detection.false_alarm_rate, confidence = study.detection.confidence;
     const long healthy = study.ensemble.threshold_instances,
@@ -91,7 +91,8 @@ void print_false_alarms(const Study& study) {
                     records > 1 ? " if little but noise makes them differ" : ""));
 }
 
-// Beside a step without them; path, noise, tones and encoders work on signals, not in steps.
+// Prints the cost of each effect relative to a time step without it. Path, noise, tones and
+// encoders act on the signals, not in the time steps.
 void print_effect_costs(const Study& study) {
     for (const EffectCost& cost : effect_costs(study)) {
         print_entry(("cost of " + cost.effect).c_str(),
@@ -157,7 +158,7 @@ void print_cost(const Scene& scene, const std::optional<NumericsChoice>& choice)
     }
 }
 
-// What takes longer is left out.
+// Stops a description that takes longer than kSeconds.
 class Deadline final : public machine::StopWish {
   public:
     static constexpr int kSeconds = 7;
@@ -172,7 +173,7 @@ void print_left_out(const char* what) {
     fmt::print("\nleft out, because {} s are over: {}\n", Deadline::kSeconds, what);
 }
 
-// All keys, or those that a word is found in.
+// Prints all keys, or those whose section, name or explanation contains the word.
 int print_keys(const std::string& word) {
     const std::string keys = schema_help(word);
     if (keys.empty()) {
@@ -189,7 +190,7 @@ int print_keys(const std::string& word) {
 }  // namespace
 
 int describe_command(const DescribeOptions& options) {
-    // Processor time so far: loading the program.
+    // Processor time used so far to load the program.
     const double begun_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     if (options.keys) {
         return print_keys(options.study.path);

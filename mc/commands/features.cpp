@@ -1,4 +1,4 @@
-// features SIGNAL --study STUDY: a study's features of a measured signal.
+// Command `features SIGNAL --study STUDY`: features of one measured signal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,7 +72,8 @@ nlohmann::ordered_json measured_json(const std::vector<MeasuredFeature>& all,
     return json;
 }
 
-// Alarm or not, as text and into the JSON.
+// Tests the features against the healthy gearboxes of --against. Returns the text and adds the
+// result to the JSON.
 std::string compare(const FeaturesOptions& options, const Measurement& measured,
                     const MeasuredSignal& signal, const Scene& scene,
                     nlohmann::ordered_json& json) {
@@ -122,7 +123,8 @@ std::string compare(const FeaturesOptions& options, const Measurement& measured,
     return text;
 }
 
-// Says so if no feature can be had, and what the shortest takes.
+// Returns false and prints the reason if no feature could be computed; a signal that is too short
+// is reported with the smallest number of mesh periods needed.
 bool any_feature(const std::vector<MeasuredFeature>& all, const std::string& path,
                  const Scene& scene, const MeasuredSignal& signal) {
     const auto good = [](const MeasuredFeature& one) { return one.missing.empty(); };

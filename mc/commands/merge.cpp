@@ -21,13 +21,13 @@
 namespace gearpod::mc {
 namespace {
 
-// A results file and which batches of its ensemble it has.
+// Results file and the number of batches that it contains.
 struct PartFile {
     std::string path;
     Results frame;
     Study study;
     BatchPlan plan;
-    std::size_t batches = 0;  // whole ones, of the plan's first
+    std::size_t batches = 0;  // complete ones; they are the first of the plan
 };
 
 PartFile read_part_file(const std::string& path) {
@@ -49,7 +49,7 @@ PartFile read_part_file(const std::string& path) {
     return file;
 }
 
-// Rows of a whole ensemble's batch, "rows 16 to 31".
+// Rows of a batch of the complete ensemble, "rows 16 to 31".
 std::string rows_text(const BatchPlan& whole, std::size_t batch) {
     const Batch place = whole.batch(batch);
     return fmt::format("rows {} to {}", place.first_row, place.first_row + place.rows() - 1);
@@ -59,7 +59,7 @@ class Merge {
   public:
     explicit Merge(const MergeOptions& options) : options_(options) {}
 
-    // "" or every problem, a line each.
+    // Reads all files. Returns every problem, one line each; "" if there is none.
     std::string read() {
         std::string problems;
         for (const std::string& path : options_.results) {
@@ -75,7 +75,7 @@ class Merge {
         return problems.empty() ? gaps() : problems;
     }
 
-    // The study of all of them.
+    // Builds the scene of the study that all files share.
     StudyScene scene() const {
         const PartFile& first = files_.front();
         return make_scene(first.path,
@@ -95,7 +95,7 @@ class Merge {
     }
 
   private:
-    // What keeps a file from being merged with the first, by this program.
+    // Reason why this program cannot merge the file with the first one; "" if it can.
     std::string misfit(const PartFile& file) const {
         const PartFile& first = files_.front();
         RunIdentity here = identity_of(first.frame, first.path);
@@ -116,7 +116,7 @@ class Merge {
         return why.empty() ? "" : file.path + ": cannot be merged: it " + why + "\n";
     }
 
-    // Batches that several files have or none has.
+    // Batches that are in several files, or in none, as problem lines.
     std::string gaps() const {
         std::map<std::size_t, const PartFile*> owner;
         std::string problems;

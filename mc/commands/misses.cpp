@@ -1,4 +1,5 @@
-// misses F.h5: how often a fault is missed where that is rare.
+// Command `misses F.h5`: probability of a rare miss, by importance sampling with exponentially
+// tilted noise.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,9 +21,9 @@ namespace gearpod::mc {
 namespace {
 
 constexpr long kMostRows = 100'000'000;
-constexpr int kMostRecords = 10'000;  // as of ensemble.threshold_records
+constexpr int kMostRecords = 10'000;  // the limit of ensemble.threshold_records
 
-// The threshold that the file's healthy sample sets.
+// Finds the threshold set by the file's healthy gearboxes.
 void find_threshold(const AskedResults& results, const MissesOptions& options,
                     Complaints& complaints, MissQuestion& question) {
     const features::Feature* feature = features::find_feature(options.feature);
@@ -107,7 +108,7 @@ std::string rate_text(const Prepared& prepared, const MissAnswer& answer) {
                        answer.misses->carrying);
 }
 
-// What counting would have taken.
+// Relative error, and how many records plain counting would need for the same error.
 std::string counting_text(const MissAnswer& answer) {
     const double times = answer.counted / static_cast<double>(answer.records);
     const std::string error =

@@ -1,4 +1,5 @@
-// rare F.h5: rare false alarms or misses where gearboxes make them.
+// Command `rare F.h5`: rates of rare false alarms or misses caused by gearbox-to-gearbox variation,
+// by multilevel splitting (subset simulation).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ constexpr double kRarestAlarms = 1e-9;
 struct PreparedRare {
     RareQuestion question;
     double confidence = 0.0;
-    AskedSize size;  // of misses
+    AskedSize size;  // if the miss rate is requested
     StudyScene made;
 };
 
@@ -106,7 +107,7 @@ std::string misses_text(const PreparedRare& prepared, const RareAnswer& answer) 
                : asked + not_known(q, answer);
 }
 
-// How it was found, and what counting would have taken.
+// Cost of the estimate, and how many gearboxes plain counting would need for the same error.
 std::string cost_text(const RareQuestion& question, const RareAnswer& answer) {
     std::string text =
         fmt::format("{} gearboxes computed, {} a level, {} level{}", answer.computed,
@@ -128,7 +129,7 @@ std::string cost_text(const RareQuestion& question, const RareAnswer& answer) {
     return text;
 }
 
-// What the last level's gearboxes have otherwise than all have.
+// Random inputs whose mean over the last level's gearboxes differs from the mean over all.
 std::string shift_text(const RareAnswer& answer) {
     std::string text = fmt::format("the last level, {:.2g} of all gearboxes, ", answer.last_rate);
     if (answer.shifted.empty()) {

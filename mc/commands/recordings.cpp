@@ -1,4 +1,4 @@
-// features of many recordings: a results file and a table.
+// Command `features` for many recordings: writes a results file and a table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace gearpod::mc {
 namespace {
 
-// What the options ask for together that they cannot have.
+// Problems with the combination of options.
 Problems option_problems(const FeaturesOptions& options) {
     Problems problems;
     const auto reject = [&](const char* what, const char* remedy) {
@@ -67,7 +67,7 @@ RecordingList list_of(const FeaturesOptions& options, Problems& problems) {
     }
 }
 
-// A sentence a recording.
+// Prints one sentence for each recording.
 void print_verdicts(const FeaturesOptions& options, const Population& population,
                     const RecordingList& list, const std::vector<MeasuredRecording>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -79,7 +79,7 @@ void print_verdicts(const FeaturesOptions& options, const Population& population
     }
 }
 
-// Names the recordings without features, and says what came out; the exit code.
+// Prints the recordings without features and the files written. Returns the exit code.
 int summary(const FeaturesOptions& options, const std::vector<MeasuredRecording>& measured) {
     const auto bad =
         std::count_if(measured.begin(), measured.end(),

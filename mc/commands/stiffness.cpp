@@ -12,11 +12,11 @@
 namespace gearpod::mc {
 namespace {
 
-// Columns of a faulty pair: the mesh period in which the faulty tooth engages, the next one, ...
+// CSV column of a faulty tooth pair over one mesh period.
 struct FaultColumn {
     std::string name;
     int pair = 0;
-    int period = 0;  // after the one in which the tooth engages
+    int period = 0;  // mesh periods after the one in which the tooth engages
     std::shared_ptr<const stiffness::FaultyMesh> mesh;
 };
 
