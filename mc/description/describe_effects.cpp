@@ -56,7 +56,7 @@ void print_motion(const Study& study) {
     }
 }
 
-// Where a gear lies outside what its foundation is fitted for.
+// Warns of gears outside the range for which their foundation model was fitted.
 void print_foundation_warnings(const Study& study) {
     std::set<Member> members;
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
@@ -71,6 +71,7 @@ void print_foundation_warnings(const Study& study) {
     }
 }
 
+// Prints the stiffness factor of rim and web, for example
 // "sun-planet mesh times 0.84 (ISO 6336-1's C_R: sun 0.84)".
 void print_blanks(const Study& study) {
     for (const MeshMembers& mesh : meshes_of(study.gearbox.kind)) {
@@ -98,7 +99,7 @@ void add_size(const Study& study, const char* key, const std::string& unit, doub
     }
 }
 
-// "ISO 1328 grade 6 (ring 8), pitch 2 um rms".
+// Lists the tooth errors, for example "ISO 1328 grade 6, ring 8; pitch 2 um rms".
 std::string tooth_errors(const Study& study) {
     const MeshErrors& e = study.errors;
     std::vector<std::string> parts, members;
@@ -195,7 +196,7 @@ void print_meshes(const Study& study) {
     }
 }
 
-// A sine's and a noise's size, nominal.
+// Nominal sizes of the sinusoidal and the random part of a fluctuation.
 std::string sizes(double amplitude, const std::string& rate, double rms, double band_Hz) {
     std::string text =
         rate.empty() ? "" : fmt::format("sine of {:g} of the mean, {}", amplitude, rate);

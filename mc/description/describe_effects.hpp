@@ -1,4 +1,4 @@
-// What `describe` says of a scene's effects: those simulated and those left out.
+// Prints the physical effects of a scene for `describe`: effects simulated and effects omitted.
 #pragma once
 
 #include <string>

@@ -20,10 +20,10 @@
 namespace gearpod::mc {
 namespace {
 
-// Gearboxes, then the analysis.
+// Time limit for the trial gearboxes, and again for the trial analysis.
 constexpr double kBudget_s = 1.0;
 
-// Two figures, or whole seconds.
+// Formats seconds with two significant figures, or as whole seconds.
 std::string seconds_text(double seconds) {
     return seconds < 0.01   ? "less than 0.01 s"
            : seconds < 9.95 ? fmt::format("{:.2g} s", seconds)
@@ -48,7 +48,7 @@ std::string measured_text(const RunCalibration& calibration, const AnalysisTrial
                        trial.rows, trial.levels, trial.levels == 1 ? "" : "s", trial.trial_s);
 }
 
-// The rows of the gearboxes that a calibration computed.
+// Rows of the gearboxes computed to calibrate the forecast.
 class CalibrationRows final : public RowSource {
   public:
     explicit CalibrationRows(const RunCalibration& calibration) : calibration_(calibration) {}
@@ -65,7 +65,7 @@ class CalibrationRows final : public RowSource {
     const RunCalibration& calibration_;
 };
 
-// Shares of the threads' time, as `run` tells them.
+// Shares of the threads' time, with the same names as in the report of `run`.
 std::string shares_text(const Seconds& work, double thread_s) {
     const auto share = [&](double seconds) { return 100.0 * seconds / std::max(1e-9, thread_s); };
     return fmt::format(
@@ -75,13 +75,13 @@ std::string shares_text(const Seconds& work, double thread_s) {
         share(work.noise), share(work.features));
 }
 
-// A whole number of two figures.
+// Formats a count with two significant figures.
 std::string about(double count) {
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
     return fmt::format("{:.0f}", unit * std::round(count / unit));
 }
 
-// What rank 0 does beside its own gearboxes.
+// Describes rank 0's work in addition to its own gearboxes.
 std::string leader_text(const RankForecast& forecast) {
     const std::string most = about(std::max(1.0, forecast.bounding_ranks));
     return fmt::format("receives and writes {:.3g} batches a second: {:.2g} % of its time{}",
@@ -111,7 +111,8 @@ void print_ranks(const Study& study, const RankForecast& forecast, int threads, 
     print_entry("rank 0", leader_text(forecast));
 }
 
-// The error of the time steps where teeth lose contact, if the pilot takes a second at most.
+// Prints the error of the time steps where teeth lose contact, if measuring it takes at most a
+// second.
 void print_step_error(const Scene& scene) {
     if (scene.study().effects.quasi_static() || !teeth_can_part(scene.study())) {
         return;
@@ -124,7 +125,8 @@ void print_step_error(const Scene& scene) {
                         "step_tolerance does not bound it");
 }
 
-// Nothing, and false, of a study without lives, or whose records cannot be composed.
+// Prints the forecast of lives. Prints nothing and returns false for a study without lives, or
+// whose records cannot be superposed.
 bool print_lives(const Scene& scene, double setup_s) {
     if (!scene.study().life.interval_h) {
         return false;
@@ -132,7 +134,7 @@ bool print_lives(const Scene& scene, double setup_s) {
     try {
         print_lives_forecast(LifeTiles(scene), setup_s);
     } catch (const SceneError&) {
-        return false;  // print_life() says why
+        return false;  // print_life() prints the reason
     }
     return true;
 }

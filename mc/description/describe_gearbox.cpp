@@ -21,7 +21,8 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, " "));
 }
 
-// To six figures, without the rounding of units there and back, nor a zero's sign.
+// Formats a number with six figures, which hides rounding errors of unit conversions and the sign
+// of zero.
 std::string figures(double value) {
     return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
 }
@@ -30,8 +31,8 @@ std::string rpm(double rad_s) {
     return figures(rad_s * 30.0 / std::numbers::pi) + " rpm";
 }
 
-// Nominal speed and torque of every member; speeds positive as the input turns, torques as
-// magnitudes.
+// Prints nominal speed and torque of every member. Speeds are positive in the input's direction of
+// rotation; torques are magnitudes.
 void print_planetary_members(const Study& study) {
     const gears::PlanetaryTrain train = planetary_train(study);
     const Sampler sampler(study);
@@ -77,8 +78,8 @@ void print_members(const Study& study) {
                                     figures(nominal.fixed_shaft.load_torque_N_m)));
 }
 
-// In the unit of the file, and as shares of the largest that the tooth holds: of a crack the whole
-// way through its root.
+// Prints fault sizes in the unit of the study, and as fractions of the largest possible size (for a
+// crack, the whole way through the tooth root).
 void print_fault_sizes(const Scene& scene) {
     const Study& study = scene.study();
     const std::vector<double> all = fault_sizes(study);
@@ -141,8 +142,8 @@ void print_fixed_shaft(const Study& study) {
     }
 }
 
-// A rack leaves no involute below its form circle: flanks that are touched deeper rub in the
-// fillet.
+// Warns of contact below the form circle, where a rack-generated tooth has a fillet instead of an
+// involute.
 void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry& mesh) {
     for (const int which : {1, 2}) {
         const gears::Gear& gear = mesh.gear(which);
@@ -158,7 +159,7 @@ void print_fillet_warnings(const MeshMembers& members, const gears::MeshGeometry
     }
 }
 
-// Shifts, and what follows from them; nothing for standard gears.
+// Prints profile shifts and the geometry that follows from them; nothing for standard gears.
 void print_shifts(const Scene& scene) {
     const Study& study = scene.study();
     if (!shift_given(study)) {
@@ -190,7 +191,7 @@ void print_shifts(const Scene& scene) {
     }
 }
 
-// Parts of a helical pair's contact ratio.
+// Transverse and overlap parts of a helical pair's contact ratio.
 std::string helical_parts(const stiffness::MeshStiffness& mesh) {
     const double transverse = mesh.slice().contact_ratio();
     return transverse < mesh.contact_ratio()
@@ -199,7 +200,7 @@ std::string helical_parts(const stiffness::MeshStiffness& mesh) {
                : "";
 }
 
-// Says how much stiffer than real teeth a mesh is whose gear bodies do not give way.
+// Prints how much stiffer than the standard's value a mesh with rigid gear bodies is.
 void print_rigid_bodies(const Scene& scene) {
     const Study& study = scene.study();
     if (study.effects.foundation != Foundation::none || stiffness_given(study)) {

@@ -10,7 +10,7 @@
 namespace gearpod::mc {
 namespace {
 
-// How records of other torques or speeds come about.
+// Describes how records at other torques or speeds are computed.
 std::string load_text(const RecordLaw& law, int count) {
     const std::vector<double> factors = law.marched(count);
     return law.text() +
@@ -20,7 +20,7 @@ std::string load_text(const RecordLaw& law, int count) {
                 : "");
 }
 
-// Inputs of `run`: in a life the crack has the depth to which it has grown.
+// True for fault inputs, which only `run` uses: in a life the crack grows to its depth.
 bool is_of_fault(const RandomInput& input) {
     return input.key.starts_with("fault.");
 }

@@ -7,7 +7,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of text in roff: a backslash, a hyphen that shall stay one, a dot or quote at a line's start.
+// Escapes text for roff: backslashes, hyphens, and a dot or quote at the start of a line.
 std::string roff(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -37,7 +37,7 @@ void add_option(std::string& out, const CLI::Option& option) {
     out += "\n" + roff(option.get_description()) + "\n";
 }
 
-// The names behind "IN:{a,b}", as the check of such an option calls itself.
+// Choices of an option, taken from the name of its check, "IN:{a,b}".
 std::vector<std::string> choices(const CLI::Option& option) {
     std::vector<std::string> names;
     const std::string type = option.get_type_name();
