@@ -27,7 +27,7 @@ std::optional<std::size_t> time_column(const Results& frame) {
     return std::nullopt;
 }
 
-// The last time of each group.
+// Returns the last time of each group.
 std::vector<double> ends_of(const std::vector<double>& times) {
     const std::set<double> distinct(times.begin(), times.end());
     if (distinct.size() <= kMostGroups) {

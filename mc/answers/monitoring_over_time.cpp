@@ -29,12 +29,12 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// One gearbox's recordings in time order.
+// Recordings of one gearbox in time order.
 struct Records {
     std::string name;
     std::vector<std::size_t> rows;
-    std::vector<char> healthy, faulty;        // as known
-    std::vector<double> time, torque;         // torque: empty without
+    std::vector<char> healthy, faulty;        // both 0: condition unknown
+    std::vector<double> time, torque;         // torque: may be empty
     std::vector<std::vector<double>> values;  // by feature
 
     bool has_baseline(std::size_t records) const {
@@ -71,7 +71,8 @@ Columns columns_of(const Results& frame, const RowSource& rows, std::size_t time
     return columns;
 }
 
-// Recordings without a name are those of one gearbox if none has a name; else they are left out.
+// Groups recordings by gearbox. If no recording has a gearbox name, all belong to one gearbox;
+// otherwise recordings without a name are omitted.
 std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std::string>& names) {
     std::map<std::string, std::vector<std::size_t>> rows_of;
     for (std::size_t row = 0; row < columns.time.size(); ++row) {
@@ -107,7 +108,7 @@ std::vector<Records> gearboxes_of(const Columns& columns, const std::vector<std:
     return gearboxes;
 }
 
-// The healthy recordings behind the baseline, as a life of as many "hours".
+// Healthy recordings after the baseline, as a life in which each recording counts as one hour.
 analysis::HealthyLife healthy_life(const Records& gearbox, const std::vector<double>& deviations) {
     analysis::HealthyLife life;
     for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -146,7 +147,7 @@ std::optional<std::size_t> parameter_place(const Results& frame, const std::stri
     return std::nullopt;
 }
 
-// Every feature by itself, and those that the study uses as one.
+// Monitors every feature separately, and the study's features combined ("fused").
 class Watching {
   public:
     Watching(const Results& frame, const Study& study, const std::vector<Records>& gearboxes)
@@ -218,7 +219,7 @@ class Watching {
     const std::vector<Records>& gearboxes_;
 };
 
-// Why these gearboxes cannot be watched; "" if they can.
+// Reason why these gearboxes cannot be monitored; "" if they can.
 std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, double rate) {
     if (gearboxes.empty()) {
         return fmt::format("no gearbox has more than {} recordings that begin before its fault",

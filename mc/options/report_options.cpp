@@ -1,4 +1,4 @@
-// What `report` is asked for.
+// Options of `report`, `misses` and `rare`.
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {

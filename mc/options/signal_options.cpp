@@ -1,4 +1,4 @@
-// Commands that read recordings.
+// Options of the commands that read recordings.
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {
@@ -29,7 +29,7 @@ void add_signal_reading(CLI::App& command, SignalColumns& columns) {
         ->check(CLI::IsMember({"check", "found", "stated"}));
 }
 
-// Of recordings: which columns, and how often they were sampled.
+// Adds options for the columns and the sampling of recordings.
 void add_columns(CLI::App& command, SignalColumns& columns) {
     command.add_option("--sensor", columns.sensor,
                        "column of the acceleration, m/s^2 (default: sensor)");

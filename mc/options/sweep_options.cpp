@@ -1,4 +1,4 @@
-// What `sweep` is asked for.
+// Options of `sweep`.
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {

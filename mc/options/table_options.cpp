@@ -1,4 +1,4 @@
-// Commands that read tables of inspections, and results beside results.
+// Options of `pod` and `compare`.
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {

@@ -17,7 +17,7 @@ namespace {
 
 using LifeJson = nlohmann::json;
 
-// "2.31", "> 4" where that many are not found before the last depth.
+// Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.
 std::string depth_text(double depth_m, const Study& study) {
     return std::isnan(depth_m)   ? "-"
            : std::isinf(depth_m) ? fmt::format("> {:g}", 1e3 * *study.life.last_depth_m)
@@ -76,7 +76,7 @@ LifeJson interval_json(const analysis::Interval& interval) {
 std::string costs_text(const Campaign& campaign) {
     const LifeCosts& costs = campaign.costs;
     if (costs.gearbox_count == 0) {
-        return "";  // all had been computed before
+        return "";  // an earlier run had computed all gearboxes
     }
     return fmt::format(
         "processor time: {:.3g} s a gearbox, {:.3g} ms a record ({} gearboxes, {} records)\n",
@@ -85,14 +85,14 @@ std::string costs_text(const Campaign& campaign) {
         costs.gearbox_count, costs.record_count);
 }
 
-// "27/32 [0.68, 0.93]"; "-" where no tooth goes, or there is no threshold.
+// Formats the share found: "27/32 [0.68, 0.93]"; "-" if no tooth fails or there is no threshold.
 std::string share_text(const analysis::LifeAnswers& a) {
     return std::isnan(a.share) ? "-"
                                : fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended,
                                              a.share_bounds.lower, a.share_bounds.upper);
 }
 
-// Cells of lines below each other, two columns to the left and the others to the right.
+// Aligns cells in columns; the first two columns are left-aligned, the others right-aligned.
 std::string table_text(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths(lines.front().size(), 0);
     for (const auto& line : lines) {
@@ -114,7 +114,7 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines) {
 std::string interpolation_text(const Campaign& campaign, const Life& life) {
     const InterpolationErrors& off = campaign.interpolation;
     if (std::isnan(off.first)) {
-        return "";  // none of those that are looked at was marched
+        return "";  // none of the gearboxes used for the error estimate was integrated
     }
     std::string text = fmt::format(
         "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
@@ -127,7 +127,7 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
     return text;
 }
 
-// Why there are dashes; "" where there are none.
+// Explains the dashes in the table; "" if there are none.
 std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     std::string out;
     const Study& study = monitor.study();
