@@ -90,7 +90,7 @@ std::string bearings(const DerivedGearbox& d) {
     return text + damping;
 }
 
-// Root mean square of the pins' places: a normal law that keeps the tolerance in 95 of 100.
+// Standard deviation of the pin positions: a normal distribution with 95 % within the tolerance.
 double pin_rms_um(const DerivedGearbox& d) {
     return 1e6 * grade_7_tolerance_m(d.centre_distance_m) / 4.0;
 }
@@ -128,9 +128,8 @@ struct SensorRates {
     double low_pass = 0, sampling = 0;
 };
 
-// Twenty mesh harmonics, up to what an accelerometer of general purpose is good for. Gears that
-// mesh faster than that still have enough samples in a mesh period for the encoders and the
-// windows.
+// Rates for twenty mesh harmonics, limited to the range of a general-purpose accelerometer. At
+// higher mesh frequencies a mesh period still has enough samples for the encoders and the windows.
 SensorRates sensor_rates(double mesh_frequency_Hz) {
     constexpr double kHarmonics = 20.0, kHighest_Hz = 10000.0, kAnalyser = 2.56,
                      kFewestPerMesh = 12.0;
@@ -138,9 +137,9 @@ SensorRates sensor_rates(double mesh_frequency_Hz) {
     return {low_pass, std::max(kAnalyser * low_pass, kFewestPerMesh * mesh_frequency_Hz)};
 }
 
-// Background of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which is
-// 0.1 m/s^2 up to 10 kHz, chosen. Samples far closer than the low-pass lets noise change take its
-// rms instead.
+// Background noise of the machine at the sensor: a one-sided density of 1e-3 m/s^2/sqrt(Hz), which
+// is 0.1 m/s^2 up to 10 kHz (chosen). At sampling rates far above the low-pass the rms of white
+// noise is used instead.
 struct Background {
     const char* key;
     double value;

@@ -104,7 +104,7 @@ class Reading {
         recording.condition = healthy ? Condition::healthy : Condition::faulty;
     }
 
-    // Of the row that is read; null if there is none, or nothing in it.
+    // Field of the current row; null if the column does not exist or the field is empty.
     const std::string* field(const std::string& name) const {
         const auto column = table_.find(name);
         return column && !table_.rows[row_][*column].empty() ? &table_.rows[row_][*column]

@@ -21,7 +21,8 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
     throw std::runtime_error(path + ": " + why);
 }
 
-// Features of other teeth are other numbers.
+// Refuses a file whose tooth numbers differ from the study's, because its features are not
+// comparable.
 void check_teeth(const std::string& path, const Results& results, const Study& study) {
     std::string text = results.provenance_value("study");
     if (text.empty()) {

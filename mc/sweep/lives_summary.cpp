@@ -71,7 +71,7 @@ const MonitoredFeature* best_over(const std::vector<LivesPoint>& points) {
                 const MonitoredFeature* here = find_answers(point, one);
                 known = known || (here != nullptr && !std::isnan(here->answers.threshold.value));
                 found += here == nullptr ? 0 : here->answers.found;
-                // fmin: of a number and NaN the number.
+                // std::fmin returns the number if the other argument is NaN.
                 deep_90 += here == nullptr ? last : std::fmin(here->answers.size_90.value, last);
                 deep_50 += here == nullptr ? last : std::fmin(here->answers.size_50.value, last);
             }

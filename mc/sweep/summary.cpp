@@ -64,7 +64,7 @@ std::string size_cell(const PointSummary& point, double noise_level) {
     return fmt::format("{:.3g}{}{}", at->smallest->size, point.unit.empty() ? "" : " ", point.unit);
 }
 
-// Of the level that is shown first, with the area of its feature.
+// Best feature at the noise level that is shown first, with its AUC.
 std::string best_cell(const PointSummary& point) {
     if (point.levels.empty()) {
         return "";
@@ -79,7 +79,7 @@ std::string best_cell(const PointSummary& point) {
     return "";
 }
 
-// Each once, however many points say it.
+// Warnings of all points, without duplicates.
 std::string shortages(const std::vector<PointSummary>& points) {
     std::vector<std::string> said;
     std::string text;
