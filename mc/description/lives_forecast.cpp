@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "machine/dispatch.hpp"
-#include "mc/description/describe_effects.hpp"
+#include "mc/description/entries.hpp"
 #include "mc/ensemble/thread_count.hpp"
 #include "mc/forecast/memory.hpp"
 #include "mc/gearbox/healthy_march.hpp"
@@ -130,19 +130,20 @@ LivesForecast forecast_lives(const LifeTiles& tiles, int threads, double setup_s
 void print_lives_forecast(const LifeTiles& tiles, double setup_s) {
     const LivesForecast all = forecast_lives(tiles, thread_count(tiles.scene().study()), setup_s);
     print_heading("forecast of lives");
-    print_entry("measured on",
-                "a mesh period, and how many the damping asks for; records of made-up signals");
+    print_entry("based on",
+                "the time of one mesh period, the number of mesh periods that the damping "
+                "requires, and records of artificial signals");
     print_entry("threads", fmt::format("{}, {}", all.threads,
                                        machine::name(machine::active_instruction_set())));
     print_entry("set-up", time_text(all.setup_s));
-    print_entry("gearboxes", fmt::format("{} of {:.2g} s of a processor each, marched",
+    print_entry("gearboxes", fmt::format("{}, time integration {:.2g} s of processor time each",
                                          all.gearboxes, all.gearbox_s));
-    print_entry("records",
-                fmt::format("{} of {:.2g} ms each, composed", all.records, 1e3 * all.record_s));
+    print_entry("records", fmt::format("{}, superposition {:.2g} ms of processor time each",
+                                       all.records, 1e3 * all.record_s));
     print_entry("estimated time", time_text(all.total_s()));
     print_entry("estimated memory", bytes_text(all.memory_bytes));
     print_entry("results file",
-                bytes_text(all.file_bytes) + "; a checkpoint as large until the end");
+                bytes_text(all.file_bytes) + "; the checkpoint is as large until the run ends");
 }
 
 }  // namespace gearpod::mc

@@ -1,30 +1,14 @@
 #include <memory>
-#include <sstream>
 #include <string>
 
+#include "mc/input/wrapped_text.hpp"
 #include "mc/options/options.hpp"
 
 namespace gearpod::mc {
 namespace {
 
-// Columns of a help line, and the column in which descriptions start.
-constexpr std::size_t kHelpWidth = 80, kDescriptionColumn = 30;
-
-// Breaks a text into lines that fit between the column `indent` and kHelpWidth.
-std::string wrapped_help(const std::string& text, std::size_t indent) {
-    std::string out, line, word;
-    for (std::istringstream words(text); words >> word;) {
-        if (line.empty()) {
-            line = word;
-        } else if (indent + line.size() + 1 + word.size() <= kHelpWidth) {
-            line += " " + word;
-        } else {
-            out += line + "\n" + std::string(indent, ' ');
-            line = word;
-        }
-    }
-    return out + line;
-}
+// Column in which the descriptions of options and commands start.
+constexpr std::size_t kDescriptionColumn = 30;
 
 // Two columns: a name, and its description in the same line or, after a long name, in the next one.
 std::string help_entry(const std::string& name, const std::string& description) {
@@ -34,14 +18,14 @@ std::string help_entry(const std::string& name, const std::string& description) 
     } else {
         out += "\n" + std::string(kDescriptionColumn, ' ');
     }
-    return out + wrapped_help(description, kDescriptionColumn) + "\n";
+    return out + wrapped_text(description, kDescriptionColumn) + "\n";
 }
 
-// Help output of CLI11, with descriptions wrapped to kHelpWidth.
+// Help output of CLI11, with descriptions wrapped to kLineWidth.
 class WrappedHelp final : public CLI::Formatter {
   public:
     std::string make_description(const CLI::App* app) const override {
-        return wrapped_help(app->get_description(), 0) + "\n";
+        return wrapped_text(app->get_description(), 0) + "\n";
     }
     std::string make_subcommand(const CLI::App* command) const override {
         return help_entry(command->get_name(), command->get_description());

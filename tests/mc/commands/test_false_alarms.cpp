@@ -67,7 +67,7 @@ TEST_CASE("A sample that does not fix its rate is told, one that does is not") {
     const Outcome enough =
         program("describe " + kSmall + " --set ensemble.threshold_instances=100");
     CHECK(!enough.mentions("ew healthy"));
-    CHECK(enough.mentions("100 healthy gearboxes fix it to between"));
+    CHECK(enough.mentions("with 100 healthy gearboxes the true rate is between"));
 }
 
 TEST_CASE("Costs of an alarm and of a miss give a threshold, all three or none") {

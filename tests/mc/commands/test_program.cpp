@@ -101,7 +101,7 @@ TEST_CASE("The keys of study files are described without a study") {
     CHECK(mentions(program("describe --keys empirical"), "column"));
     const Outcome none = program("describe --keys nonsense");
     CHECK(none.code == 2);
-    CHECK(mentions(none, "--keys nonsense: in no section, name or explanation"));
+    CHECK(mentions(none, "--keys nonsense: no section, key or explanation contains it"));
 }
 
 TEST_CASE("Results under the name of another kind of file are refused with what would be right") {

@@ -18,8 +18,9 @@ TEST_CASE("describe shows torque and speed of every member") {
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(said.mentions("221.538 rpm, 200 N m (input)"));
-    CHECK(said.mentions("-130.909 rpm, -190.909 rpm on their pins, each loaded with 5.128 kN"));
-    CHECK(said.mentions("stands, 538.462 N m (held)"));
+    CHECK(
+        said.mentions("-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin"));
+    CHECK(said.mentions("stationary, 538.462 N m (fixed)"));
     CHECK(said.mentions("60 rpm, 738.462 N m (output)"));
     CHECK(!said.mentions("\n  damping "));
 }
@@ -31,7 +32,7 @@ TEST_CASE("describe says which damping is left out") {
                               "gearbox.ring_bearing_damping_N_s_m=0");
     INFO(said.output);
     REQUIRE(said.code == 0);
-    CHECK(said.mentions("0 of bearings of sun and ring, support of the ring"));
+    CHECK(said.mentions("0 for bearings of sun and ring, support of the ring"));
     // Drawn damping is some.
     const auto drawn = program(kDescribe +
                                "--set gearbox.support_damping_N_s_m=0 --set "

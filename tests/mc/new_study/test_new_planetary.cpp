@@ -196,7 +196,7 @@ TEST_CASE("The study that new writes is described and run as it stands") {
     const auto described = program("describe " + file);
     INFO(described.output);
     CHECK(described.code == 0);
-    CHECK(described.mentions("% of the largest that the tooth holds"));
+    CHECK(described.mentions("% of the largest possible size"));
     CHECK(!described.mentions("  damping  "));
 
     const auto run = program("run " + file +
