@@ -58,7 +58,7 @@ struct AskedSize {
 AskedSize ask_size(const Study& study, double size, Complaints& complaints);
 // Alarm direction of a feature: ">" or "<".
 const char* alarm_symbol_of(const std::string& feature);
-// "faults of 2 mm that fm4 misses at noise x 1 (alarm if > 3.1): "
+// "probability that fm4 misses a fault of 2 mm at noise x 1 (alarm if > 3.1): "
 std::string asked_misses(const AskedSize& size, const std::string& feature, double noise_level,
                          double threshold);
 

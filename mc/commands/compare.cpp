@@ -46,7 +46,7 @@ std::string not_whole(const Results& frame, std::size_t gearboxes) {
     const std::string part = frame.provenance_value("part");
     const std::string state = frame.provenance_value("state");
     const bool stopped = state == "running" || state.starts_with("interrupted");
-    return (part.empty() ? "" : fmt::format(", part {} of it alone", printable(part))) +
+    return (part.empty() ? "" : fmt::format(", part {} only", printable(part))) +
            (stopped ? fmt::format(", {} of {} gearboxes ({})", gearboxes,
                                   printable(frame.provenance_value("gearboxes_asked_for")),
                                   printable(state))
@@ -112,7 +112,7 @@ Rows rows_of(const Side& a, const Side& b) {
         return rows;
     }
     if (a.sampling != b.sampling) {
-        rows.unpaired = "those of one fill their inputs' ranges evenly: ensemble.sampling";
+        rows.unpaired = "ensemble.sampling differs";
         return rows;
     }
     // With the same seed, rows at the same position of a group have the same random inputs.
@@ -127,7 +127,7 @@ Rows rows_of(const Side& a, const Side& b) {
     // Pairing would discard more than half of the larger file.
     if (2 * graded < std::max(a.graded.size(), b.graded.size()) ||
         2 * healthy < std::max(a.threshold.size(), b.threshold.size())) {
-        rows.unpaired = "one has more than twice the other's gearboxes";
+        rows.unpaired = "one has more than twice as many as the other";
         return rows;
     }
     for (auto* group : {&rows.threshold_a, &rows.threshold_b}) {
@@ -241,8 +241,10 @@ std::string mismatch(const Side& a, const Side& b) {
     std::string text;
     const analysis::DetectionRequest &one = a.frame.request, &two = b.frame.request;
     if (one.size.name != two.size.name || one.size.unit != two.size.unit) {
-        text += fmt::format("{}: its faults are {}, those of {} are {}\n", b.path, two.size.name,
-                            a.path, one.size.name);
+        text += fmt::format(
+            "{}: its fault size is {}, that of {} is {}; compare results with the same kind of "
+            "fault\n",
+            b.path, two.size.name, a.path, one.size.name);
     }
     if (one.false_alarm_rate != two.false_alarm_rate) {
         text += fmt::format(
@@ -356,7 +358,8 @@ int compare_command(const CompareOptions& options) {
     }
     if (options.results.size() < 2) {
         fmt::print(stderr,
-                   "compare: one results file; give two or more, the first to compare with\n");
+                   "compare: only one results file; give two or more, the first is the "
+                   "reference\n");
         return kBadInput;
     }
     try {

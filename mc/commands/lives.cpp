@@ -152,8 +152,8 @@ void print_left_out(const RunOptions& run, const Study& study) {
         keys.emplace_back("detection.uncertain_inputs");
     }
     if (!keys.empty()) {
-        fmt::print(stderr, "{}: lives leave out what is for single records (run): {}\n",
-                   run.study.path, fmt::join(keys, ", "));
+        fmt::print(stderr, "{}: `lives` ignores keys that only `run` uses: {}\n", run.study.path,
+                   fmt::join(keys, ", "));
     }
 }
 
@@ -207,8 +207,8 @@ int lives_study(const LivesOptions& options, const Ranks& ranks) {
 int report_lives(const ReportOptions& options) {
     if (!options.csv.empty() || !options.condition.empty() || options.alarm_cost) {
         fmt::print(stderr,
-                   "{}: holds lives, and --csv, --by and expected costs are for what `run` wrote; "
-                   "leave them out\n",
+                   "{}: holds lives; --csv, --by and costs are only for results of `run`, omit "
+                   "them\n",
                    options.results);
         return kBadInput;
     }

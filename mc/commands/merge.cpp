@@ -34,11 +34,13 @@ PartFile read_part_file(const std::string& path) {
     Results frame = read_frame(path);
     const FileRows rows(path, frame);
     if (frame.provenance_value("kind") == kRecordingsKind) {
-        throw std::runtime_error(path + ": holds recordings; only what `run` computed is merged");
+        throw std::runtime_error(path +
+                                 ": contains recordings; only results of `run` can be merged");
     }
     StudyReading reading = read_study_text(frame.provenance_value("study"), path);
     if (!reading.study) {
-        throw std::runtime_error(path + ": its study cannot be read:\n" + format(reading.problems));
+        throw std::runtime_error(path + ": the study in the file cannot be read:\n" +
+                                 format(reading.problems));
     }
     check_results(path, frame, rows);
     const BatchPlan plan(reading.study->ensemble, part_of(frame));
@@ -104,12 +106,13 @@ class Merge {
         there.part = here.part;
         std::string why = difference(there, here);
         if (why.empty() && file.study.ensemble.instances != first.study.ensemble.instances) {
-            why = fmt::format("is of {} graded gearboxes, {} of {}", file.study.ensemble.instances,
-                              first.path, first.study.ensemble.instances);
+            why = fmt::format("has ensemble.instances = {}, but {} has {}",
+                              file.study.ensemble.instances, first.path,
+                              first.study.ensemble.instances);
         }
         if (why.empty() && file.frame.provenance_value("numerics_choice") !=
                                first.frame.provenance_value("numerics_choice")) {
-            why = fmt::format("chose other numerics ({}) than {} ({})",
+            why = fmt::format("uses another solver setting ({}) than {} ({})",
                               file.frame.provenance_value("numerics_choice"), first.path,
                               first.frame.provenance_value("numerics_choice"));
         }
@@ -125,16 +128,16 @@ class Merge {
                 const auto [at, fresh] = owner.emplace(file.plan.number(batch), &file);
                 if (!fresh) {
                     problems +=
-                        fmt::format("{}: cannot be merged: {} and others are in {} as well\n",
-                                    file.path, rows_text(whole(), at->first), at->second->path);
+                        fmt::format("{}: cannot be merged: {} and more are also in {}\n", file.path,
+                                    rows_text(whole(), at->first), at->second->path);
                     break;
                 }
             }
             if (file.batches < file.plan.batches()) {
                 problems += fmt::format(
-                    "{}: holds {} of its {} {} ({}); continue it with `run --resume`\n", file.path,
-                    file.plan.rows_before(file.batches), file.plan.rows(), file.plan.counted(),
-                    printable(file.frame.provenance_value("state")));
+                    "{}: contains {} of its {} {} ({}); continue it with `run --resume`\n",
+                    file.path, file.plan.rows_before(file.batches), file.plan.rows(),
+                    file.plan.counted(), printable(file.frame.provenance_value("state")));
             }
         }
         if (!problems.empty()) {
@@ -143,7 +146,7 @@ class Merge {
         for (std::size_t batch = 0; batch < whole().batches(); ++batch) {
             if (!owner.contains(batch)) {
                 return fmt::format(
-                    "{} of {} tiles of gearboxes, {} the first, are in none of the files: {}\n",
+                    "{} of {} batches of gearboxes are in none of the files, first {}; {}\n",
                     whole().batches() - owner.size(), whole().batches(), rows_text(whole(), batch),
                     missing_part(batch));
             }
@@ -153,7 +156,7 @@ class Merge {
 
     std::string missing_part(std::size_t batch) const {
         const std::size_t parts = part_of(files_.front().frame).count;
-        return fmt::format("`run --part {}/{}` computes them", batch % parts + 1, parts);
+        return fmt::format("compute them with `run --part {}/{}`", batch % parts + 1, parts);
     }
 
     const MergeOptions& options_;
@@ -179,7 +182,7 @@ int merge_command(const MergeOptions& options) {
     run.quiet = options.quiet;
     const Ranks ranks;
     if (ranks.size() > 1) {
-        fmt::print(stderr, "merge: is the work of one process, and {} were started\n",
+        fmt::print(stderr, "merge: needs one process, but {} were started; run it without MPI\n",
                    ranks.size());
         return kBadInput;
     }

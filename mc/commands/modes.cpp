@@ -51,8 +51,9 @@ int modes_command(const ModesOptions& options) {
         return kBadInput;
     }
     if (!has_masses(*study)) {
-        print_problems({{options.study.path, 0, "gearbox", "no masses (modes need them)",
-                         "add the masses and inertias to [gearbox]"}});
+        print_problems(
+            {{options.study.path, 0, "gearbox",
+              "masses or inertias are missing, but modes need them", "add them to [gearbox]"}});
         return kBadInput;
     }
     const auto inputs = body_inputs(*study, Sampler(*study).nominal());

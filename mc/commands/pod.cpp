@@ -106,8 +106,8 @@ Columns choose_columns(const TextTable& table, const PodOptions& options, Refusa
         chosen.responses = true;
         if (chosen.values.empty()) {
             refusals.add(
-                fmt::format("no column hit and none response; its columns are {}; choose "
-                            "with --hit or --response",
+                fmt::format("no column hit or response; its columns are {}; choose with --hit "
+                            "or --response",
                             table.names()));
         }
     }
@@ -134,7 +134,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         const auto number = [&](std::size_t c) {
             const auto value = number_of(row[c], comma);
             if (!value || !std::isfinite(*value)) {
-                refusals.add(fmt::format("column {}: \"{}\" is no finite number",
+                refusals.add(fmt::format("column {}: \"{}\" is not a finite number",
                                          table.columns[c].name, row[c].substr(0, 40)),
                              line);
             }
@@ -142,7 +142,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         };
         const double size = number(chosen.size);
         if (size < 0.0) {
-            refusals.add(fmt::format("column {}: {:g} is negative; a place without a flaw has 0",
+            refusals.add(fmt::format("column {}: {:g} is negative; use 0 for no flaw",
                                      table.columns[chosen.size].name, size),
                          line);
         }
@@ -167,7 +167,7 @@ Inspections read_inspections(const TextTable& table, const Columns& chosen, Refu
         }
     }
     if (data.size.empty() && !refusals.any()) {
-        refusals.add("has no line with a value");
+        refusals.add("no line has a value");
     }
     return data;
 }
@@ -241,8 +241,9 @@ InspectionRequest request_of(const PodOptions& options, const Columns& chosen, R
 void refuse_misplaced(const PodOptions& options, const Columns& chosen, Refusals& refusals) {
     const auto refuse = [&](bool given, const char* name) {
         if (given) {
-            refusals.add(fmt::format("{} is for {}, which this table has not", name,
-                                     chosen.responses ? "hits and misses" : "responses"));
+            refusals.add(fmt::format("{} is only for {}, but the table has {}", name,
+                                     chosen.responses ? "hits and misses" : "responses",
+                                     chosen.responses ? "responses" : "hits and misses"));
         }
     };
     if (chosen.responses) {

@@ -11,6 +11,7 @@
 #include "mc/files/signal_file.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/recordings/measure_recordings.hpp"
 #include "mc/recordings/population.hpp"
 #include "mc/run/support.hpp"
@@ -25,14 +26,16 @@ Problems option_problems(const FeaturesOptions& options) {
         problems.push_back({"features", 0, "", what, remedy});
     };
     if (options.manifest.empty() == options.signals.empty()) {
-        reject(options.manifest.empty() ? "no signal" : "signals and --manifest",
-               "name signal files, or a manifest of them");
+        reject(options.manifest.empty() ? "no signal is given"
+                                        : "signals and --manifest are both given",
+               "give either signal files or --manifest");
     }
     if (!options.json.empty()) {
-        reject("--json is for one signal", "many have --out and --csv; `report` gives JSON");
+        reject("--json is only for one signal",
+               "for many signals give --out, and make JSON from it with `report --json`");
     }
     if (options.out.empty() && options.csv.empty() && options.against.empty()) {
-        reject("many signals need a place to go",
+        reject("no output is given for many signals",
                "give --out F.h5, --csv T.csv, or --against F.h5");
     }
     return problems;
@@ -73,8 +76,9 @@ void print_verdicts(const FeaturesOptions& options, const Population& population
     for (std::size_t i = 0; i < measured.size(); ++i) {
         if (measured[i].problem.empty()) {
             const auto verdicts = judge(population, measured[i].values, options.feature);
-            fmt::print("{}\n", verdict_sentence(list.recordings[i].name(), population,
-                                                verdicts.front(), measured[i].teeth));
+            fmt::print("{}\n", wrapped_text(verdict_sentence(list.recordings[i].name(), population,
+                                                             verdicts.front(), measured[i].teeth),
+                                            2));
         }
     }
 }

@@ -37,7 +37,7 @@ bool can_write_tables(const ReportOptions& options, const std::vector<CsvTable>&
         const std::string path = table_path(options.csv, table);
         for (const FileRole& other : others) {
             if (!other.path.empty() && other.path != "-" && same_file(path, other.path)) {
-                fmt::print(stderr, "--csv {}: is {} as well, which it would overwrite\n", path,
+                fmt::print(stderr, "--csv {}: would overwrite {}; choose another folder\n", path,
                            other.role);
                 good = false;
             }
@@ -138,7 +138,7 @@ int report_command(const ReportOptions& options) {
         }
         const std::string state = results.provenance_value("state");
         if (state == "running" || state.starts_with("interrupted")) {
-            fmt::print(stderr, "{}: holds {} of {} gearboxes ({})\n", options.results,
+            fmt::print(stderr, "{}: contains {} of {} gearboxes ({})\n", options.results,
                        count_rows(rows, results.request.threshold_records).all,
                        printable(results.provenance_value("gearboxes_asked_for")),
                        printable(state));

@@ -56,7 +56,8 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
         StudyReading reading = read_study(run.study.path, run.study.overrides);
         if (options.lives && reading.study && !reading.study->life.interval_h) {
             reading.problems.push_back({run.study.path, 0, "life.interval_h",
-                                        "missing: how often a gearbox is measured", "add [life]"});
+                                        "missing; it is the time between two records of a gearbox",
+                                        "add section [life]"});
         }
         for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {
@@ -80,8 +81,8 @@ Problems keys_of_lives(const SweepOptions& options, const std::vector<VariedKey>
         const bool of_lives = key.key.starts_with("life.") || key.key.starts_with("monitoring.") ||
                               key.key.starts_with("random.life.");
         if (of_lives && !options.lives) {
-            all.push_back({"--vary", 0, key.key, "is looked at by `lives`, not by `run`",
-                           "sweep with --lives"});
+            all.push_back(
+                {"--vary", 0, key.key, "is only used by `lives`, not by `run`", "give --lives"});
         }
     }
     return all;
@@ -143,9 +144,9 @@ class Sweep {
         const auto decided = static_cast<Progressed>(std::stoi(order));
         if (ranks_.leads() && !options_.quiet) {
             fmt::print(stderr, "{} of {}, {}: {}\n", p + 1, points_.size(), points_[p].name,
-                       decided == Progressed::all    ? "is finished"
-                       : decided == Progressed::some ? "goes on"
-                                                     : "begins");
+                       decided == Progressed::all    ? "finished before"
+                       : decided == Progressed::some ? "continued"
+                                                     : "started");
         }
         if (decided == Progressed::all) {
             return kDone;
@@ -156,8 +157,7 @@ class Sweep {
 
     int stopped(std::size_t finished, int code) const {
         if (ranks_.leads() && code == kResumable) {
-            fmt::print(stderr,
-                       "{} of {} points are finished; the same command goes on from there\n",
+            fmt::print(stderr, "{} of {} points are finished; repeat the command to continue\n",
                        finished, points_.size());
         }
         return code;
@@ -241,8 +241,8 @@ bool make_folder(const std::string& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!fs::is_directory(folder)) {
-        fmt::print(stderr, "--out {}: cannot be made a folder: {}\n", folder,
-                   error ? error.message() : "it is a file");
+        fmt::print(stderr, "--out {}: the folder cannot be created: {}\n", folder,
+                   error ? error.message() : "a file has this name");
         return false;
     }
     return true;
