@@ -135,7 +135,7 @@ std::string feature_values_text(const Results& frame, const RowSource& rows) {
         return "";
     }
     const std::vector<TextColumn> inputs = input_columns(frame, graded);
-    std::string out = "Feature values, as there is no threshold to hold them against\n";
+    std::string out = "Feature values (there is no threshold to compare them with)\n";
     for (std::size_t n = 0; n < frame.noise_levels.size(); ++n) {
         std::vector<TextColumn> features;
         for (std::size_t f = 0; f < frame.features.size(); ++f) {

@@ -12,6 +12,7 @@
 #include "analysis/detection/false_alarm_rate.hpp"
 #include "analysis/monitoring/own_baseline.hpp"
 #include "analysis/report/json_values.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/random/philox.hpp"
 #include "mc/study/study.hpp"
 
@@ -222,8 +223,9 @@ class Watching {
 // Reason why these gearboxes cannot be monitored; "" if they can.
 std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, double rate) {
     if (gearboxes.empty()) {
-        return fmt::format("no gearbox has more than {} recordings that begin before its fault",
-                           baseline);
+        return fmt::format(
+            "no gearbox has more than {0} recordings of which the first {0} are without a fault",
+            baseline);
     }
     long healthy = 0;
     for (const Records& gearbox : gearboxes) {
@@ -233,8 +235,8 @@ std::string refusal_of(const std::vector<Records>& gearboxes, int baseline, doub
     return healthy >= needed
                ? ""
                : fmt::format(
-                     "{} healthy recordings behind the first {} of a gearbox are too few "
-                     "for a false-alarm rate of {:g}: at least {} are needed",
+                     "{} healthy recordings after the first {} of a gearbox are too few for a "
+                     "false-alarm rate of {:g}: at least {} are needed",
                      healthy, baseline, rate, needed);
 }
 
@@ -258,7 +260,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
     monitoring.time_unit = unit == "1" ? "" : unit;
     if (asked.torque_regression && !torque) {
         monitoring.refusal =
-            "monitoring.torque_regression asks for the torque of each recording, and the manifest "
+            "monitoring.torque_regression needs the torque of each recording, but the manifest "
             "has no column torque";
         return monitoring;
     }
@@ -266,7 +268,7 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
                                   lines_of(frame.provenance_value("recorded_gearboxes")));
     if (gearboxes.size() == 1 && gearboxes.front().name.empty()) {
         monitoring.note =
-            "no recording has a gearbox's name (column gearbox): all are taken for one machine's";
+            "no recording names its gearbox (column gearbox): all are assumed to be of one machine";
     }
     std::erase_if(gearboxes, [&](const Records& one) {
         return !one.has_baseline(static_cast<std::size_t>(asked.baseline_records));
@@ -282,26 +284,31 @@ std::optional<MonitoringOverTime> monitoring_over_time(const Results& frame,
 std::string monitoring_text(const MonitoringOverTime& monitoring,
                             const std::vector<std::string>& features) {
     if (!monitoring.refusal.empty()) {
-        return "Watched over time: not possible: " + monitoring.refusal + "\n";
+        return wrapped_text("Monitoring over time is not possible: " + monitoring.refusal, 2) +
+               "\n";
     }
     std::string out =
-        monitoring.baseline_records > 0
-            ? fmt::format(
-                  "Watched over time (deviations from a gearbox's first {} recordings{}; "
-                  "thresholds: {:g} of the\nhealthy recordings behind these alarm; an "
-                  "alarm starts the detector anew)\n",
-                  monitoring.baseline_records,
-                  monitoring.torque_regression ? ", along a line in the torque" : "",
-                  monitoring.false_alarm_rate)
-            : fmt::format(
-                  "Watched over time (thresholds: {:g} of the healthy recordings alarm; an "
-                  "alarm starts the detector anew)\n",
-                  monitoring.false_alarm_rate);
+        wrapped_text(
+            monitoring.baseline_records > 0
+                ? fmt::format(
+                      "Monitoring over time (deviations from the first {} recordings of a "
+                      "gearbox{}; thresholds: {:g} of the later healthy recordings alarm; an "
+                      "alarm resets the detector)",
+                      monitoring.baseline_records,
+                      monitoring.torque_regression ? ", with a linear regression on the torque"
+                                                   : "",
+                      monitoring.false_alarm_rate)
+                : fmt::format(
+                      "Monitoring over time (thresholds: {:g} of the healthy recordings alarm; an "
+                      "alarm resets the detector)",
+                      monitoring.false_alarm_rate),
+            2) +
+        "\n";
     if (!monitoring.note.empty()) {
-        out += monitoring.note + "\n";
+        out += wrapped_text(monitoring.note, 2) + "\n";
     }
-    out += fmt::format("{:<20}{:<20}{:>10}{:>11}{:>11}  {}\n", "feature", "detector", "threshold",
-                       "healthy", "later", "first alarm");
+    out += fmt::format("{:<20}{:<13}{:>9}{:>9}{:>9}  {}\n", "feature", "detector", "threshold",
+                       "healthy", "others", "first alarm");
     for (const WatchedFeature& one : monitoring.watched) {
         if (one.feature != kFused &&
             std::find(features.begin(), features.end(), one.feature) == features.end()) {
@@ -317,8 +324,8 @@ std::string monitoring_text(const MonitoringOverTime& monitoring,
                 first = fmt::format("{:g} {}, {}", gearbox.first_time, monitoring.time_unit,
                                     name.substr(name.rfind('/') + 1));
             }
-            out += fmt::format("{:<20}{:<20}{:>10.3g}{:>11}{:>11}  {}{}\n", one.feature,
-                               one.detector, one.threshold.value,
+            out += fmt::format("{:<20}{:<13}{:>9.3g}{:>9}{:>9}  {}{}\n", one.feature, one.detector,
+                               one.threshold.value,
                                fmt::format("{}/{}", one.threshold.alarms, one.threshold.records),
                                fmt::format("{}/{}", gearbox.alarms, gearbox.recordings),
                                gearbox.name.empty() ? "" : gearbox.name + ": ", first);

@@ -68,7 +68,7 @@ Problem as_option(Problem problem) {
     if (at != kOptions.end()) {
         problem.key = at->second;
     } else {
-        problem.remedy = "the value follows by rule: look at --module, --torque and --speed";
+        problem.remedy = "the value is derived; check --module, --torque and --speed";
     }
     return problem;
 }
@@ -105,7 +105,7 @@ Problems load_problems(const PlanetaryDatasheet& data) {
     if (given != 2) {
         problems.push_back({kName, 0, "--torque, --speed, --power",
                             fmt::format("{} of the three are given", given),
-                            "give two of them, of the " + data.input});
+                            "give exactly two of them, for the " + data.input});
     }
     for (const auto& [option, value] :
          {std::pair{"--torque", data.torque_N_m}, std::pair{"--speed", data.speed_rpm},

@@ -39,7 +39,7 @@ MeasuredRecording measure_one(const Recording& recording, SignalColumns columns,
         }
         if (!any) {
             measured.problem =
-                fmt::format("{}: no feature can be had of it: {}", recording.name(), why);
+                fmt::format("{}: no feature can be computed: {}", recording.name(), why);
         }
     } catch (const std::exception& error) {
         measured.problem = exception_text(error);

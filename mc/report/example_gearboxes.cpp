@@ -345,12 +345,12 @@ std::size_t reference_level(const std::vector<double>& noise_levels) {
 nlohmann::json examples_json(const Results& frame, const RowSource& rows) {
     const std::string text = frame.provenance_value("study");
     if (text.empty()) {
-        return refused("the file holds no study");
+        return refused("the file contains no study");
     }
     const std::string name = "study of the results";
     const StudyScene made = make_scene(name, read_study_text(text, name));
     if (!made) {
-        return refused("this program cannot build the file's study: " + format(made.problems));
+        return refused("this version cannot build the study in the file: " + format(made.problems));
     }
     return {{"examples", or_refusal([&] { return gearboxes_json(*made.scene, frame, rows); })},
             {"stiffness", or_refusal([&] { return stiffness_json(*made.scene); })}};

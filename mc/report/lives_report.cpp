@@ -10,6 +10,7 @@
 #include "analysis/report/json_values.hpp"
 #include "analysis/report/text_lines.hpp"
 #include "mc/input/printable.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/study/assumptions.hpp"
 
 namespace gearpod::mc {
@@ -79,10 +80,11 @@ std::string costs_text(const Campaign& campaign) {
         return "";  // an earlier run had computed all gearboxes
     }
     return fmt::format(
-        "processor time: {:.3g} s a gearbox, {:.3g} ms a record ({} gearboxes, {} records)\n",
+        "processor time: {:.3g} s for each of {} gearboxes, {:.3g} ms for each of {} records\n",
         costs.gearboxes / static_cast<double>(std::max(1L, costs.gearbox_count)),
+        costs.gearbox_count,
         1e3 * costs.records / static_cast<double>(std::max(1L, costs.record_count)),
-        costs.gearbox_count, costs.record_count);
+        costs.record_count);
 }
 
 // Formats the share found: "27/32 [0.68, 0.93]"; "-" if no tooth fails or there is no threshold.
@@ -117,12 +119,12 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
         return "";  // none of the gearboxes used for the error estimate was integrated
     }
     std::string text = fmt::format(
-        "interpolated signals are off (rms): by {:.2g} of what the crack changes at {:.3g} mm, by "
-        "{:.2g} of it at {:.3g} mm",
+        "interpolation error (rms): {:.2g} of the change due to the crack at {:.3g} mm, {:.2g} at "
+        "{:.3g} mm",
         off.first, 1e3 * first_interpolated_m(life), off.last, 1e3 * last_interpolated_m(life));
     if (off.load > 0.0) {
-        text += fmt::format(
-            "; between the torques and speeds that are marched by {:.2g} of the signal", off.load);
+        text += fmt::format("; {:.2g} of the signal between the integrated torques and speeds",
+                            off.load);
     }
     return text;
 }
@@ -134,8 +136,8 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     const double rate = study.monitoring.false_alarms_per_1000_h;
     if (ended == 0) {
         analysis::add_wrapped(out,
-                              fmt::format("no tooth goes within {} records of {:g} h: nothing can "
-                                          "be found before the end; raise life.records",
+                              fmt::format("no tooth fails within {} records of {:g} h, so no crack "
+                                          "can be found before the end; raise life.records",
                                           study.life.records, *study.life.interval_h),
                               2);
     }
@@ -148,13 +150,13 @@ std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
         analysis::add_wrapped(
             out,
             few ? fmt::format("no threshold: {:.0f} h of healthy lives are too few for {:g} false "
-                              "alarms in 1000 h{}",
+                              "alarms per 1000 h{}",
                               threshold.hours, rate,
                               threshold.hours > 0.0
-                                  ? fmt::format("; {:.3g} is the least that they can set",
+                                  ? fmt::format("; the lowest rate that they allow is {:.3g}",
                                                 threshold.least_per_1000_h)
                                   : "")
-                : fmt::format("no threshold: {} says nothing of {} records behind the baseline",
+                : fmt::format("no threshold: {} needs more than {} records after the baseline",
                               one.detector, study.life.records - study.monitoring.baseline_records),
             2);
         break;
@@ -168,7 +170,7 @@ std::vector<std::string> answer_columns(const Study& study) {
     return {"threshold",        "false alarms/1000 h",
             "found before end", "by chance",
             "mm 50 %",          fmt::format("90 % (at {:g} %)", 100.0 * study.detection.confidence),
-            "warn h",           "9 in 10"};
+            "warning h 50 %",   "90 %"};
 }
 
 std::vector<std::string> answer_cells(const analysis::LifeAnswers& a, const Study& study) {
@@ -195,18 +197,19 @@ std::string lives_text(const LifeMonitor& monitor) {
         return one.status == Status::ok && one.history.end_hours.has_value();
     });
     std::string out = fmt::format(
-        "{} cracks grow from {:g} to {:g} mm, a record each {:g} h: {} teeth go within {} records\n"
-        "thresholds: {} healthy lives, {:g} false alarms in 1000 h; false alarms: {} other healthy "
-        "lives\n",
+        "{} cracks grow from {:g} to {:g} mm, with a record every {:g} h\n"
+        "{} teeth fail within {} records\n"
+        "thresholds: from {} healthy lives, for {:g} false alarms per 1000 h\n"
+        "false alarms: counted in {} other healthy lives\n",
         campaign.cracked.size(), 1e3 * crack_begin_m(study.life), 1e3 * *study.life.last_depth_m,
         *study.life.interval_h, ended, study.life.records, campaign.setting.size(),
         study.monitoring.false_alarms_per_1000_h, campaign.healthy.size());
     if (const std::string holds = assumptions(study, true); !holds.empty()) {
         analysis::add_wrapped(out, holds, 2);
     }
-    out += "a record: " + printable(campaign.record) + "\n";
+    out += wrapped_text("record: " + printable(campaign.record), 2) + "\n";
     if (campaign.failed > 0) {
-        out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
+        out += fmt::format("{} gearboxes failed and are ignored\n", campaign.failed);
     }
     if (const std::string off = interpolation_text(campaign, study.life); !off.empty()) {
         analysis::add_wrapped(out, off, 2);

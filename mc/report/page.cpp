@@ -18,7 +18,7 @@ namespace gearpod::mc {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("the page cannot be made: " + what);
+    throw std::runtime_error("the page cannot be created: " + what);
 }
 
 std::string from_environment(const char* name, const std::string& otherwise) {

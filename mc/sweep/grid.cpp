@@ -122,7 +122,7 @@ std::vector<VariedKey> read_varied(const std::vector<std::string>& texts, Proble
         }
         for (const std::string& one : varied.values) {
             if (std::ranges::count(varied.values, one) > 1) {
-                reject(fmt::format("has {} twice", one), "give every value once");
+                reject(fmt::format("contains {} twice", one), "give every value once");
                 break;
             }
         }

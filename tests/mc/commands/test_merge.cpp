@@ -73,7 +73,7 @@ TEST_CASE("Parts have their own gearboxes and say what they are", "[merge]") {
     CHECK(depth(one, 16) == depth(all, 32));
     CHECK(depth(one, 16 + 3) == depth(all, 35 + 16));
     const Outcome report = program("report " + first);
-    CHECK(report.output.starts_with("Part 1/2 of the study alone"));
+    CHECK(report.output.starts_with("Part 1/2 of the study only"));
     // The page's examples are the part's own gearboxes.
     CHECK(program("report " + second + " --json -").mentions("\"same_bits\": true"));
     // Another part is no continuation.

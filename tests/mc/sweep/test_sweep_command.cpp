@@ -180,7 +180,7 @@ TEST_CASE("A sweep of lives has the lives of the command, and goes on") {
     const Outcome text = program("sweep --lives " + study + "--quiet --out " + folder.file("s") +
                                  " --vary life.interval_h=[5,10]");
     CHECK(text.code == 0);
-    CHECK(text.mentions("which find most over all points"));
+    CHECK(text.mentions("which finds most cracks over all points"));
     CHECK(text.mentions("found before end"));
 }
 
