@@ -11,6 +11,7 @@
 #include "mc/answers/contact_loss.hpp"
 #include "mc/answers/feature_values.hpp"
 #include "mc/answers/monitoring_over_time.hpp"
+#include "mc/input/wrapped_text.hpp"
 #include "mc/numerics/numerical_error.hpp"
 #include "mc/numerics/step_error.hpp"
 #include "mc/results/failure_text.hpp"
@@ -132,7 +133,9 @@ void print_failures(const RowCounts& rows, int max_meshes) {
                                 Status::no_equilibrium}) {
         const std::size_t count = rows.with_status[static_cast<std::size_t>(status)];
         if (count > 0) {
-            fmt::print("  {} of them: each {}\n", count, failure_text(status));
+            const std::string reason =
+                fmt::format("{} of them: each {}", count, failure_text(status));
+            fmt::print("  {}\n", wrapped_text(reason, 2));
         }
     }
     if (rows.not_settled > 0) {

@@ -235,9 +235,11 @@ class Command {
                        one.median, one.low, one.high, 100.0 * one.left, wrapped_text(source, 4));
         }
         for (const BoundPair& pair : result.pairs) {
-            fmt::print("{} and {} are only determined jointly, rank correlation {:+.2f}\n",
-                       result.found[pair.first].input.key, result.found[pair.second].input.key,
-                       pair.correlation);
+            const std::string both =
+                fmt::format("{} and {} are only determined jointly, rank correlation {:+.2f}",
+                            result.found[pair.first].input.key, result.found[pair.second].input.key,
+                            pair.correlation);
+            fmt::print("{}\n", wrapped_text(both, 2));
         }
         fmt::print(
             "width: of the 90 % interval, relative to that of the prior\n"

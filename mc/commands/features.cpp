@@ -17,9 +17,11 @@
 namespace gearpod::mc {
 namespace {
 
+constexpr std::size_t kMissingColumn = 38;  // of the reasons why features are missing
+
 void print_text(const Measurement& measured, const MeasuredSignal& signal, const Scene& scene) {
     const std::vector<MeasuredFeature>& all = measured.features;
-    fmt::print("mesh phase: {}\n", signal.tracking);
+    fmt::print("{}\n", wrapped_text("mesh phase: " + signal.tracking, 2));
     fmt::print("mesh periods: {} of acceleration, {} of transmission error (full span: {})\n",
                signal.sensor_meshes, signal.te_meshes, scene.span_meshes());
     if (const int turns = planet_turns(signal, scene);
@@ -45,7 +47,8 @@ void print_text(const Measurement& measured, const MeasuredSignal& signal, const
     }
     for (const MeasuredFeature& one : all) {
         if (!one.missing.empty()) {
-            fmt::print("{:<22}{:>14}  {}\n", one.feature->name, "-", one.missing);
+            fmt::print("{:<22}{:>14}  {}\n", one.feature->name, "-",
+                       wrapped_text(one.missing, kMissingColumn));
         }
     }
 }

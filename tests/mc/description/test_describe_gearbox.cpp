@@ -1,4 +1,6 @@
 // Output of describe about members, fault sizes, omitted damping and rigid bodies.
+#include <sstream>
+
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -23,6 +25,25 @@ TEST_CASE("describe shows torque and speed of every member") {
     CHECK(said.mentions("stationary, 538.462 N m (fixed)"));
     CHECK(said.mentions("60 rpm, 738.462 N m (output)"));
     CHECK(!said.mentions("\n  damping "));
+}
+
+TEST_CASE("The description of a study fits 80 columns") {
+    for (const std::string& study : {std::string("planet-life.toml"), std::string("gusts.toml"),
+                                     std::string("planet-crack.toml")}) {
+        const auto said = program("describe " + test::study(study) +
+                                  " --set ensemble.instances=8 --set "
+                                  "ensemble.threshold_instances=20");
+        INFO(said.output);
+        REQUIRE(said.code == 0);
+        // The resolved study before it is TOML, whose inline tables cannot be broken.
+        const std::size_t begin = said.output.find("\nfalse alarms\n");
+        REQUIRE(begin != std::string::npos);
+        std::istringstream lines(said.output.substr(begin));
+        for (std::string line; std::getline(lines, line);) {
+            INFO(line);
+            CHECK(line.size() <= 80);
+        }
+    }
 }
 
 TEST_CASE("describe says which damping is left out") {
