@@ -305,7 +305,7 @@ TEST_CASE("Ten million rows are answered in bounded time and memory") {
               " features " + path + " --study " + kSmall + " --sampling-Hz 280 --speed stated");
     INFO(outcome.output);
     CHECK(outcome.code == 0);
-    CHECK(outcome.mentions("1250000 mesh periods of sensor signal"));
+    CHECK(outcome.mentions("mesh periods: 1250000 of acceleration"));
 }
 
 }  // namespace
