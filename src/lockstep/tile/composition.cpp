@@ -13,7 +13,7 @@ std::size_t place(int k, std::size_t period) {
 void add_up(std::span<const machine::AlignedVector* const> parts, machine::AlignedVector& sum) {
     const std::size_t size = sum.size();
     double* __restrict out = sum.data();
-    if (parts.size() == 3) {  // a planetary train's: read and written once
+    if (parts.size() == 3) {  // a planetary train: one pass over memory
         const double* __restrict a = parts[0]->data();
         const double* __restrict b = parts[1]->data();
         const double* __restrict c = parts[2]->data();

@@ -30,7 +30,8 @@ double largest_stiffness(const StiffnessNodes& nodes) {
     return *std::max_element(nodes.stiffness.begin(), nodes.stiffness.end());
 }
 
-// Springs of a pair under unilateral contact: one that carries all where single teeth are unknown.
+// Springs per pair under unilateral contact; a single one carries the whole load if tooth pairs are
+// not resolved.
 int contacts_of(const MarchPlan& plan) {
     return plan.mesh_law == dynamics::MeshLaw::unilateral ? std::max(1, plan.nodes.contacts()) : 0;
 }
@@ -123,7 +124,7 @@ class QuasiStatic {
             state_.tooth_e[i] =
                 plan_.nodes.tooth_gap.empty() ? 0.0 : plan_.nodes.tooth_gap[first + i / W];
         }
-        if (known == 0) {  // one carries all
+        if (known == 0) {  // one spring carries the whole load
             std::copy(state_.k.begin(), state_.k.end(), state_.tooth_k.begin());
             std::fill(state_.tooth_e.begin(), state_.tooth_e.end(), 0.0);
         }
@@ -154,7 +155,7 @@ class QuasiStatic {
         }
     }
 
-    // [contact][pair][lane]
+    // Row of one spring in [contact][pair][lane].
     template <class Rows>
     double* tooth_row(Rows& rows, std::size_t slot, int pair) const {
         return rows.data() + (slot * static_cast<std::size_t>(plan_.nodes.pairs) +
@@ -162,7 +163,7 @@ class QuasiStatic {
                                  W;
     }
 
-    // The varying forces; there is no speed for inertia to feel.
+    // Sets up the time-varying forces; without inertia there is no effect of the speed.
     void drive(std::span<const dynamics::GearboxInputs> inputs) {
         if (settings_.excitation == nullptr) {
             return;
@@ -188,7 +189,8 @@ class QuasiStatic {
         }
     }
 
-    // `counted`: adds the mesh period to the contact loss.
+    // Solves and records one mesh period, and returns the index of its record. `counted` adds it to
+    // the contact loss.
     int add_record(int mesh, const MeshOverrides& overrides, bool counted) {
         machine::leave_if_stopped();
         if (rows_ != nullptr) {
@@ -266,10 +268,10 @@ class QuasiStatic {
     const TileSettings& settings_;
     StaticLanes<W> lanes_;
     const machine::AlignedVector steady_force_;
-    DrivenForces<W> forces_;                // only with
+    DrivenForces<W> forces_;                // used only with
     std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
-    std::optional<ToothContact> contact_;  // where teeth can part
+    std::optional<ToothContact> contact_;  // present if teeth can separate
     ContactTime contact_time_;
     TileResult result_;
 };
