@@ -1,8 +1,8 @@
-// The parts of a lockstep march that all integrators share: the pairs' stiffness at a stage node,
-// the sensor's filter, the samples, and the loop over the steps of a mesh period.
+// Common parts of all integrators in lockstep: the stiffness of the pairs at a stage node, the
+// sensor's filter, the samples, and the loop over the steps of a mesh period.
 //
-// A model (dynamics/*_motion.hpp) gives its lanes, sizes and accelerations for kWidth gearboxes; an
-// integrator gives its scratch, Stages<Model>, and step<Model>().
+// A model (dynamics/*_motion.hpp) provides its lanes, sizes and accelerations for kWidth gearboxes.
+// An integrator provides its workspace, Stages<Model>, and step<Model>().
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace gearpod::lockstep {
 
-// Static transmission error of all pairs at a stage node.
+// Loads the static transmission error of all pairs at a stage node.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lanes& lanes, int step,
                                 int node, typename Model::Pairs& m) {
@@ -37,8 +37,8 @@ GEARPOD_INLINE void load_errors(const MarchPlan& plan, const typename Model::Lan
     }
 }
 
-// Loads the data of the mesh law for all pairs at a stage node, with shared values spread over the
-// lanes, and the place of the values of forces that vary with time (driven_forces.hpp).
+// Loads the data of the mesh law for all pairs at a stage node; shared values are copied to all
+// lanes. Also sets the row of the time-varying forces (driven_forces.hpp).
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                const MeshOverrides& overrides, int step, int node,
@@ -79,7 +79,7 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
         }
     }
     if constexpr (Model::Mesh::kHasError) {
-        if (!Model::Mesh::kHasTeeth || !plan.nodes.error.empty()) {  // else cleared already
+        if (!Model::Mesh::kHasTeeth || !plan.nodes.error.empty()) {  // otherwise already cleared
             load_errors<Model>(plan, lanes, step, node, m);
         }
     }
@@ -94,8 +94,8 @@ GEARPOD_INLINE void load_pairs(const MarchPlan& plan, const typename Model::Lane
     }
 }
 
-// Contribution of the input at the step's nodes, three or one, to a filter state; m is one lane's
-// column of coefficients, W apart, from the state's first on.
+// Contribution of the input at the step's nodes to a filter state. m points to the coefficients of
+// this state in one lane; those of successive nodes are 4 W apart.
 template <int W, class Real>
 GEARPOD_INLINE Real filter_input(const Real* m, Real u) {
     return m[0] * u;
@@ -111,7 +111,7 @@ GEARPOD_INLINE Real filter_row(const Real* m, int at, Real p, Real dp, Real sum)
     return std::fma(m[at * W], p, std::fma(m[(at + 1) * W], dp, sum));
 }
 
-// A step of one channel's filter `f` from its inputs at the step's nodes.
+// Advances one channel's filter `f` by one step from its inputs at the step's nodes.
 template <int W, class Real, class... Inputs>
 GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
                                    const Inputs* __restrict... inputs) {
@@ -133,7 +133,7 @@ GEARPOD_INLINE void filter_channel(const Real* __restrict m, Real* __restrict f,
     }
 }
 
-// The sensor's step from its inputs at the step's nodes.
+// Advances the filters of all channels by one step from the inputs at its nodes.
 template <int W, class Filter, class State, class... Inputs>
 GEARPOD_INLINE void step_filter(const Filter& filter, const Step& step, int channels, State& state,
                                 const Inputs*... inputs) {
@@ -174,8 +174,8 @@ GEARPOD_INLINE void write_sample(const MarchPlan& plan, const State& state, int 
     }
 }
 
-// The cubic through both ends of a step with their rates: weights of the values there and of the
-// rates times the step's length (Hermite). Its error is of order 4, as small as that of a step.
+// Cubic Hermite interpolation within a step: weights of the end values, and of the end rates times
+// the step length. Its error is of order 4, comparable to that of a step.
 struct Between {
     double start, end, start_rate, end_rate;
 
@@ -191,7 +191,7 @@ struct Between {
     }
 };
 
-// The samples inside a step that has led from `before` to `after`.
+// Writes the samples inside a step from state `before` to state `after`.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                  const Step& step, const TileState& before, const TileState& after,
@@ -234,7 +234,8 @@ GEARPOD_INLINE void write_inside(const MarchPlan& plan, const typename Model::La
     }
 }
 
-// Singles march on grids with a node on every sample.
+// Loop over the steps of a mesh period. In single precision the grid must have a step boundary on
+// every sample.
 template <class Integrator, class Model, class State, class Filter>
 GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lanes& lanes,
                                 const Filter& filter, const MeshOverrides& overrides, State& state,
