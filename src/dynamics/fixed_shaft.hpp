@@ -3,9 +3,9 @@
 //
 // Order of the motions q: x_1 y_1 x_2 y_2 (m; 1 the pinion, 2 the gear, y along the line of action)
 // and u_m u_1 u_2 u_b (m) of motor, pinion, gear and load. u = R_b theta with the pinion's base
-// radius for motor and pinion, the gear's for gear and load, so the mesh deflects by u_1 - u_2 -
-// y_1 + y_2. Every spring-damper acts on both its ends. Eq. 4.4 prints the mesh force on the gear
-// with the sign of that on the pinion, which would create energy.
+// radius for motor and pinion, and the gear's for gear and load. The mesh thus deflects by u_1 -
+// u_2 - y_1 + y_2. Every spring-damper acts on both its ends. Eq. 4.4 prints the mesh force on the
+// gear with the sign of that on the pinion, which would create energy.
 #pragma once
 
 #include <string>

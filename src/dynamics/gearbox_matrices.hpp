@@ -1,5 +1,5 @@
-// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f, and
-// its static equilibrium and natural frequencies.
+// Equations of motion of a gearbox of any kind, M q'' + (C + G) q' + (K + K_inertial) q = f.
+// Includes static equilibrium and natural frequencies.
 #pragma once
 
 #include <Eigen/Core>

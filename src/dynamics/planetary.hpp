@@ -122,7 +122,7 @@ double mesh_damping_factor(const PlanetaryLayout& layout, const PlanetaryInputs&
 
 // Motion without any deflection: free rotation of the train relative to its fixed member. It is
 // neutral in a real gearbox. In the linear model, the centrifugal term W^2 x lets it grow at a rate
-// near W, because the model lacks the rotation of the bearing force that cancels it. The time
+// near W. The model lacks the rotation of the bearing force that cancels this term. The time
 // integration therefore removes it (lockstep/tile).
 Eigen::VectorXd rigid_rotation(const PlanetaryLayout& layout);
 

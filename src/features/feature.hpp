@@ -69,9 +69,10 @@ enum Need : unsigned {
 inline constexpr unsigned kSun = kSunRms | kSunMoments;
 inline constexpr unsigned kRing = kRingRms | kRingMoments;
 
-// Signals that a feature uses: those of the record (nothing), those of its change since the
-// baseline record (change), or the ratio of the feature's values for the record and its baseline
-// (baseline).
+// Comparison with the baseline record.
+// - nothing: the feature of the record.
+// - change: the feature of the change since the baseline record.
+// - baseline: the feature of the record divided by that of the baseline record.
 enum class Compared { nothing, change, baseline };
 
 struct Feature {

@@ -1,6 +1,7 @@
-// Tip relief, root relief and crowning: material removed from the flanks of all teeth of a gear
-// near the ends of contact and of the face width, as a gap along the line of action. Lengths are in
-// metres; those of relief are along the line of action, inwards from the end of contact.
+// Tip relief, root relief and crowning: material removed near the ends of contact and of the face
+// width, from the flanks of all teeth of a gear. It is given as a gap along the line of action.
+// Lengths are in metres; those of relief are along the line of action, inwards from the end of
+// contact.
 #pragma once
 
 #include <vector>

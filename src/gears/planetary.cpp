@@ -228,9 +228,9 @@ double ring_to_sun_phase(const PlanetaryTrain& train) {
 }
 
 // The sun touches a tooth's trailing flank on the line between the axes when the tooth's middle is
-// half its thickness, on the sun's working circle, past that line. The ring touches the leading
-// flank when it is half its thickness, on the ring's working circle, before it. Standard teeth are
-// half a pitch thick on both.
+// half its thickness past that line. The ring touches the leading flank when the middle is half its
+// thickness before it. The thicknesses are those on the working circles of the sun and ring meshes.
+// Standard teeth are half a pitch thick on both.
 double ring_to_sun_phase(const PlanetaryTrain& train, const Gear& planet, double sun_angle_rad,
                          double ring_angle_rad, PlanetSense sense) {
     const double a = planet.pressure_angle_rad;

@@ -67,10 +67,11 @@ FlankDeviations wave_deviations(int teeth, double pressure_angle_rad, const Devi
 ToothTolerances measured_deviations(double pressure_angle_rad, const std::vector<double>& along,
                                     const std::vector<double>& against);
 
-// Scales of gears of which 90 % individually meet each of the tolerances f_pt, F_p and F_r, and of
-// which 90 % of sides meet F_alpha (as slopes, without form deviations). If the scatter due to f_pt
-// causes more runout than F_r, the gears have no eccentricity. Two thirds of a slope are common to
-// a side, because one tool cut it. The result is the same for every call and on every machine.
+// Scales of random gears that just meet the tolerances. 90 % of the gears meet each of f_pt, F_p
+// and F_r individually. 90 % of the sides meet F_alpha (as slopes, without form deviations). If the
+// scatter due to f_pt causes more runout than F_r, the gears have no eccentricity. Two thirds of a
+// slope are common to a side, because one tool cut it. The result is the same for every call and on
+// every machine.
 inline constexpr double kShareWithin = 0.9;
 DeviationScales scales_of(const ToothTolerances& tolerances, int teeth, double pressure_angle_rad);
 

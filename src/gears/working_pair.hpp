@@ -20,7 +20,7 @@ namespace gearpod::gears {
 double reference_centre_distance(const Gear& gear_1, const Gear& gear_2);
 double base_centre_distance(const Gear& gear_1, const Gear& gear_2);
 
-// Pressure angle at that distance; 0 if it is smaller than that of the base circles. At the
+// Pressure angle at that distance; 0 if it does not exceed that of the base circles. At the
 // reference distance it equals that of the teeth exactly.
 double working_angle_at(const Gear& gear_1, const Gear& gear_2, double centre_distance_m);
 
@@ -60,8 +60,9 @@ struct WorkingShifts {
 //   determines the distance and the sun's shift; otherwise it determines the planet's shift, with a
 //   default of 0 for the sun.
 // - Other unspecified shifts are 0.
-// - If more is specified than fits, a mesh has backlash or overlap. `gear_1`, `gear_2` and `ring`
-//   are the unshifted gears; `ring` is null for a pair.
+// - If more is specified than fits, a mesh has backlash or overlap.
+//
+// `gear_1`, `gear_2` and `ring` are the unshifted gears; `ring` is null for a pair.
 WorkingShifts working_shifts(const Gear& gear_1, const Gear& gear_2, const Gear* ring,
                              const DrawnShifts& drawn);
 

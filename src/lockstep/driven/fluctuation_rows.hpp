@@ -43,9 +43,9 @@ void add_splines_1(const SplineRows& rows);
 void add_splines_4(const SplineRows& rows);
 void add_splines_8(const SplineRows& rows);
 
-// Arguments of write_pace. From the variation x of a speed and its derivative by the phase at every
-// node, it writes the acceleration of the train's rotation and then the three PaceValue values.
-// Rows have `values` values; these start at index `first_value`.
+// Arguments of write_pace. Inputs are the variation x of a speed and its derivative by the phase at
+// every node. It writes the acceleration of the train's rotation and then the three PaceValue
+// values. Rows have `values` values; these start at index `first_value`.
 struct PaceRows {
     int nodes = 0, values = 0, first_value = 0;
     const double* variation = nullptr;

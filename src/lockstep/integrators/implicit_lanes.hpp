@@ -3,10 +3,11 @@
 //
 // A stage solves for the acceleration A in
 //   M A + C V + K Q = f,   V = v + a A,   Q = x + b A,
-// where a is proportional to the step, and b to its square. With one row r_p per pair, C = C_0 +
-// sum c_p r_p r_p^T and K = K_0 + sum k_p r_p r_p^T, so only the mesh terms change. With H = M + a
-// C_0 + b K_0, g = f - C_0 v - K_0 x and y = H^-1 g, the mesh forces F and the acceleration follow
-// from the small system
+// where a is proportional to the step, and b to its square. With one row r_p per pair,
+//   C = C_0 + sum c_p r_p r_p^T,   K = K_0 + sum k_p r_p r_p^T,
+// so only the mesh terms change. With
+//   H = M + a C_0 + b K_0,   g = f - C_0 v - K_0 x,   y = H^-1 g,
+// the mesh forces F and the acceleration follow from the small system
 //   (1 + S G) F = k R x + c R v + S R y,   H A = g - R^T F,
 //   S = diag(a c_p + b k_p),   R = rows r_p,   G = R H^-1 R^T.
 // This is the Woodbury identity in mechanical terms. Since S >= 0, a mesh without load causes no

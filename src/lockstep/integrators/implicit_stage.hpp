@@ -205,7 +205,7 @@ GEARPOD_INLINE void mesh_loads(const ImplicitLanes<W>& p, const StageSpan<W>& sp
     }
 }
 
-// Solves (1 + S G) F = force in place by elimination of S^-1 + G, whose inverted pivots e_i = s_i /
+// Solves (1 + S G) F = force in place by elimination of S^-1 + G. The inverted pivots e_i = s_i /
 // (1 + s_i g_ii) exist even for s_i = 0. Pivoting is unnecessary: 1 + s_i g_ii is at least 1,
 // because G is positive definite and nearly symmetric. `matrix` is workspace.
 template <int W>
@@ -312,7 +312,7 @@ GEARPOD_INLINE int push(int i, const double* __restrict front, StageScratch<Mode
     return changes;
 }
 
-// Updates the contacts at the stage's end, where a mesh deflects by R Q = d + b (y - G F) with F =
+// Updates the contacts at the stage's end. There a mesh deflects by R Q = d + b (y - G F) with F =
 // t.force (0 if `first`). Returns true if any lane changed.
 template <class Model, int W = Model::kWidth>
 GEARPOD_INLINE bool touch(const ImplicitLanes<W>& p, const double* __restrict matrix,

@@ -40,10 +40,10 @@ FaultPattern sun_fault_pattern(const PairSet& pairs, const PlanetTurns& planets,
 FaultPattern ring_fault_pattern(const PairSet& pairs, const PlanetTurns& planets, int ring_teeth);
 
 // Pattern of a planet tooth, which meets the sun, or the ring, once per planet revolution. With
-// PlanetSide::both, the two engagements are half a revolution apart: (Z_p - 1) / 2 mesh periods
-// from pitch point to pitch point, because the tooth loads opposite flanks on sun and ring, or (Z_p
-// + 1) / 2 in the reversed sense. Curve 0 belongs to the sun side if it is included; the ring side
-// then has curve 1. `planet` is 0 to N - 1.
+// PlanetSide::both, the two engagements are half a revolution apart. From pitch point to pitch
+// point that is (Z_p - 1) / 2 mesh periods, because the tooth loads opposite flanks on sun and
+// ring. In the reversed sense it is (Z_p + 1) / 2. Curve 0 belongs to the sun side if it is
+// included; the ring side then has curve 1. `planet` is 0 to N - 1.
 enum class PlanetSide { sun, ring, both };
 FaultPattern planet_fault_pattern(const PairSet& pairs, int planet, PlanetSide side,
                                   int planet_teeth);

@@ -29,7 +29,8 @@ struct Passage {
 };
 
 // Stiffness of the tooth pairs' slices during these steps of the passage, N/m, [step -
-// first_step][stage node][tooth pair][slice], in a table with `tooth_pairs` and `slices` entries.
+// first_step][stage node][tooth pair][slice]. `tooth_pairs` and `slices` are the sizes of the
+// table.
 std::vector<double> faulty_tooth_pairs(const PairSet& pairs, const stiffness::FaultyMesh& faulty,
                                        const Passage& passage, const StepPositions& steps,
                                        int tooth_pairs, int slices = 1);

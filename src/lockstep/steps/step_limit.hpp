@@ -49,8 +49,8 @@ inline constexpr double kMostExplicitSteps = 20e3;
 // rk4 if it is stable with at most kMostExplicitSteps steps per mesh period, otherwise sdirk3.
 Integrator choose_integrator(double stable_steps_per_mesh);
 
-// Steps per mesh period with which an implicit integrator keeps errors of the sensor signal and of
-// the motion within 0.1 % of their largest values. It takes a fixed number of steps per period of
+// Steps per mesh period for an implicit integrator. Errors of the sensor signal and of the motion
+// then stay within 0.1 % of their largest values. It takes a fixed number of steps per period of
 // the sensor's band edge and of the fastest oscillating mode (damping ratio below one half). Modes
 // above five times the band edge count as lying there; their response at the sensor is below 1/600.
 double implicit_steps(Integrator integrator, const dynamics::GearboxMatrices& matrices,

@@ -1,6 +1,6 @@
 // Pilot computation that chooses the time steps of a whole ensemble. It integrates a tile of the
-// ensemble's gearboxes over the healthy orbit and one passage of the fault to find where steps may
-// be long. The resulting grid is fixed and serves all lanes.
+// ensemble's gearboxes over the healthy periodic orbit and one passage of the fault to find where
+// steps may be long. The resulting grid is fixed and serves all lanes.
 #pragma once
 
 #include <functional>
@@ -38,9 +38,9 @@ class StepProfile {
 };
 
 // Profile estimated from steps on `grid` with an integrator that estimates its own error (bs3).
-// With these steps the estimate, the largest over lanes, mesh periods and degrees of freedom, stays
-// within `tolerance` of the largest position and of the largest velocity. The estimate grows with
-// the third power of the step.
+// With these steps the estimate stays within `tolerance` of the largest position and of the largest
+// velocity. It is the largest over lanes, mesh periods and degrees of freedom. It grows with the
+// third power of the step.
 StepProfile estimated_profile(const Pilot& pilot, const PhaseGrid& grid, double tolerance);
 
 struct GradedChoice {

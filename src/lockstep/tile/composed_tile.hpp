@@ -218,8 +218,8 @@ class ComposedTile : MarchedTile<W> {
         LaneMask<W> away_{};
     };
 
-    // Passes superposed mesh periods to settings_.hear without keeping them; requires that all
-    // lanes keep contact.
+    // Passes superposed mesh periods to the callback settings_.hear without keeping them; requires
+    // that all lanes keep contact.
     void hear_composed(const Composition& whole, const LaneMask<W>& kept) {
         Changes changes(*this, whole, kept);
         MeshRecord composed = new_record();

@@ -19,7 +19,7 @@ std::vector<int> part_periods(std::vector<int> teeth);
 std::vector<int> part_periods(const ToothErrors& errors);
 // Errors of the gears with this number of teeth; those of all other gears are zero.
 ToothErrors errors_of_part(ToothErrors errors, int teeth);
-// Number of mesh periods integrated for the parts, each after a run-in, and for the orbit.
+// Number of mesh periods integrated for the parts, each after a run-in, and for the periodic orbit.
 int part_meshes(std::span<const int> periods, int run_in_meshes);
 
 // Motion due to the errors of the gears with one number of teeth; all arrays are [mesh of its
@@ -27,7 +27,7 @@ int part_meshes(std::span<const int> periods, int run_in_meshes);
 struct ComposedPart {
     std::vector<MeshRecord> records;
     std::vector<TileState> states;  // at the start of each mesh period
-    // ToothContact::least_pressing of the difference from the orbit.
+    // ToothContact::least_pressing of the difference from the periodic orbit.
     std::vector<machine::AlignedVector> pressing;
 };
 
@@ -37,15 +37,16 @@ struct Composition {
     machine::AlignedVector orbit_pressing;
     std::vector<ComposedPart> parts;
 
-    // Subtracts the orbit from all parts but the first, so that the sum of the parts is the motion.
+    // Subtracts the periodic orbit from all parts but the first, so that the sum of the parts is
+    // the motion.
     void take_orbit_once();
     // Superpose mesh period k, which may be any integer. `record` and `state` must have their
     // sizes.
     void record(int k, MeshRecord& record) const;
     void state(int k, TileState& state) const;
-    // [lane]: true if all tooth pairs stay in contact in mesh periods [from, to), in every part and
-    // on the orbit, at all positions at which the integrator evaluates forces. The test uses lower
-    // bounds over stretches of the mesh period, so true is certain.
+    // [lane]: true if all tooth pairs stay in contact in mesh periods [from, to). This includes
+    // every part and the periodic orbit, at all positions at which the integrator evaluates forces.
+    // The test uses lower bounds over stretches of the mesh period, so true is certain.
     std::vector<char> keeps_contact(int from, int to, std::size_t lanes) const;
 };
 

@@ -181,7 +181,8 @@ class MarchedTile {
                !std::isfinite(largest<W>(state_.filter, lane));
     }
 
-    // Removes a diverged lane from the integration: sets its records to NaN and its orbit to zero.
+    // Removes a diverged lane from the integration: sets its records to NaN and its periodic orbit
+    // to zero.
     void retire(int lane) {
         result_.status[static_cast<std::size_t>(lane)] = LaneStatus::diverged;
         for (MeshRecord& record : result_.records) {

@@ -12,12 +12,12 @@ namespace gearpod::lockstep {
 enum class LaneStatus { ok, diverged, unsettled };
 
 struct TileSettings {
-    double tolerance = 1e-10;  // relative, of the state; criterion for the orbit and for decay
-    int max_meshes = 200;      // limit for converging to the orbit or for one decay
-    int march_meshes = 0;      // 0: reuse the orbit; otherwise: record this many mesh periods
+    double tolerance = 1e-10;  // relative, of the state; criterion for convergence and decay
+    int max_meshes = 200;      // limit for convergence to the periodic orbit, or for one decay
+    int march_meshes = 0;      // 0: reuse the periodic orbit; otherwise: record this many
     // Mesh periods integrated before the recorded ones. With tooth errors, or an excitation that
-    // does not repeat, no periodic orbit exists to start from. The tile then starts from the orbit
-    // without them.
+    // does not repeat, no periodic orbit exists to start from. The tile then starts from the
+    // periodic orbit without them.
     int run_in_meshes = 0;
     // Superposes the mesh periods of lanes whose tooth pairs all stay in contact from the effects
     // of each gear's errors (composition.hpp). Requires tooth errors and a steady excitation.
@@ -54,9 +54,9 @@ struct TileResult {
     std::vector<LaneStatus> status;  // per lane
     // Per lane, with TileSettings::compose: true if its healthy mesh periods were superposed.
     std::vector<char> composed;
-    // [gear pair][lane]: contact loss ratio, the fraction of its engagement within the nominal path
-    // of contact in which a tooth pair carries no load, averaged over the tooth pairs. It is
-    // counted in one of kContactMeshes mesh periods of the span including its faults
+    // [gear pair][lane]: contact loss ratio, averaged over the tooth pairs. It is the fraction of a
+    // tooth pair's engagement, within the nominal path of contact, in which it carries no load.
+    // Counted in one of kContactMeshes mesh periods of the span including its faults
     // (tooth_contact.hpp); if mesh periods repeat, in the healthy one. Superposed mesh periods have
     // no contact loss. Empty if teeth cannot separate, and with TileSettings::healthy.
     machine::AlignedVector contact_loss;

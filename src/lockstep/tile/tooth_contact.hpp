@@ -12,8 +12,8 @@
 namespace gearpod::lockstep {
 
 // True for mesh periods in which contact loss is counted. These are one in kContactMeshes,
-// including mesh period 0, spread evenly over a span and over the teeth of every gear (multiples of
-// the golden ratio).
+// including mesh period 0. Multiples of the golden ratio spread them evenly over a span and over
+// the teeth of every gear.
 inline constexpr unsigned kContactMeshes = 144;
 constexpr bool counts_contact(int mesh) {
     return static_cast<std::uint32_t>(mesh) * 2654435769u < 0xffffffffu / kContactMeshes;
@@ -40,8 +40,8 @@ class ToothContact {
     // is infinite where a tooth pair is not engaged, and minus infinite if the motion is not
     // finite. It covers all positions at which the integrator evaluates the contact forces of a
     // step. `gaps` are those of the mesh period (tooth_gaps). With `orbit`, the record of a mesh
-    // period without errors, it bounds the difference from that orbit; such bounds add up to bounds
-    // of sums.
+    // period without errors, it bounds the difference from that record; such bounds add up to
+    // bounds of sums.
     machine::AlignedVector least_pressing(const MeshRecord& record, std::span<const PairGaps> gaps,
                                           const MeshRecord* orbit) const;
 
