@@ -56,6 +56,7 @@ signals::PathGrid path_grid(const Scene& scene);
 struct TileWishes {
     // With either, or for its own sake, the records of every mesh.
     bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
+    int contact_meshes = 0;                         // likewise
     bool with_records = false;
     // Mesh periods of the sensor's samples that will be looked at where these are heard; -1: all.
     int signal_meshes = -1;
