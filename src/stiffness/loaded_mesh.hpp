@@ -7,7 +7,6 @@
 // unilateral: they carry compression only. d is the loaded static transmission error. With relief
 // that starts at the end of single contact and whose amount at the tip is the deflection of one
 // pair, d is constant at that load (Munro 1989; Smith, Gear Noise and Vibration (2003)).
-// deflection of one pair, d is constant at that load.
 #pragma once
 
 #include <vector>
