@@ -19,7 +19,7 @@ struct SpanLayout {
     int planet_teeth = 0;    // Z_p
     int ring_teeth = 0;      // Z_r, planet turns (relative to the carrier) in the span
     int carrier_meshes = 1;  // M_c, meshes per carrier turn: Z_r ring fixed, Z_s sun fixed;
-                             // 1: the carrier stands still
+                             // 1: stationary carrier
 
     int meshes() const { return planet_teeth * ring_teeth; }
 };

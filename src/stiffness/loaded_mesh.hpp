@@ -4,9 +4,9 @@
 //     F = sum over tooth pairs j in contact and slices s of k_js max(0, d - e_js),
 //
 // with the stiffness k and the gap e of each slice (relief, crowning, corner contact). Contacts are
-// unilateral: they carry compression only. d is the loaded static transmission error. With relief
-// that starts at the end of single contact and whose amount at the tip is the deflection of one
-// pair, d is constant at that load (Munro 1989; Smith, Gear Noise and Vibration (2003)).
+// unilateral: they carry compression only. d is the loaded static transmission error. Relief may
+// start at the end of single contact, with the deflection of one pair as its amount at the tip.
+// Then d is constant at that load (Munro 1989; Smith, Gear Noise and Vibration (2003)).
 #pragma once
 
 #include <vector>

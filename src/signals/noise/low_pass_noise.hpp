@@ -5,9 +5,9 @@
 //     B = integral of |H|^2 = f_c (pi/8) / sin(pi/8)
 //
 // and the autocovariance is the sum over its poles of c_k exp(p_k |tau|). The samples have exactly
-// that distribution, aliases included, from the first sample on. They are generated from as many
-// independent normal variates by the innovations model, whose gains follow from a Riccati recursion
-// (Anderson and Moore, Optimal Filtering (1979), section 9.3).
+// that distribution, aliases included, from the first sample on. They are generated from the same
+// number of independent normal variates by the innovations model. Its gains follow from a Riccati
+// recursion (Anderson and Moore, Optimal Filtering (1979), section 9.3).
 #pragma once
 
 #include <array>

@@ -7,8 +7,8 @@
 // along the carrier frame's axes. The sensor measures the vertical component of the rotated vector.
 //
 // The sensor's low-pass filter acts on each planet's acceleration before the path, not on the
-// resultant, so that each mesh period is filtered once for all carrier angles at which it recurs.
-// The filter's time constant 1/omega_c is milliseconds, while the path varies with the carrier at
+// resultant. Each mesh period is then filtered once for all carrier angles at which it recurs. The
+// filter's time constant 1/omega_c is milliseconds, while the path varies with the carrier at
 // Omega, within seconds. The two operations therefore commute up to a few Omega/omega_c. The
 // difference is 7e-4 of the signal's rms for a carrier at 8.87 rpm and an 800 Hz filter, where
 // Omega/omega_c is 2e-4 (measured by tests/signals/path/test_path_and_filter.cpp). Most of it is

@@ -20,7 +20,7 @@ Alignment align(std::span<const double> signal, std::span<const double> other);
 // Correlation without a shift.
 double correlation(std::span<const double> signal, std::span<const double> other);
 
-// periodic(i + shift) for every sample i, band-limited between samples.
+// Periodic signal shifted to periodic(i + shift) at every sample i, band-limited between samples.
 std::vector<double> shifted(std::span<const double> periodic, double shift);
 
 }  // namespace gearpod::signals

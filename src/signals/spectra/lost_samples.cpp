@@ -25,7 +25,8 @@ Lag lag_between(std::span<const double> all, std::size_t before, std::size_t nex
         double xy = 0.0, xx = 0.0, yy = 0.0;
         for (std::size_t i = static_cast<std::size_t>(farthest); i + farthest < length; ++i) {
             const double x = all[before + i];
-            const double y = all[next + i - static_cast<std::size_t>(lag)];  // wraps round and back
+            const double y =
+                all[next + i - static_cast<std::size_t>(lag)];  // wraps around and back
             xy += x * y;
             xx += x * x;
             yy += y * y;

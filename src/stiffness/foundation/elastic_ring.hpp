@@ -9,10 +9,10 @@
 // weighted as the work of its own stresses, which makes the coupling symmetric to rounding.
 //
 // Plane strain agrees with Sainsot's coefficients. Within the range of his fit the whole compliance
-// differs from his by at most 10 % where the root radius is at least twice the bore's, and by at
-// most 16 % elsewhere (5 % on average). The part that is quadratic in the lever differs by at most
-// 5 %. The rest of the difference is due to the shear stress, which here balances the moment about
-// the gear's centre: R_b / (R_f cos a) times his.
+// differs from his by at most 10 % where the root radius is at least twice the bore's. Elsewhere it
+// differs by at most 16 % (5 % on average). The part that is quadratic in the lever differs by at
+// most 5 %. The rest of the difference is due to the shear stress, which here balances the moment
+// about the gear's centre: R_b / (R_f cos a) times his.
 //
 // An internal gear is fixed at its outer circle. The longer lever of a cracked tooth
 // (FoundationCompliance) does not change the shear.

@@ -3,9 +3,9 @@
 //
 //     1/k_f = cos^2 a / (E L) [L (u/S)^2 + M (u/S) + P (1 + Q tan^2 a)],
 //
-// with a the contact angle, u the distance from the root circle to the intersection of the line of
-// action and the tooth's centre line, and S the width of the tooth's root. Yang (2022), Eq. 20. The
-// formula has no coupling between teeth.
+// with a the contact angle and S the width of the tooth's root. u is the distance from the root
+// circle to the intersection of the line of action and the tooth's centre line. Yang (2022), Eq.
+// 20. The formula has no coupling between teeth.
 #pragma once
 
 #include "stiffness/foundation/fillet_foundation.hpp"

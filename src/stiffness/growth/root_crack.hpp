@@ -3,8 +3,8 @@
 // (teeth/crack_law.hpp).
 //
 // Sections: the plane of the crack, from the root to the height of the other flank, is a strip of
-// the width w = 2 h_root / sin v, with v between crack and centre line. The force across it, and
-// the force's moment about its middle, open a single edge crack in tension and bending
+// the width w = 2 h_root / sin v. v is the angle between crack and centre line. The force across
+// it, and the force's moment about its middle, open a single edge crack in tension and bending
 // (teeth/edge_crack.hpp). Omitted: shear along the plane (mode II), the body below the plane, and
 // changes of the crack's direction.
 //

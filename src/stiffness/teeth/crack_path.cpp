@@ -11,9 +11,9 @@ namespace gearpod::stiffness {
 
 namespace {
 
-// Factors on the strip's bending stress, from their value at the surface to their value for deep
-// cracks, and the fraction of the crack's whole length over which the surface value fades.
-// Calibrated (crack_path.hpp).
+// Factors on the strip's bending stress, for cracks at the surface and for deep cracks. kFading is
+// the fraction of the crack's whole length over which the surface value fades. Calibrated
+// (crack_path.hpp).
 struct ToothFactors {
     double surface_moment, surface_lever, deep_lever;
 };

@@ -16,13 +16,13 @@
 //     K_II = V / w F_s(a/w) sqrt(pi a) / L.
 //
 // A strip under remote loads has m = 1 and k = 0. A tooth is short and ends in a fillet or corner.
-// Near the surface the moment has a larger effect, and the shear force adds a lever of k w, as in
-// the stress correction factor of ISO 6336-3 (for these teeth Y_S h_Fe = 1.33 (h_Fe + 0.28 s_Fn)).
-// Both factors fade with depth, m = m_d + (m_0 - m_d) exp(-a / 0.087 l) and k likewise, where l is
-// the crack's whole length. The moment of a deep crack acts on its ligament only, and the body
-// below it reduces the factor to 0.88. The factors are calibrated with finite elements of whole
-// gears (docs/methods/faults.md), separately for teeth with a fillet and for teeth that end in a
-// corner.
+// Near the surface the moment has a larger effect, and the shear force adds a lever of k w. The
+// stress correction factor of ISO 6336-3 is similar (for these teeth Y_S h_Fe = 1.33 (h_Fe + 0.28
+// s_Fn)). Both factors fade with depth, m = m_d + (m_0 - m_d) exp(-a / 0.087 l) and k likewise,
+// where l is the crack's whole length. The moment of a deep crack acts on its ligament only, and
+// the body below it reduces the factor to 0.88. The factors are calibrated with finite elements of
+// whole gears (docs/methods/faults.md), separately for teeth with a fillet and for teeth that end
+// in a corner.
 //
 // Omitted: contact between the crack's faces.
 #pragma once

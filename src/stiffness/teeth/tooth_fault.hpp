@@ -1,6 +1,6 @@
 // Fault on one or several neighbouring teeth of one gear, described by the laws that it overrides.
-// It may change the tooth's sections (crack, pitting), the contact (chip, pitting), the whole tooth
-// pair (broken tooth) or, where no more is known, the whole mesh (reduced stiffness).
+// It may change the tooth's sections (crack, pitting), the contact (chip, pitting) or the whole
+// tooth pair (broken tooth). Where no more is known, it changes the whole mesh (reduced stiffness).
 //
 // Positions tau count mesh periods since the start of the faulty tooth's engagement.
 #pragma once

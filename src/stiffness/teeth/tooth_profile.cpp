@@ -54,9 +54,8 @@ void ToothProfile::add_fillet(const gears::Gear& gear) {
     const double root = gear.root_radius();
     fillet_radius_ = (gear.dedendum_coefficient - gear.addendum_coefficient) * gear.module_m /
                      (1 - std::sin(gear.pressure_angle_rad));
-    // Yang (2022), Eqs. 10-15, combined. Seen from the point where the involute's normal touches
-    // the base circle, the arc's centre lies on that normal, rho beyond the involute, and root +
-    // rho from the gear's centre.
+    // Yang (2022), Eqs. 10-15, combined. The arc's centre lies on the involute's normal, rho beyond
+    // the involute as seen from the base circle, and root + rho from the gear's centre.
     const double centre = (root + fillet_radius_) * (root + fillet_radius_);
     const double roll_length =
         std::sqrt(std::max(0.0, centre - base_radius_ * base_radius_)) - fillet_radius_;

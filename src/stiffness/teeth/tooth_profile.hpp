@@ -56,7 +56,7 @@ class ToothProfile {
     }
     bool internal() const { return internal_; }
     double base_radius() const { return base_radius_; }
-    // The root section, where the uncracked beam begins.
+    // Root section, where the uncracked beam begins.
     double root() const { return root_; }  // its u
     double root_axial() const { return root_axial_; }
     double root_half_thickness() const { return root_half_thickness_; }
