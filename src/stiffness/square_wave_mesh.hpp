@@ -3,11 +3,12 @@
 //
 // Only the levels are known, so a fault reduces them:
 // - A fault of the mesh (Reduction) multiplies both levels while its tooth is engaged. Park,
-// section V-A, gives 10, 20 and 30 % decreases of the gear mesh stiffness, and the faulty tooth
-// smaller magnitudes in its time-varying profile. The paper does not give their duration; the tooth
-// is assumed weak for as long as it is in contact.
+//   section V-A, gives 10, 20 and 30 % decreases of the gear mesh stiffness, and the faulty tooth
+//   smaller magnitudes in its time-varying profile. The paper does not give their duration; the
+//   tooth is assumed weak for as long as it is in contact.
 // - A fault of the tooth pair (BrokenTooth) removes the stiffness that the pair adds: the low level
-// where it touches alone, the difference of the levels where another pair is in contact.
+//   where it touches alone, the difference of the levels where another pair is in contact.
+//
 // A fault of sections or contact is rejected, because the model has neither.
 #pragma once
 

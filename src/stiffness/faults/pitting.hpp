@@ -3,12 +3,12 @@
 // profile that the rectangle covers.
 // - The contact there has the width L - w: Tian's law of a lost width (2004, Eq. 3.1).
 // - A section there has lost the area w d at one edge of its thickness t (area A = t L, moment of
-// inertia I = t^3 L / 12). By the parallel-axis theorem, about its new centroid,
+//   inertia I = t^3 L / 12). By the parallel-axis theorem, about its new centroid,
 //
-//     A' = A - w d,    I' = I - w d^3 / 12 - w d (A / A') (t - d)^2 / 4.
+//       A' = A - w d,    I' = I - w d^3 / 12 - w d (A / A') (t - d)^2 / 4.
 //
-// Bending, shear and axial compression follow A' and I'. Because the flank is curved, thickness and
-// depth are measured across the tooth.
+//   Bending, shear and axial compression follow A' and I'. Because the flank is curved, thickness
+//   and depth are measured across the tooth.
 //
 // Sources that name this fault as future work: Liang (2016), section 6.2.1; Park (2016), section
 // V-A (spalls).
