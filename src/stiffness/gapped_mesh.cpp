@@ -177,8 +177,9 @@ void GappedMesh::slice_stiffness(int slice, std::span<const double> tau, double 
         k /= slices_;
 }
 
-// Gap of a slice. Outside the path, where the curve's stiffness is not that of the pair among all
-// others, the gap is scaled so that stiffness times gap is right.
+// Gap of a slice. Outside the path the curve's stiffness k differs from the pair's stiffness among
+// all others, `own`. The gap is scaled by own / k there, so that the product of stiffness and gap
+// is right.
 double GappedMesh::slice_gap(int slice, double tau) const {
     const double ratio = spur_->contact_ratio();
     const double at = tau - delay(slice) - path_begin();

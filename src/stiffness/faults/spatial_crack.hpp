@@ -13,8 +13,8 @@
 // compliance where the whole crack affects the contact, and up to 5e-4 where only part of it does.
 //
 // Foundation: the part of the crack below the root section narrows the root to S' = S - q_b sin g
-// with q_b = q - l / cos g. It thereby increases the ratio of lever to width by S / S'. The added
-// foundation compliance is included in that of the beam.
+// with q_b = q - l / cos g. It thereby increases the ratio of lever to width by the factor S / S'.
+// The added foundation compliance is included in that of the beam.
 //
 // By fracture mechanics (teeth/crack_law.hpp) a slice has the whole tooth's compliance and, in
 // bending, the compliance that the crack adds in a tooth of that depth throughout

@@ -8,7 +8,7 @@
 namespace gearpod::stiffness {
 
 // Compliance of a tooth's own foundation by powers of the force's lever over the root's width, u_f
-// / S_f. A crack that reduces the root's width increases that ratio by f > 1.
+// / S_f. A crack that reduces the root's width increases that ratio by the factor f > 1.
 struct FoundationCompliance {
     double squared = 0, linear = 0, constant = 0;  // m/N
     double total(double f = 1) const { return (squared * f + linear) * f + constant; }
