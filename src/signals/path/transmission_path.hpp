@@ -24,6 +24,9 @@
 
 namespace gearpod::signals {
 
+// Sense of the carrier's rotation.
+enum class CarrierSense { positive, negative };
+
 // Part of the path that all gearboxes of a study share, tabulated at every sample of a carrier
 // turn. At mesh c = 0..M_c - 1 and phase p/P, theta = 2 pi (c + p/P) / M_c, or its negative where
 // the carrier turns in the negative sense. For a stationary carrier theta = 0 at all phases.
@@ -37,8 +40,6 @@ namespace gearpod::signals {
 //     exp(alpha (x - pi)^2) = exp(alpha h^2 m^2) exp(2 alpha h^2 f)^m exp(alpha h^2 f^2):
 //
 // a table over m, powers of one number, and a factor (path_weights.hpp).
-enum class CarrierSense { positive, negative };
-
 class PathGrid {
   public:
     // Throws std::invalid_argument unless planets and phases are positive.
