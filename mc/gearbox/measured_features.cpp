@@ -21,9 +21,9 @@ namespace {
 
 using features::Feature;
 
-constexpr int kFewestOfParts = 4;  // samples a mesh period that can be parted (mesh_separation.hpp)
+constexpr int kFewestOfParts = 4;  // samples per mesh period that mesh_separation.hpp needs
 
-// Why a feature cannot be had of this signal; "" if it can.
+// Reason why a feature cannot be computed from this signal; "" if it can.
 std::string missing(const Feature& feature, const Scene& scene, const MeasuredSignal& signal,
                     bool has_reference) {
     const bool planetary = scene.study().gearbox.kind == GearboxKind::planetary;
@@ -52,7 +52,7 @@ std::string missing(const Feature& feature, const Scene& scene, const MeasuredSi
     return "";
 }
 
-// The signals of a recording as features look at them.
+// Prepares the signals of a recording for feature computation.
 class MeasuredInput {
   public:
     MeasuredInput(const Scene& scene, unsigned needs) : scene_(scene), analysis_(scene, needs) {}
@@ -71,7 +71,7 @@ class MeasuredInput {
     }
 
   private:
-    // Over as many planet turns as there are, at most those of the span.
+    // Averages over all available planet turns, at most those of the span.
     void add_te(const MeasuredSignal& signal, features::FeatureInput& input) {
         const std::size_t turn = static_cast<std::size_t>(scene_.span().planet_teeth) *
                                  static_cast<std::size_t>(scene_.te_samples_per_mesh());
@@ -87,7 +87,7 @@ class MeasuredInput {
             value -= sum / static_cast<double>(turn);
             deviation = std::max(deviation, std::abs(value));
         }
-        // What then is left is rounding, whose ratios say nothing.
+        // The remainder is rounding error; its ratios are meaningless.
         if (deviation <= kRounding * largest) {
             std::fill(te_.begin(), te_.end(), 0.0);
         }
@@ -106,7 +106,8 @@ class MeasuredInput {
             static_cast<std::size_t>(scene_.span().planet_teeth) * static_cast<std::size_t>(phases);
         auto folded = signals::fold_of_squares(
             std::span(signal.sensor).first(turn * static_cast<std::size_t>(turns)), turn);
-        // As many squares as of a whole span, whose number the windows divide by.
+        // Scales to the sum over a whole span, because the windows divide by the number of squares
+        // in it.
         if (turns < scene_.span().ring_teeth) {
             for (double& sum : folded) {
                 sum *= static_cast<double>(scene_.span().ring_teeth) / turns;
@@ -128,7 +129,7 @@ class MeasuredInput {
     std::vector<double> te_, amplitude_, tooth_rms_;
 };
 
-// Why a feature has no number although its signal is there.
+// Reason why a feature has no finite value although its signal exists.
 std::string why_no_value(const Feature& feature, const features::FeatureInput& input,
                          const Scene& scene) {
     const auto zero = [](std::span<const double> values) {

@@ -23,7 +23,7 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kPhase = "mesh_phase";
 constexpr const char* kSpeed = "speed_rpm";
 constexpr const char* kTime = "time";
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s
+constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;  // rad/s per rpm
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     if (factor != 1.0) {
@@ -40,7 +40,7 @@ class Reading {
         : path_(path), wanted_(columns), scene_(scene) {}
 
     MeasuredSignal read() {
-        // The libraries that read files serve one thread at a time.
+        // The libraries that read files are not thread-safe.
         static std::mutex reading;
         std::unique_lock lock(reading);
         struct Closed {
@@ -128,7 +128,7 @@ class Reading {
         reject(fmt::format("no column {}; its columns are {}", name, columns_text()));
     }
 
-    // What the values of a column are times.
+    // Factor that converts a column to the program's units.
     double factor(const std::string& name, Quantity quantity) {
         std::string unit = file_->unit(name);
         if (unit.empty() && quantity == Quantity::acceleration) {
@@ -142,7 +142,7 @@ class Reading {
         return factor.value_or(1.0);
     }
 
-    // A column that was asked for.
+    // Reads a column that the user requested.
     std::vector<double> present(const std::string& name, Quantity quantity) {
         if (!file_->has(name)) {
             reject_missing(name);
@@ -151,7 +151,7 @@ class Reading {
         return column(name, quantity);
     }
 
-    // A column of finite numbers as long as the others.
+    // Reads a column and checks that it is finite and as long as the others.
     std::vector<double> column(const std::string& name, Quantity quantity) {
         std::vector<double> values = scaled(file_->read(name), factor(name, quantity));
         reject_column(name, bad_values(values));
@@ -181,7 +181,7 @@ class Reading {
         return {};
     }
 
-    // Seconds of every sample.
+    // Time of every sample, s.
     std::vector<double> times(std::size_t samples) {
         if (wanted_.sampling_Hz <= 0.0 && file_->has(kTime)) {
             std::vector<double> written = column(kTime, Quantity::time);
@@ -238,7 +238,7 @@ class Reading {
         return integrated(phase, speed_rpm);
     }
 
-    // Of a tachometer; the samples between its first pulse and its last are left.
+    // Mesh phase from a tachometer. Keeps the samples between its first and last pulse.
     std::vector<double> phases_of_pulses(std::string& how) {
         const std::vector<double> heights = present(wanted_.tachometer, Quantity::phase);
         const Pulses pulses = problems_.empty() ? tachometer_pulses(heights) : Pulses();
@@ -253,7 +253,7 @@ class Reading {
         return scaled(std::move(counted.count), meshes_per_turn() / wanted_.pulses_per_turn);
     }
 
-    // Of an encoder; samples before its first count and behind its last are cut.
+    // Mesh phase from an encoder. Removes samples before its first and after its last count.
     std::vector<double> phases_of_angle(std::string& how) {
         std::vector<double> written = present(wanted_.encoder, Quantity::angle);
         if (!problems_.empty()) {
@@ -266,9 +266,9 @@ class Reading {
         return scaled(std::move(angle.rad), meshes_per_turn() / (2.0 * std::numbers::pi));
     }
 
-    // Of the member whose speed the study gives.
+    // Mesh periods per turn of the member whose speed the study gives.
     double meshes_per_turn() const {
-        // A turn a second is as many meshes as radians a second.
+        // The argument 2 pi rad/s is one turn per second.
         return std::abs(scene_.drive().mesh_frequency_rad_s(2.0 * std::numbers::pi)) /
                (2.0 * std::numbers::pi);
     }
@@ -280,15 +280,17 @@ class Reading {
         }
     }
 
-    // How many times the speed of the phase the mesh lines show; 1 where they say nothing else.
+    // Ratio of the speed shown by the mesh lines to the stated speed; 1 if the lines do not
+    // contradict it.
     double speed_of_lines(const MeasuredSignal& measured) {
         if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor) {
             return 1.0;
         }
         const auto found =
             signals::mesh_speed(measured.sensor, scene_.samples_per_mesh(), scene_.path_meshes());
-        constexpr double kClearly = 0.5;  // of the best fit
-        constexpr int kEnough = 4;  // harmonics: fewer fit a tooth of the comb further as well
+        constexpr double kClearly = 0.5;  // relative to the best fit
+        // harmonics; with fewer, a ratio that is off by one tooth fits as well
+        constexpr int kEnough = 4;
         if (!found || found->stated > kClearly * found->fit) {
             return 1.0;
         }
@@ -306,7 +308,8 @@ class Reading {
         return found->ratio;
     }
 
-    // Where the phase is only counted samples, times and speed: lost ones leave a jump in it.
+    // Checks for lost samples if the phase comes only from sample numbers, times and speed. Lost
+    // samples then leave a jump in the phase.
     void check_losses(MeasuredSignal& measured) {
         if (wanted_.speed == SpeedCheck::ignore || !measured.has_sensor || !counted_) {
             return;
@@ -316,7 +319,7 @@ class Reading {
                                   measured.losses_noticed));
     }
 
-    // Backwards is as good as forwards.
+    // Mesh phase from the absolute speed; the direction of rotation does not matter.
     std::vector<double> integrated(const std::vector<double>& time,
                                    const std::vector<double>& speed_rpm) {
         if (!problems_.empty()) {
@@ -340,7 +343,8 @@ class Reading {
         return phase;
     }
 
-    // A grid coarser than the samples would fold high frequencies down.
+    // Checks that the study's grid is not coarser than the samples, because it would alias high
+    // frequencies.
     void check_rate(const std::vector<double>& phase, bool sensor, bool te) {
         const double per_mesh =
             static_cast<double>(phase.size() - 1) / (phase.back() - phase.front());
@@ -366,14 +370,14 @@ class Reading {
         }
     }
 
-    // All that any feature looks at.
+    // Largest number of mesh periods that any feature uses.
     int most_meshes() const {
         const bool planetary = scene_.study().gearbox.kind == GearboxKind::planetary;
         return meshes_needed(scene_.study(), scene_.span(),
                              planetary ? features::kSun | features::kRing : 0U);
     }
 
-    static constexpr double kFewestSamples = 2.0;  // a mesh period
+    static constexpr double kFewestSamples = 2.0;  // per mesh period
     static constexpr double kSpareRate = 1.02;
 
     const std::string& path_;
@@ -382,7 +386,7 @@ class Reading {
     std::unique_ptr<SignalFile> file_;
     std::string problems_, first_;
     std::size_t samples_ = 0, first_sample_ = 0;
-    bool counted_ = false;  // the phase, from samples and times alone
+    bool counted_ = false;  // true if the phase comes only from sample numbers, times and speed
 };
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace gearpod::mc {
 namespace {
 
-constexpr double kEven = 1e-3;  // of a step
+constexpr double kEven = 1e-3;  // relative to a step
 
-// The coarsest power of ten that all values are multiples of, 0 if none down to 1e-9 is.
+// Largest power of ten, from 1 down to 1e-9, of which all values are multiples; 0 if there is none.
 double decimals_of(const std::vector<double>& values) {
     for (int digits = 0; digits <= 9; ++digits) {
         const double unit = std::pow(10.0, -digits);
@@ -30,7 +30,7 @@ double decimals_of(const std::vector<double>& values) {
     return 0.0;
 }
 
-// Farthest from even spacing.
+// Largest deviation from even spacing.
 double unevenness(const std::vector<double>& time, double start, double step) {
     double most = 0.0;
     for (std::size_t i = 0; i < time.size(); ++i) {
@@ -90,7 +90,8 @@ SampleTimes sample_times(std::vector<double> column) {
     if (even) {
         return {std::move(column), ""};
     }
-    // Rounded times scatter about even ones by half a unit; the line through them is nearer.
+    // Rounded times deviate from evenly spaced ones by up to half a unit; a fitted line is more
+    // accurate.
     const double unit = decimals_of(column);
     double mean = 0.0, slope = 0.0, squares = 0.0;
     for (const double value : column) {
@@ -113,7 +114,7 @@ SampleTimes sample_times(std::vector<double> column) {
 
 Pulses tachometer_pulses(std::span<const double> column) {
     constexpr std::size_t kFewest = 3;
-    constexpr double kHysteresis = 0.2;  // of the height, either side of half of it
+    constexpr double kHysteresis = 0.2;  // relative to the height, on both sides of half the height
     constexpr double kIrregular = 1.5;
     const auto [low, high] = std::minmax_element(column.begin(), column.end());
     const double height = *high - *low, half = 0.5 * (*high + *low);
@@ -152,7 +153,7 @@ Pulses tachometer_pulses(std::span<const double> column) {
 
 PulseCount count_pulses(const std::vector<double>& pulses) {
     const std::size_t n = pulses.size();
-    // Pulses a sample at each pulse, from its neighbours.
+    // Pulses per sample at each pulse, from its neighbours.
     std::vector<double> speed(n);
     for (std::size_t p = 0; p < n; ++p) {
         const std::size_t before = p == 0 ? 0 : p - 1, after = std::min(p + 1, n - 1);
@@ -166,7 +167,7 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
             ++p;
         }
         const double length = pulses[p + 1] - pulses[p], t = (at - pulses[p]) / length;
-        // Hermite's cubic from p to p + 1.
+        // Cubic Hermite interpolation between p and p + 1.
         out.count.push_back(static_cast<double>(p) + t * t * (3.0 - 2.0 * t) +
                             length * t * (1.0 - t) * (speed[p] * (1.0 - t) - speed[p + 1] * t));
     }
@@ -175,7 +176,7 @@ PulseCount count_pulses(const std::vector<double>& pulses) {
 
 namespace {
 
-// Goes on behind each turn, and upwards.
+// Removes the jumps of 2 pi, and makes the angle rise.
 void unwrap(std::vector<double>& angle) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     double turns = 0.0, before = angle.front();
@@ -209,7 +210,8 @@ ShaftAngle shaft_angle(std::vector<double> column) {
         angle.rad = std::move(column);
         return angle;
     }
-    // Half a sample before a count's first one the shaft is half-way to it.
+    // The count changes between two samples: the shaft angle half a sample before the new count is
+    // the mean of both counts.
     std::vector<double> at, half_way;
     for (std::size_t i = 1; i < column.size(); ++i) {
         if (column[i] > column[i - 1]) {
@@ -298,7 +300,7 @@ std::string bad_values(std::span<const double> values) {
 std::string clipping(std::span<const double> samples) {
     constexpr std::size_t kRun = 3;
     constexpr long kFewestRuns = 2;
-    constexpr double kJump = 4.0;  // in the least difference between samples
+    constexpr double kJump = 4.0;  // times the smallest difference between samples
     const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
     double resolution = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -308,7 +310,7 @@ std::string clipping(std::span<const double> samples) {
     long runs = 0, clipped = 0;
     double level = 0.0;
     for (std::size_t i = 0; i < samples.size();) {
-        std::size_t end = i + 1;  // a NaN is not even its own equal
+        std::size_t end = i + 1;  // starts at i + 1 because a NaN does not equal itself
         while (end < samples.size() && samples[end] == samples[i]) {
             ++end;
         }
