@@ -52,7 +52,7 @@ void Progress::watch(std::string rate, std::optional<std::size_t> left) {
 void Progress::show(std::chrono::steady_clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done_ - before_) / elapsed;
-    // What the wanted interval still needs, if that is less.
+    // Rows that the requested interval still needs, if that is less.
     const long missing = total_ - done_;
     const long left = wanted_ ? std::min(missing, static_cast<long>(*wanted_)) : missing;
     if (form_ == Form::json) {

@@ -1,4 +1,4 @@
-// The one rank of a build without MPI.
+// Ranks in a build without MPI: there is only one.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -9,7 +9,7 @@ namespace gearpod::mc {
 
 namespace {
 
-// As many as a launcher started.
+// Number of processes that a launcher started; null if there is no launcher or only one.
 const char* copies() {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
         const char* count = std::getenv(name);
@@ -30,7 +30,8 @@ bool Ranks::launched() {
     return copies() != nullptr;
 }
 
-// Copies that do not know of each other would all compute the same and write over each other.
+// Several processes that do not communicate would all compute the same and overwrite each other's
+// output.
 Ranks::Ranks() {
     if (launched()) {
         throw std::runtime_error("started as one of " + std::string(copies()) +

@@ -21,7 +21,7 @@ bool group_after(const analysis::SizeGroup& group, double before) {
     return std::isfinite(group.high) && group.low >= before && group.high >= group.low;
 }
 
-// What no run writes, whatever the study; "" if there is nothing of that kind.
+// Finds values that no run writes for any study; returns "" if there are none.
 std::string impossible(const Results& frame) {
     double before = -1.0;
     for (const double level : frame.noise_levels) {
@@ -46,7 +46,7 @@ std::string impossible(const Results& frame) {
     return "";
 }
 
-// The first column that is another than the study's, by name or unit.
+// Describes the first column whose name or unit differs from the study's.
 std::string unlike(const std::string& where, const auto& columns, const auto& own) {
     const auto text = [](const auto& list, std::size_t i) {
         return i < list.size() ? list[i].name + " (" + list[i].unit + ")" : "none";
@@ -60,7 +60,7 @@ std::string unlike(const std::string& where, const auto& columns, const auto& ow
     return "";
 }
 
-// How the frame differs from that of the study's own run.
+// Describes the first difference from the frame of the study's own run.
 std::string unlike_study(const Results& frame, const Results& own) {
     std::string why = unlike("/instances", frame.parameters, own.parameters);
     if (why.empty()) {
@@ -92,7 +92,7 @@ std::string unlike_study(const Results& frame, const Results& own) {
 
 class RowCheck {
   public:
-    // `healthy`: rows of the threshold group, if a study says so.
+    // `healthy`: number of rows of the threshold group, if the study is known.
     RowCheck(const RowShape& shape, std::optional<std::size_t> healthy, bool open_instances)
         : shape_(shape), healthy_(healthy), open_(open_instances) {}
 

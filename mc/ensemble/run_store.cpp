@@ -50,7 +50,8 @@ std::string why_not_grown(const Results& old, const std::string& path, const Stu
     const auto there = read_study_text(old.provenance_value("study"), path).study;
     Study as_there = study;
     const auto healthy = there ? there->ensemble.threshold_instances : 0;
-    // Features that trend compare with the first healthy gearboxes: these must have been there.
+    // Trending features compare with the first healthy gearboxes, so the old results must have had
+    // these.
     if (part.whole() && healthy >= HealthyReference::kRecords &&
         healthy < study.ensemble.threshold_instances) {
         as_there.ensemble.threshold_instances = healthy;
@@ -60,8 +61,7 @@ std::string why_not_grown(const Results& old, const std::string& path, const Stu
 
 namespace {
 
-// The rows of one group of a block, under the numbers that they have in a plan with `shift` more
-// rows before them.
+// Rows of one group of a block, renumbered for a plan with `shift` more rows before them.
 RowBlock of_group(const RowBlock& block, Group group, std::size_t shift) {
     RowBlock out;
     const std::size_t width = block.count() == 0 ? 0 : block.values.size() / block.count();
@@ -101,7 +101,7 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
     const auto same_number = [](std::size_t batch) { return batch; };
-    // One for each group: the last batch of either may have to be filled up, so is left out.
+    // One filler per group. The last batch of each group may be incomplete; it is left out.
     BatchFiller thresholds(*checkpoint, plan, identity.shape, same_number),
         graded(*checkpoint, plan, identity.shape, same_number);
     rows.visit([&](const RowBlock& block) {
@@ -112,8 +112,8 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
     return checkpoint;
 }
 
-// Why a run of `identity` must not overwrite what is there, or "". The same study by another
-// version of the program may: that is what one computes again for.
+// Reason why a run of `identity` must not overwrite the existing file, or "". Results of the same
+// study by another version of the program may be overwritten.
 std::string why_precious(const std::string& results_path, const RunIdentity& identity) {
     std::error_code none;
     if (!Checkpoint::exists(results_path) || std::filesystem::file_size(results_path, none) == 0) {

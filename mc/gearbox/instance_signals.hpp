@@ -59,7 +59,7 @@ class InstanceSignals {
     features::FeatureInput at(std::size_t level);
 
     const NoiseOfInstance& noise() const { return noise_; }
-    // Likelihood ratio of the noise loaded last under importance sampling; 1 without it.
+    // Importance weight of the record loaded last; 1 without importance sampling.
     double noise_weight() const;
     // Seconds spent so far on generating noise.
     double noise_s() const { return noise_s_; }
