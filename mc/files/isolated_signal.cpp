@@ -27,7 +27,8 @@ namespace gearpod::mc {
 namespace {
 
 constexpr std::size_t kFreeMemory = std::size_t{256} << 20, kMemoryPerByte = 1000;
-// Without a byte of an answer: so long, and a second for every ten megabytes of the file.
+// Time without any reply after which reading fails: this time, plus one second per ten megabytes of
+// the file.
 constexpr std::uintmax_t kPatience_ms = 8000, kBytes_ms = 10000, kMostPatience_ms = 3600000;
 
 enum class Question : char { names, read, unit, sampling_Hz };
@@ -49,7 +50,7 @@ bool send_all(int fd, const void* data, std::size_t size) {
     return true;
 }
 
-// Waits no longer than that for each part; -1: for ever.
+// Waits at most `patience_ms` for each part; -1 waits without limit.
 bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
     char* at = static_cast<char*>(data);
     while (size > 0) {
@@ -68,7 +69,7 @@ bool receive_all(int fd, void* data, std::size_t size, int patience_ms) {
     return true;
 }
 
-// A kind, a length, and as many bytes.
+// A message consists of its kind, its length, and the bytes.
 bool send_message(int fd, char kind, std::span<const char> bytes) {
     const std::uint64_t length = bytes.size();
     return send_all(fd, &kind, 1) && send_all(fd, &length, sizeof length) &&
@@ -120,7 +121,7 @@ std::string answer_to(Question question, const std::string& name, SignalFile& fi
     return rate ? bytes_of_doubles(std::array{*rate}) : "";
 }
 
-// So many more bytes of memory than now, and no core file.
+// Limits the memory to the present use plus `more` bytes, and disables core files.
 void limit_memory(std::size_t more) {
     std::ifstream statm("/proc/self/statm");
     std::size_t pages = 0;
@@ -134,16 +135,16 @@ void limit_memory(std::size_t more) {
     ::setrlimit(RLIMIT_CORE, &none);
 }
 
-// What the other process does until nobody asks any more.
+// Main loop of the child process, until the parent closes the connection.
 [[noreturn]] void serve(int fd, const std::string& path, std::size_t memory,
                         const std::function<std::unique_ptr<SignalFile>()>& open) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM}) {
-        ::signal(signal, SIG_DFL);  // whoever watches over the other process
+        ::signal(signal, SIG_DFL);  // removes the handlers of the parent process
     }
     limit_memory(memory);
     std::unique_ptr<SignalFile> file;
-    Question question = Question::names;  // the first answer says whether it opens
+    Question question = Question::names;  // the first reply reports whether the file can be opened
     std::string name;
     for (char kind = 0;; question = static_cast<Question>(kind)) {
         Answer answer = Answer::good;

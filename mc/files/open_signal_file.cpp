@@ -1,4 +1,4 @@
-// Which reader a signal file is for.
+// Selects the reader of a signal file by the extension of its name.
 #include <algorithm>
 #include <filesystem>
 

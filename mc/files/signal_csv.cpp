@@ -1,4 +1,4 @@
-// CSV files of signals.
+// Reads CSV files of signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class SignalCsv : public SignalFile {
         }
         std::string line;
         for (long number = 1; std::getline(stream, line); ++number) {
-            if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {  // a byte order mark
+            if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {  // byte order mark
                 line.erase(0, 3);
             }
             const std::string_view text = trimmed_field(line);

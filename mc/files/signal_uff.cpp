@@ -1,5 +1,5 @@
-// Universal files of measured functions: dataset 58 of SDRC's I-DEAS, as text or (58b) with its
-// values as bytes; evenly spaced real time histories.
+// Reads universal files of measured functions: dataset 58 of SDRC's I-DEAS, as text or with binary
+// values (58b). Only real, evenly spaced time histories are supported.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ class Reading {
         return *value;
     }
 
-    // `binary`: the dataset's first line where the values are bytes, else "".
+    // `binary`: first line of the dataset if its values are binary, else "".
     History read_function(const std::string& binary) {
         std::array<std::string, 11> records;
         for (std::string& record : records) {
@@ -119,7 +119,8 @@ class Reading {
         if (field(head, 13, 6) != 2.0) {
             refuse("its bytes are no IEEE numbers");
         }
-        // No more than the file has, whatever it says.
+        // Reads in blocks: the count in the file may be wrong, and memory must not exceed the file
+        // size.
         std::string bytes;
         std::array<char, 65536> block;
         for (std::size_t left = count * width; left > 0 && stream_;) {

@@ -1,4 +1,4 @@
-// read_results().
+// Implements read_results() and read_frame().
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -33,7 +33,7 @@ void require_count(std::size_t count, std::size_t expected, const std::string& n
 
 class Reader {
   public:
-    // No dataset holds more values than the file has bytes.
+    // A dataset with more values than the file has bytes counts as damaged.
     Reader(hid_t root, std::size_t file_size, bool with_columns)
         : root_(root), most_(file_size), with_columns_(with_columns) {}
 

@@ -10,7 +10,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The columns of one group of gearboxes.
+// Columns of one group of gearboxes.
 struct Columns {
     std::vector<std::vector<double>> parameters;
     std::vector<std::vector<double>> features;  // gearboxes x noise levels
@@ -56,12 +56,12 @@ std::optional<analysis::Reliability> reliability_of(const Results& frame, const 
                                                     std::optional<analysis::Costs> costs) {
     check_condition(frame, condition);
     const RowShape shape = row_shape(frame);
-    // Areas and curves rest on gearboxes: of each its first record.
+    // Areas and curves use one record per gearbox, the first.
     const std::size_t records = frame.request.threshold_records;
     if (rows.rows() / records * shape.features * shape.levels > most_values) {
         return std::nullopt;
     }
-    // Thresholds on all of them, so long as there is room for these.
+    // Thresholds use all records if they fit into memory.
     const bool repeated = records > 1 && rows.rows() * shape.features * shape.levels <= most_values;
     Columns healthy(shape), graded(shape), repeats(shape);
     std::vector<std::size_t> repeated_rows, healthy_rows;
