@@ -1,4 +1,4 @@
-// calibrated_study(): what was found, as a study file.
+// Implements calibrated_study().
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Draws of all inputs together, in rows: what the recordings know of combinations stays known.
+// Joint sample of all inputs, in rows: this keeps the correlations that the recordings determine.
 std::string distribution_of(const std::vector<double>& draws) {
     std::string values;
     for (const double value : draws) {
@@ -52,7 +52,7 @@ std::string calibrated_study(const Study& study, const CalibrationResult& result
         found +=
             fmt::format("{} = {}\n", result.found[p].input.key, distribution_of(result.draws[p]));
     }
-    // The study's own distributions of these inputs give way.
+    // The sample replaces the study's own distributions of these inputs.
     Study kept = study;
     kept.detection.uncertain_inputs.clear();
     for (const FoundInput& one : result.found) {

@@ -16,7 +16,7 @@ namespace {
 
 using features::Feature;
 
-// What one record of the set may give: the sensor's own features.
+// True for features of a single sensor record that need no healthy reference.
 bool of_sensor_alone(const Feature& feature) {
     return feature.from_sensor && (feature.needs & features::kHealthy) == 0;
 }
@@ -37,7 +37,7 @@ const Feature* record_feature(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
-// Of one of these.
+// Index of a feature in features::record_features().
 std::size_t place_of(const Feature& feature) {
     return static_cast<std::size_t>(&feature - features::record_features().data());
 }
@@ -155,7 +155,7 @@ std::vector<const Feature*> wanted_features(const std::vector<HealthyRecord>& re
     return chosen;
 }
 
-// `most` of them at even distances, all if they are fewer.
+// At most `most` of the elements, at even distances.
 template <class Value>
 std::vector<Value> thinned(std::vector<Value> all, std::size_t most) {
     if (all.size() <= most) {

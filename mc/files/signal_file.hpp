@@ -33,19 +33,19 @@ class SignalFile {
 
 // Opens a file according to the extension of its name. HDF5 and MAT files are read in a child
 // process (isolated_signal.hpp). Throws SignalError.
-//   .csv         A header line with names and units in brackets ("sensor [m/s^2]"), then one line
-//   of
-//                numbers per sample. The separator is a comma, semicolon or tab; decimal commas are
-//                accepted if the separator is no comma. Lines that begin with # are comments.
-//   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with `row`,
-//                rows of two-dimensional ones. Optional attributes: sampling_Hz of the group or the
-//                root, scale (a factor) and unit of a dataset. Data in other files (links, external
-//                and virtual storage) are rejected.
+//   .csv         A header line with names and units in brackets ("sensor [m/s^2]"), then a line
+//                of numbers per sample. The separator is a comma, semicolon or tab; decimal
+//                commas are accepted if the separator is not a comma. Lines that begin with #
+//                are comments.
+//   .h5, .hdf5   One-dimensional datasets in the group /signals, or else in the root; with
+//                `row`, rows of two-dimensional ones. Optional attributes: sampling_Hz of the
+//                group or the root, scale (a factor) and unit of a dataset. Data in other files
+//                (links, external and virtual storage) are rejected.
 //   .mat         Real vectors (MATLAB 4 to 7.3), also as fields of structs ("s.sensor"). The
 //                sampling rate may be a variable or field sampling_Hz. Tables are rejected.
-//   .wav         The column sensor, or channel1, channel2, ...; integers as a fraction of full
-//   scale. .uff, .unv   Dataset 58, real and evenly sampled in time: the column sensor, or
-//   function1,
+//   .wav         The column sensor, or channel1, channel2, ...; integers are fractions of the
+//                full scale.
+//   .uff, .unv   Dataset 58, real and evenly sampled in time: the column sensor, or function1,
 //                function2, ...
 // `row`, from 0: index of the record in an HDF5 file that has one record per row.
 std::unique_ptr<SignalFile> open_signal_file(const std::string& path,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-// Behind the random inputs.
+// Columns after the random inputs.
 struct OwnColumn {
     const char *name, *unit;
 };
@@ -22,7 +22,7 @@ constexpr std::array<OwnColumn, 5> kOwnColumns{{{"end_h", "h"},
                                                 {"interpolation_last", ""},
                                                 {"interpolation_load", ""}}};
 
-// Behind the features, one value a record.
+// Columns after the features, one value per record.
 struct RecordColumn {
     const char *name, *unit;
     double LifeRecord::*member;
@@ -42,8 +42,8 @@ BatchPlan lives_plan(const Study& study) {
 
 Results lives_frame(const Study& study) {
     Results frame = results_frame(study_of_gearboxes(study));
-    frame.parameters.pop_back();  // the fault's size, which grows
-    frame.contact_loss.clear();   // records are superposed, not integrated
+    frame.parameters.pop_back();  // the fault size, which is not constant
+    frame.contact_loss.clear();   // superposed records have no contact loss ratio
     for (const OwnColumn& column : kOwnColumns) {
         frame.parameters.push_back({column.name, column.unit, {}});
     }

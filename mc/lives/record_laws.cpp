@@ -66,7 +66,8 @@ std::vector<double> RecordLaw::marched(int count) const {
     if (all.size() > 1) {
         return all;
     }
-    // A law of few values that are seldom others.
+    // The evenly spaced quantiles of a discrete distribution may coincide; then its limits are
+    // used.
     const Support support = input_ ? input_->distribution.support() : Support{1.0, 1.0};
     return support.low < support.high
                ? std::vector<double>{support.low / nominal_, support.high / nominal_}

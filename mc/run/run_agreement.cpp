@@ -15,7 +15,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the running program's file: a rebuild between two ranks' starts shows in it.
+// Checksum of the program's file, which reveals a rebuild between the starts of two ranks.
 std::string program_sum() {
     std::ifstream stream("/proc/self/exe", std::ios::binary);
     std::uint64_t sum = kFnvStart;
@@ -27,7 +27,7 @@ std::string program_sum() {
     return fmt::format("{:016x}", sum);
 }
 
-// Why a rank that is not the first cannot take part, or "".
+// Reason why a rank other than 0 cannot take part, or "".
 std::string misfit(const std::string& name, const std::string& program,
                    const std::string& first_program, const std::string& study,
                    const std::string& first_study) {
