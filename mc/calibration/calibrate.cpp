@@ -179,10 +179,10 @@ std::vector<FeatureCheck> checks(const analysis::AbcPosterior& posterior, const 
 void check_count(const Draws& draws, std::size_t of, std::size_t inputs) {
     constexpr std::size_t kFewest = 50;
     if (draws.sets.size() < kFewest * inputs) {
-        throw std::runtime_error(fmt::format(
-            "only {} of {} simulated sets have all features, and it takes {}: more --draws, or a "
-            "prior where the gearboxes work",
-            draws.sets.size(), of, kFewest * inputs));
+        throw std::runtime_error(
+            fmt::format("only {} of {} simulated sets have all features, but at least {} are "
+                        "needed; raise --draws, or use a prior for which the gearboxes work",
+                        draws.sets.size(), of, kFewest * inputs));
     }
 }
 

@@ -20,18 +20,18 @@ std::string distribution_of(const std::vector<double>& draws) {
 std::string comment_of(const CalibrationResult& result, std::size_t p) {
     const FoundInput& found = result.found[p];
     std::string text =
-        fmt::format("# found: {:.4g}, 90 % from {:.4g} to {:.4g} (prior {:g} to {:g}{})",
+        fmt::format("# median {:.4g}, 90 % interval {:.4g} to {:.4g} (prior {:g} to {:g}{})",
                     found.median, found.low, found.high, found.input.low, found.input.high,
                     found.input.logarithmic ? ", log" : "");
-    text += found.told ? "\n" : ": THE RECORDINGS DO NOT TELL IT, this is the prior\n";
+    text += found.told ? "\n" : ": THE RECORDINGS DO NOT DETERMINE IT, this is the prior\n";
     if (found.told && !found.deciding.empty()) {
-        text += fmt::format("# by {}\n", fmt::join(found.deciding, ", "));
+        text += fmt::format("# most correlated with {}\n", fmt::join(found.deciding, ", "));
     }
     for (const BoundPair& pair : result.pairs) {
         if (pair.first == p || pair.second == p) {
             const std::size_t other = pair.first == p ? pair.second : pair.first;
             text += fmt::format(
-                "# known together with {} alone, rank correlation {:+.2f}: drawn in rows\n",
+                "# determined only together with {}, rank correlation {:+.2f}: sampled in rows\n",
                 result.found[other].input.key, pair.correlation);
         }
     }

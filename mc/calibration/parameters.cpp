@@ -59,7 +59,7 @@ class Reader {
         const auto high = parts.size() > 1 ? number_of(parts[1], false) : std::nullopt;
         input.logarithmic = parts.size() == 3 && parts[2] == "log";
         if (!low || !high || parts.size() > 3 || (parts.size() == 3 && !input.logarithmic)) {
-            return reject("\"" + text.substr(equals + 1) + "\" is no range",
+            return reject("\"" + text.substr(equals + 1) + "\" is not a range",
                           "write LOW:HIGH or LOW:HIGH:log");
         }
         if (!std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {

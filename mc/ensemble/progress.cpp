@@ -60,7 +60,7 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     }
     const double share = static_cast<double>(done_) / static_cast<double>(total_);
     std::string numbers = fmt::format(
-        "{} of {}{} {}, {} a second, {} left", done_, left < missing ? "at most " : "", total_,
+        "{} of {}{} {}, {} per second, {} left", done_, left < missing ? "at most " : "", total_,
         counted_, rate < 10.0 ? fmt::format("{:.2g}", rate) : fmt::format("{:.0f}", rate),
         duration_text(static_cast<double>(left) / rate));
     if (!rate_.empty()) {

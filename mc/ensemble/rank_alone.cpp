@@ -35,8 +35,8 @@ bool Ranks::launched() {
 Ranks::Ranks() {
     if (launched()) {
         throw std::runtime_error("started as one of " + std::string(copies()) +
-                                 " processes, but built without MPI; start one, or build it "
-                                 "with -DGEARPOD_MPI=ON");
+                                 " processes, but this program was built without MPI; start a "
+                                 "single process, or rebuild it with -DGEARPOD_MPI=ON");
     }
 }
 
@@ -51,7 +51,7 @@ std::string Ranks::from_leader(const std::string& text) const {
 }
 
 void Ranks::send(int, int, std::span<const std::byte>) const {
-    throw std::logic_error("one rank has nobody to send to");
+    throw std::logic_error("a single rank cannot send messages");
 }
 
 std::optional<Ranks::Message> Ranks::receive() const {

@@ -64,7 +64,7 @@ Ranks::Ranks() {
     MPI_Comm_size(machine, &on_this_machine_);
     MPI_Comm_free(&machine);
     if (provided < MPI_THREAD_FUNNELED && leads()) {
-        fmt::print(stderr, "gearpod: this MPI does not work with threads\n");
+        fmt::print(stderr, "gearpod: this MPI library does not support threads\n");
         abort(2);
     }
 }

@@ -94,10 +94,10 @@ std::unique_ptr<Checkpoint> grow(const std::string& results_path, const std::str
             std::count(block.group.begin(), block.group.end(), static_cast<int>(Group::threshold)));
     });
     if (rows.rows() - healthy > plan.graded_rows()) {
-        throw std::runtime_error(fmt::format(
-            "{}: cannot be continued: it has {} graded gearboxes, more than the {} asked for; "
-            "raise --instances",
-            results_path, rows.rows() - healthy, plan.graded_rows()));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be continued: it has {} graded gearboxes, more than the {} "
+                        "requested; raise --instances",
+                        results_path, rows.rows() - healthy, plan.graded_rows()));
     }
     auto checkpoint = Checkpoint::create(path, identity, plan);
     const auto same_number = [](std::size_t batch) { return batch; };
@@ -124,7 +124,7 @@ std::string why_precious(const std::string& results_path, const RunIdentity& ide
         RunIdentity there = identity_of(old, results_path);
         there.version = identity.version;
         const std::string why = difference(there, identity);
-        return why.empty() ? "" : results_path + ": holds results that a run wrote and that " + why;
+        return why.empty() ? "" : results_path + ": contains results of another run: it " + why;
     } catch (const std::exception& error) {
         return error.what();
     }
@@ -134,7 +134,7 @@ void tell(const Checkpoint& checkpoint, const BatchPlan& plan, const std::string
     for (const std::string& finding : checkpoint.findings()) {
         fmt::print(stderr, "{}\n", finding);
     }
-    fmt::print(stderr, "continuing {}: {} of {} tiles of gearboxes are there\n", from,
+    fmt::print(stderr, "continuing {}: {} of {} batches are finished\n", from,
                checkpoint.batches_done(), plan.batches());
 }
 
@@ -174,7 +174,7 @@ std::unique_ptr<Checkpoint> open_checkpoint(const Study& study, const RowShape& 
         }
         checkpoint = Checkpoint::create(path, identity, plan);
         if (options.resume && !options.quiet) {
-            fmt::print(stderr, "{}: there is nothing to continue; the run begins anew\n",
+            fmt::print(stderr, "{}: there is nothing to continue; starting a new run\n",
                        results_path);
         }
     }

@@ -217,7 +217,9 @@ std::string why_not_pending(const std::string& path) {
     }
     const bool own = S_ISREG(status.st_mode) && status.st_nlink == 1;
     return own ? ""
-               : name + " is in the way, which is a link, a folder, a pipe or a device; remove it";
+               : name +
+                     " has the name of the temporary file, but is a link, a folder, a pipe or a "
+                     "device; remove it";
 }
 
 bool same_file(const std::string& one, const std::string& other) {

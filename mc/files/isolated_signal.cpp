@@ -157,7 +157,7 @@ void limit_memory(std::size_t more) {
             text = error.what();
         } catch (const std::bad_alloc&) {
             answer = Answer::refused;
-            text = path + ": asks for more memory than it can have, or is damaged";
+            text = path + ": needs more memory than allowed, or is damaged";
         }
         if (!send_message(fd, static_cast<char>(answer), text) || !file ||
             !receive_message(fd, kind, name, -1)) {
@@ -173,8 +173,8 @@ class IsolatedSignal : public SignalFile {
         : path_(path) {
         int ends[2] = {-1, -1};
         if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-            throw SignalError(
-                fmt::format("{}: no socket to read it through ({})", path, std::strerror(errno)));
+            throw SignalError(fmt::format("{}: cannot be read: creating a socket failed ({})", path,
+                                          std::strerror(errno)));
         }
         here_ = std::make_unique<Descriptor>(ends[0]);
         Descriptor there(ends[1]);
@@ -185,8 +185,8 @@ class IsolatedSignal : public SignalFile {
             static_cast<int>(std::min(kPatience_ms + size / kBytes_ms, kMostPatience_ms));
         child_ = ::fork();
         if (child_ < 0) {
-            throw SignalError(
-                fmt::format("{}: no process to read it ({})", path, std::strerror(errno)));
+            throw SignalError(fmt::format("{}: cannot be read: creating a process failed ({})",
+                                          path, std::strerror(errno)));
         }
         if (child_ == 0) {
             ::close(ends[0]);
@@ -230,9 +230,9 @@ class IsolatedSignal : public SignalFile {
         char kind = 0;
         std::string text;
         if (!receive_message(here_->get(), kind, text, patience_ms_)) {
-            throw SignalError(path_ +
-                              ": is damaged: the library that reads this kind of file fails on it, "
-                              "or does not end");
+            throw SignalError(
+                path_ +
+                ": is damaged: the library for this file type crashes on it, or does not finish");
         }
         if (static_cast<Answer>(kind) == Answer::refused) {
             throw SignalError(text);

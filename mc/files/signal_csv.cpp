@@ -100,7 +100,7 @@ class SignalCsv : public SignalFile {
         for (std::size_t c = 0; c < parts.size(); ++c) {
             const auto value = number_of(parts[c], separator_ != ',');
             if (!value) {
-                throw SignalError(fmt::format("{}:{}: column {}: \"{}\" is no number", path_,
+                throw SignalError(fmt::format("{}:{}: column {}: \"{}\" is not a number", path_,
                                               number, names_[c], parts[c].substr(0, 40)));
             }
             columns_[c].push_back(*value);

@@ -52,10 +52,11 @@ Shape shape_of(hid_t group, const std::string& name) {
 
 void refuse_elsewhere(const std::string& path, hid_t group, const std::string& name) {
     if (lies_elsewhere(group, name)) {
-        throw SignalError(fmt::format(
-            "{}: {} lies in another file (a link, or external or virtual storage), which is not "
-            "read; copy it into this one, as h5py's group.copy or h5copy does",
-            path, printable(name)));
+        throw SignalError(
+            fmt::format("{}: {} is stored in another file (by a link, or external or virtual "
+                        "storage), which is not supported; copy it into this file, for example "
+                        "with h5copy or h5py's group.copy",
+                        path, printable(name)));
     }
 }
 
@@ -130,7 +131,7 @@ class SignalHdf5 : public SignalFile {
         try {
             return read_text(group_.get(), name, "unit");
         } catch (const Hdf5Error&) {
-            throw SignalError(fmt::format("{}: the unit of {} must be a text", path_, name));
+            throw SignalError(fmt::format("{}: the unit of {} must be text", path_, name));
         }
     }
 
@@ -155,8 +156,9 @@ class SignalHdf5 : public SignalFile {
             throw Hdf5Error(name);
         }
         if (*row_ >= shape[0]) {
-            throw SignalError(fmt::format("{}: {} has {} rows, but row {} is asked for (from 0)",
-                                          path_, name, shape[0], *row_));
+            throw SignalError(
+                fmt::format("{}: {} has {} rows, but row {} is requested (counted from 0)", path_,
+                            name, shape[0], *row_));
         }
         std::vector<double> values;
         read_rows(group_.get(), name, shape, {*row_, 1}, values);
@@ -178,7 +180,7 @@ std::unique_ptr<SignalFile> open_signal_hdf5(const std::string& path,
     try {
         return std::make_unique<SignalHdf5>(path, row);
     } catch (const Hdf5Error&) {
-        throw SignalError(path + ": is no HDF5 file, or damaged");
+        throw SignalError(path + ": is not an HDF5 file, or is damaged");
     }
 }
 

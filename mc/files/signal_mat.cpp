@@ -101,10 +101,10 @@ class SignalMat : public SignalFile {
     explicit SignalMat(const std::string& path)
         : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close) {
         if (!file_) {
-            throw SignalError(path + ": is no MAT file, or damaged");
+            throw SignalError(path + ": is not a MAT file, or is damaged");
         }
         if (is_cut(path)) {
-            throw SignalError(path + ": is cut off before its end");
+            throw SignalError(path + ": is truncated");
         }
         for (;;) {
             const Matrix matrix(Mat_VarReadNextInfo(file_.get()), Mat_VarFree);
@@ -117,8 +117,8 @@ class SignalMat : public SignalFile {
         }
         if (names_.empty() && !objects_.empty()) {
             throw SignalError(fmt::format(
-                "{}: {} is a table, timetable or object, which is not read; in MATLAB save its "
-                "columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
+                "{}: {} is a table, timetable or object, which is not supported; in MATLAB, save "
+                "its columns as a struct: s = table2struct(T, 'ToScalar', true); save('FILE', 's')",
                 path, printable(objects_)));
         }
     }

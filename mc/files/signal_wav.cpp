@@ -31,7 +31,7 @@ class SignalWav : public SignalFile {
         bytes_.assign(std::istreambuf_iterator<char>(stream), {});
         if (bytes_.size() < 12 || bytes_.compare(0, 4, "RIFF") != 0 ||
             bytes_.compare(8, 4, "WAVE") != 0) {
-            refuse("is no WAV file, or damaged");
+            refuse("is not a WAV file, or is damaged");
         }
         for (std::size_t at = 12; at + 8 <= bytes_.size();) {
             const std::string kind = bytes_.substr(at, 4);
@@ -47,7 +47,7 @@ class SignalWav : public SignalFile {
             at += size + size % 2;
         }
         if (channels_ == 0 || length_ == 0) {
-            refuse("is a WAV file without samples, or damaged");
+            refuse("is a WAV file without samples, or is damaged");
         }
     }
 

@@ -116,7 +116,7 @@ TextTable read_text_table(const std::string& path) {
             text.remove_prefix(3);
         }
         if (text.size() > kLongestLine || text.find('\0') != std::string_view::npos) {
-            throw SignalError(fmt::format("{}:{}: is no line of text", path, number));
+            throw SignalError(fmt::format("{}:{}: is not a line of text", path, number));
         }
         const std::string_view seen = trimmed_field(text);
         if (seen.empty() || seen.front() == '#') {

@@ -39,15 +39,15 @@ std::string missing(const Feature& feature, const Scene& scene, const MeasuredSi
     const int has = feature.from_sensor ? signal.sensor_meshes : signal.te_meshes;
     const int needed = meshes_of(feature, scene);
     if (has < needed) {
-        return fmt::format("{} mesh periods, but it takes {}", has, needed);
+        return fmt::format("{} mesh periods, but {} are needed", has, needed);
     }
     if ((feature.needs & features::kTeParts) != 0 && scene.te_samples_per_mesh() < kFewestOfParts) {
-        return fmt::format("the study's encoders sample {} times a mesh period, but it takes {}",
-                           scene.te_samples_per_mesh(), kFewestOfParts);
+        return fmt::format(
+            "the study's encoders take {} samples per mesh period, but {} are needed",
+            scene.te_samples_per_mesh(), kFewestOfParts);
     }
     if ((feature.needs & features::kHealthy) != 0 && !has_reference) {
-        return "no healthy gearboxes at that noise level to compare with: give --healthy or "
-               "--noise-level";
+        return "no healthy reference at this noise level: give --healthy or --noise-level";
     }
     return "";
 }
@@ -139,13 +139,13 @@ std::string why_no_value(const Feature& feature, const features::FeatureInput& i
         return "the transmission error is constant";
     }
     if (feature.compute == features::te_fm0 && scene.te_samples_per_mesh() <= 2) {
-        return fmt::format("no mesh harmonic: the study's encoders sample {} times a mesh period",
+        return fmt::format("no mesh harmonic: the study's encoders take {} samples per mesh period",
                            scene.te_samples_per_mesh());
     }
     if (feature.from_sensor && input.sensor_mean_square == 0.0) {
         return "the sensor's signal is zero";
     }
-    return "no finite number: its definition divides by what is zero in this signal";
+    return "not finite: its definition divides by a quantity that is zero in this signal";
 }
 
 WorstTooth worst_tooth(const char* gear, std::span<const double> rms) {
@@ -270,8 +270,8 @@ HealthyReference measured_reference(const std::vector<std::string>& paths,
         const MeasuredSignal signal = read_measured_signal(path, columns, scene);
         if (planet_turns(signal, scene) < std::max(1, turns)) {
             throw SignalError(fmt::format(
-                "{}: {} mesh periods of sensor signal, but a healthy record must have "
-                "{}, as many planet turns as the signal",
+                "{}: {} mesh periods of sensor signal, but a healthy record must have at least {}, "
+                "as many planet turns as the signal",
                 path, signal.sensor_meshes, std::max(1, turns) * scene.span().planet_teeth));
         }
         MeasuredInput input(scene, features::kSensorTurn);

@@ -52,8 +52,8 @@ class Reading {
         std::vector<double> te = chosen(wanted_.te, "te", Quantity::angle);
         if (sensor.empty() && te.empty() && problems_.empty()) {
             reject(
-                fmt::format("no column sensor and none te; its columns are {}; choose with "
-                            "--sensor or --te",
+                fmt::format("it has neither a column sensor nor a column te; its columns are {}; "
+                            "choose with --sensor or --te",
                             columns_text()));
         }
         stop_at_problems();
@@ -78,7 +78,7 @@ class Reading {
         stop_at_problems();
         if (ratio != 1.0) {
             phase = scaled(std::move(phase), ratio);
-            measured.tracking += fmt::format(", times {:.5f} after the mesh lines", ratio);
+            measured.tracking += fmt::format(", multiplied by {:.5f} to fit the mesh lines", ratio);
             resample(sensor, te, phase, measured);
         }
         check_losses(measured);
@@ -136,7 +136,7 @@ class Reading {
         }
         const auto factor = unit_factor(quantity, unit);
         if (!factor) {
-            reject(fmt::format("column {}: unknown unit {}; known are {}", name, unit,
+            reject(fmt::format("column {}: unknown unit {}; known units are {}", name, unit,
                                known_units(quantity)));
         }
         return factor.value_or(1.0);
@@ -196,8 +196,8 @@ class Reading {
             wanted_.sampling_Hz > 0.0 ? wanted_.sampling_Hz : file_->sampling_Hz().value_or(0.0);
         if (!(rate > 0.0 && std::isfinite(rate))) {
             reject(
-                fmt::format("no sampling rate: neither a column {} or {} nor sampling_Hz in the "
-                            "file; its columns are {}; give --sampling-Hz",
+                fmt::format("no sampling rate: the file has neither a column {} or {} nor "
+                            "sampling_Hz; its columns are {}; give --sampling-Hz",
                             kTime, kPhase, columns_text()));
             return {};
         }
@@ -207,7 +207,7 @@ class Reading {
     // Mesh phase of every sample.
     std::vector<double> phases(std::size_t samples, std::string& how) {
         if (wanted_.samples_per_mesh > 0.0) {
-            how = fmt::format("{:.6g} samples a mesh period", wanted_.samples_per_mesh);
+            how = fmt::format("{:.6g} samples per mesh period", wanted_.samples_per_mesh);
             return counted(samples, wanted_.samples_per_mesh);
         }
         if (!wanted_.tachometer.empty()) {
@@ -234,7 +234,7 @@ class Reading {
         reject_column(kSpeed, turning_about(speed_rpm));
         how = speed_rpm.empty() || speed_rpm.front() >= 0.0
                   ? "column speed_rpm"
-                  : "column speed_rpm, which is negative: turning backwards";
+                  : "column speed_rpm, which is negative: backward rotation";
         return integrated(phase, speed_rpm);
     }
 
@@ -246,7 +246,7 @@ class Reading {
         if (!problems_.empty()) {
             return {};
         }
-        how = fmt::format("{} pulses of column {}, {:g} a turn", pulses.at.size(),
+        how = fmt::format("{} pulses of column {}, {:g} per turn", pulses.at.size(),
                           wanted_.tachometer, wanted_.pulses_per_turn);
         PulseCount counted = count_pulses(pulses.at);
         first_sample_ = counted.first;
@@ -295,15 +295,15 @@ class Reading {
             return 1.0;
         }
         const std::string lines = fmt::format(
-            "the mesh lines lie at {:.4f}{} times the stated speed ({})", found->ratio,
+            "the mesh lines fit {:.4f}{} times the stated speed ({})", found->ratio,
             found->other > 0.0 ? fmt::format(" or {:.4f}", found->other) : "", measured.tracking);
         if (wanted_.speed == SpeedCheck::refuse) {
-            reject(
-                fmt::format("{}: {:.0f} % of their amplitudes there, {:.0f} % here; correct the "
-                            "speed, or take theirs by --speed found",
-                            lines, 100.0 * found->fit, 100.0 * found->stated));
+            reject(fmt::format(
+                "{}: they hold {:.0f} % of the amplitudes at that speed, {:.0f} % at the stated "
+                "one; correct the speed, or use the fitted one with --speed found",
+                lines, 100.0 * found->fit, 100.0 * found->stated));
         } else if (found->other > 0.0 || found->harmonics < kEnough) {
-            reject(lines + ", but they are too few to tell it by; correct the speed");
+            reject(lines + ", but they are too few to determine the speed; correct it");
         }
         return found->ratio;
     }
@@ -337,7 +337,8 @@ class Reading {
     std::vector<double> rising(std::vector<double> phase) {
         for (std::size_t i = 1; i < phase.size() && problems_.empty(); ++i) {
             if (!(phase[i] > phase[i - 1])) {
-                reject(fmt::format("the mesh phase does not rise from sample {} to the next", i));
+                reject(
+                    fmt::format("the mesh phase does not increase from sample {} to the next", i));
             }
         }
         return phase;
@@ -351,21 +352,21 @@ class Reading {
         const double mesh_Hz = scene_.nominal_mesh_frequency_Hz();
         if (te && per_mesh < kFewestSamples) {
             reject(
-                fmt::format("{:.6g} samples a mesh period do not show the mesh frequency of the "
-                            "transmission error; is the speed or the sampling rate right?",
+                fmt::format("{:.6g} samples per mesh period do not resolve the mesh frequency of "
+                            "the transmission error; check the speed and the sampling rate",
                             per_mesh));
         }
         const double low_pass = scene_.study().sensor.low_pass_Hz;
         if (sensor && per_mesh > kSpareRate * scene_.samples_per_mesh()) {
             reject(
-                fmt::format("{:.6g} samples a mesh period, but the study's grid has {}; set "
-                            "sensor.sampling_Hz to the recording's, about {:.6g} Hz",
+                fmt::format("{:.6g} samples per mesh period, but the study's grid has {}; set "
+                            "sensor.sampling_Hz to that of the recording, about {:.6g} Hz",
                             per_mesh, scene_.samples_per_mesh(), per_mesh * mesh_Hz));
         }
         if (sensor && per_mesh * mesh_Hz < 2.0 * low_pass) {
             reject(
-                fmt::format("{:.6g} samples a mesh period, {:.6g} Hz, hold nothing of the "
-                            "study's band up to {:.6g} Hz; lower sensor.low_pass_Hz",
+                fmt::format("{:.6g} samples per mesh period, {:.6g} Hz, do not cover the study's "
+                            "band up to {:.6g} Hz; lower sensor.low_pass_Hz",
                             per_mesh, per_mesh * mesh_Hz, low_pass));
         }
     }

@@ -48,8 +48,7 @@ std::string what_is_uneven(const std::vector<double>& time, double unit, double 
         std::find_if(steps.begin(), steps.end(), [&](double step) { return step < -1.01 * unit; });
     if (back != steps.end()) {
         return fmt::format(
-            "runs back by {:.6g} s from sample {} to the next; the samples must be "
-            "evenly spaced",
+            "decreases by {:.6g} s from sample {} to the next; the samples must be evenly spaced",
             -*back, back - steps.begin() + 1);
     }
     const double usual = machine::upper_median(steps);
@@ -133,7 +132,7 @@ Pulses tachometer_pulses(std::span<const double> column) {
         }
     }
     if (pulses.at.size() < kFewest) {
-        pulses.problem = fmt::format("{} pulse(s); it takes {}", pulses.at.size(), kFewest);
+        pulses.problem = fmt::format("{} pulse(s), but {} are needed", pulses.at.size(), kFewest);
         return pulses;
     }
     for (std::size_t i = 2; i < pulses.at.size(); ++i) {
@@ -141,9 +140,8 @@ Pulses tachometer_pulses(std::span<const double> column) {
         const double before = pulses.at[i - 1] - pulses.at[i - 2];
         if (here > kIrregular * before || before > kIrregular * here) {
             pulses.problem = fmt::format(
-                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly apart: one is "
-                "missing "
-                "or one too many",
+                "the pulses at samples {:.0f}, {:.0f} and {:.0f} are unevenly spaced: one is "
+                "missing or superfluous",
                 pulses.at[i - 2] + 1.0, pulses.at[i - 1] + 1.0, pulses.at[i] + 1.0);
             return pulses;
         }
@@ -220,7 +218,7 @@ ShaftAngle shaft_angle(std::vector<double> column) {
         }
     }
     if (at.size() < 3) {
-        angle.problem = fmt::format("changes at {} sample(s) alone", at.size());
+        angle.problem = fmt::format("changes at only {} sample(s)", at.size());
         return angle;
     }
     angle.first = static_cast<std::size_t>(std::ceil(at.front()));
@@ -284,8 +282,8 @@ std::string bad_values(std::span<const double> values) {
     const auto bad = std::find_if(values.begin(), values.end(), is_bad);
     if (bad != values.end()) {
         return fmt::format(
-            "{} of {} samples are no finite numbers, the first is sample {}; cut them off or fill "
-            "the gaps",
+            "{} of {} samples are not finite, the first is sample {}; cut them off or fill the "
+            "gaps",
             std::count_if(values.begin(), values.end(), is_bad), values.size(),
             bad - values.begin() + 1);
     }
@@ -293,7 +291,7 @@ std::string bad_values(std::span<const double> values) {
                                    [](double value) { return std::abs(value) > kLargest; });
     return huge == values.end()
                ? ""
-               : fmt::format("sample {} is {:g}; numbers above {:g} cannot be computed with",
+               : fmt::format("sample {} is {:g}; numbers above {:g} are not supported",
                              huge - values.begin() + 1, *huge, kLargest);
 }
 
@@ -325,12 +323,11 @@ std::string clipping(std::span<const double> samples) {
         }
         i = end;
     }
-    return runs >= kFewestRuns
-               ? fmt::format(
-                     "{} samples in {} runs stand at the signal's end, {:.6g}: clipped; "
-                     "record with a larger range",
-                     clipped, runs, level)
-               : "";
+    return runs >= kFewestRuns ? fmt::format(
+                                     "clipped: {} samples in {} runs have the extreme value "
+                                     "{:.6g}; record with a larger range",
+                                     clipped, runs, level)
+                               : "";
 }
 
 std::string losses_text(std::span<const double> samples, int per_mesh, int turn_meshes,
@@ -341,8 +338,9 @@ std::string losses_text(std::span<const double> samples, int per_mesh, int turn_
         return "";
     }
     return fmt::format(
-        "the meshes come {:.2f} of a period too {} (or whole periods more) after mesh period {} to "
-        "{}: samples were lost or repeated without a trace in the times; cut the recording there",
+        "the meshes are {:.2f} periods too {} (plus any number of whole periods) after mesh period "
+        "{} to {}: samples were lost or repeated, which the times do not show; cut the recording "
+        "there",
         std::abs(lost->meshes), lost->meshes > 0.0 ? "early" : "late", lost->first_mesh,
         lost->last_mesh);
 }

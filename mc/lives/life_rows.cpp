@@ -62,7 +62,7 @@ Results lives_frame(const Study& study) {
 void check_lives(const std::string& path, const Results& frame, const RowSource& rows) {
     const auto study = read_study_text(frame.provenance_value("study"), path).study;
     if (!study || !study->life.interval_h) {
-        throw std::runtime_error(path + ": its study cannot be read, or has no life");
+        throw std::runtime_error(path + ": its study cannot be read, or has no [life]");
     }
     check_like(path, frame, rows,
                ExpectedResults{lives_frame(*study), lives_plan(*study), "lives", true});
@@ -104,7 +104,7 @@ LifeRow life_of_row(const Study& study, const Results& frame, const RowBlock& bl
     const double* values = block.values.data() + row * shape.values();
     const double* own = values + shape.parameters - kOwnColumns.size();
     if (!(own[1] >= 0.0 && own[1] <= static_cast<double>(shape.levels))) {
-        throw std::runtime_error("/instances/records holds a number that no life has");
+        throw std::runtime_error("/instances/records contains an invalid number");
     }
     LifeRow result;
     result.interpolation = {own[2], own[3], own[4]};

@@ -87,7 +87,7 @@ std::string RecordLaw::text() const {
         return fmt::format("{} = {}", input_->key, input_->distribution.toml());
     }
     return scatter_ > 0.0
-               ? fmt::format("scatters by {:g} % (rms) about the gearbox's", 100.0 * scatter_)
+               ? fmt::format("varies by {:g} % (rms) about the gearbox's value", 100.0 * scatter_)
                : "the gearbox's";
 }
 

@@ -158,7 +158,7 @@ std::string lock(int fd) {
 }
 
 std::string busy_text(const std::string& worker) {
-    return worker + " is working on it; wait for its end, or name another file with --out";
+    return worker + " is using it; wait until it ends, or name another file with --out";
 }
 
 // Description of the process that uses an existing checkpoint; "" if there is none or it cannot be
@@ -203,8 +203,8 @@ std::unique_ptr<Checkpoint> Checkpoint::create(const std::string& path, const Ru
         const std::string worker = worker_on(path);
         throw std::runtime_error(
             path + ": " +
-            (worker.empty() ? "holds what an interrupted run has finished; continue it with "
-                              "--resume, or delete this file to start again"
+            (worker.empty() ? "contains the finished batches of an interrupted run; continue it "
+                              "with --resume, or delete this file to start again"
                             : busy_text(worker)));
     }
     std::unique_ptr<Checkpoint> checkpoint(new Checkpoint(path, Descriptor(fd), identity, plan));
@@ -220,7 +220,7 @@ std::unique_ptr<Checkpoint> Checkpoint::resume(const std::string& path, const Ru
     struct stat status {};
     if (::fstat(checkpoint->file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
         checkpoint->fail(
-            "is no regular file, as a checkpoint is; remove it, or name another file "
+            "is not a regular file and cannot be a checkpoint; remove it, or name another file "
             "with --out");
     }
     if (const std::string worker = lock(checkpoint->file_.get()); !worker.empty()) {
@@ -238,7 +238,7 @@ void Checkpoint::check_header() {
     std::vector<std::byte> head(kMagic.size() + 8);
     const ssize_t got = read_at(file_.get(), head, 0);
     if (got < static_cast<ssize_t>(head.size()) || !view(head).starts_with(kMagic)) {
-        fail("is not a checkpoint of this program, or damaged; delete it to start again");
+        fail("is not a checkpoint of this program, or is damaged; delete it to start again");
     }
     const std::uint64_t length = number_at(view(head), kMagic.size());
     if (length > kMostText) {
@@ -273,8 +273,8 @@ std::uint64_t Checkpoint::synced_before() {
     }
     if (number_at(bytes, 0) > plan_.graded_instances()) {
         fail(
-            fmt::format("is of a run with {} graded gearboxes, more than the {} asked for; raise "
-                        "--instances, or delete it to start again",
+            fmt::format("belongs to a run with {} graded gearboxes, more than the {} requested; "
+                        "raise --instances, or delete it to start again",
                         number_at(bytes, 0), plan_.graded_instances()));
     }
     return number_at(bytes, 8);
@@ -307,14 +307,13 @@ void Checkpoint::scan() {
     }
     if (damaged > 0) {
         findings_.push_back(
-            fmt::format("{}: {} tile{} damaged or incomplete (the checksum does not fit); computed "
-                        "again",
-                        path_, damaged, damaged == 1 ? " is" : "s are"));
+            fmt::format("{}: {} batch{} damaged or incomplete (wrong checksum); computed again",
+                        path_, damaged, damaged == 1 ? " is" : "es are"));
     }
     if (count_ + damaged + partial < synced) {
         findings_.push_back(
-            fmt::format("{}: {} of {} tiles that it had at its last checkpoint are gone (was it "
-                        "truncated?); computed again",
+            fmt::format("{}: {} of {} batches that it had at its last checkpoint are missing (was "
+                        "it truncated?); computed again",
                         path_, synced - count_ - damaged - partial, synced));
     }
 }
@@ -325,7 +324,7 @@ BatchRows Checkpoint::read(std::size_t batch) const {
     const std::string_view record = view(buffer);
     if (got < static_cast<ssize_t>(buffer.size()) ||
         number_at(record, record.size() - 8) != record_sum(batch, record)) {
-        fail(fmt::format("tile {} was damaged after it had been written", batch));
+        fail(fmt::format("batch {} was damaged after it had been written", batch));
     }
     BatchRows rows;
     const std::size_t count = plan_.batch(batch).rows();

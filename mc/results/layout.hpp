@@ -7,8 +7,8 @@ namespace gearpod::mc {
 
 inline constexpr const char* kResultsFormat = "gearpod results";
 inline constexpr const char* kStatusMeanings =
-    "0 ok, 1 diverged, 2 not settled, 3 unstable above a critical speed of the carrier, "
-    "4 unstable by parametric resonance, 5 step too long, 6 no equilibrium";
+    "0 ok, 1 diverged, 2 not converged, 3 unstable above a critical speed of the carrier, 4 "
+    "unstable by parametric resonance, 5 step too long, 6 no equilibrium";
 inline constexpr const char* kContactLoss = "contact_loss";
 inline constexpr const char* kContactLossMeaning =
     "contact loss ratio: the share of its engagement, within the nominal path of contact, in which "

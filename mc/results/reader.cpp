@@ -282,7 +282,8 @@ void check_format(const std::string& path, hid_t root) {
     std::from_chars(version.data(), version.data() + version.size(), number);
     if (number != kResultsFormatVersion) {
         refuse(path, "has results format version " + version + ", but this program reads version " +
-                         std::to_string(kResultsFormatVersion) + "; use a gearpod that fits it");
+                         std::to_string(kResultsFormatVersion) +
+                         "; use a matching version of gearpod");
     }
 }
 
@@ -291,7 +292,7 @@ Results read(const std::string& path, bool with_columns) {
     check_readable(path);
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) {
-        refuse(path, "is damaged (its checksum does not fit)");
+        refuse(path, "is damaged (wrong checksum)");
     }
     try {
         const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,

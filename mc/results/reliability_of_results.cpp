@@ -43,7 +43,8 @@ void check_condition(const Results& frame, const std::string& condition) {
         names += (names.empty() ? "" : ", ") + parameter.name;
     }
     if (!condition.empty()) {
-        throw std::runtime_error("\"" + condition + "\" is no random input of this file; it has " +
+        throw std::runtime_error("\"" + condition +
+                                 "\" is not a random input of this file; it has " +
                                  (names.empty() ? "none" : names));
     }
 }
@@ -134,8 +135,8 @@ std::string reliability_text(const std::optional<analysis::Reliability>& reliabi
     const std::size_t each =
         std::max<std::size_t>(1, frame.features.size() * frame.noise_levels.size());
     return fmt::format(
-        "no POD curves, areas and ranking: they need the values of all {} at "
-        "once, at most {} of them\nwith these features and noise levels\n",
+        "no POD curves, areas and ranking: they need all values at once, and the number of {}\nis "
+        "limited to {} with these features and noise levels\n",
         analysis::many(subject_of(frame)), kMostAssessedValues / each);
 }
 

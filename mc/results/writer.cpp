@@ -37,7 +37,7 @@ void check_shapes(const Results& results) {
     for (const analysis::FeatureDetection& detection : results.detection) {
         for (const analysis::LevelDetection& level : detection.levels) {
             require(level.cells.size() == results.request.groups.size(),
-                    detection.feature + " has another number of sizes than asked for");
+                    detection.feature + " has another number of sizes than requested");
         }
     }
 }

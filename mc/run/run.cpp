@@ -152,7 +152,7 @@ class Run {
         try {
             return results_text(all, rows, reliability_of(all, rows, "", idle_threads()));
         } catch (const machine::Stopped&) {
-            return "the time is over; `gearpod report` shows the results";
+            return "the time limit is reached; `gearpod report` shows the results";
         }
     }
 
@@ -230,9 +230,10 @@ class Run {
         fmt::print("results: {}\n", path);
         if (part_.empty()) {
             const auto page = std::filesystem::path(path).replace_extension(".html").string();
-            fmt::print("next, its page: gearpod report {} --html {}\n", path, page);
+            fmt::print("to create its page: gearpod report {} --html {}\n", path, page);
         } else {
-            fmt::print("next, with all parts: gearpod merge {} ... --out WHOLE.h5\n", path);
+            fmt::print("to merge it with all other parts: gearpod merge {} ... --out WHOLE.h5\n",
+                       path);
         }
     }
 
@@ -275,9 +276,9 @@ void help(const RunOptions& options, const Scene& scene, const Ranks& ranks,
 
 void print_kept(const EnsembleOutcome& outcome, const BatchPlan& plan,
                 const Checkpoint& checkpoint) {
-    fmt::print(stderr, "{}{} of {} gearboxes are finished and kept in {}; continue with --resume\n",
+    fmt::print(stderr, "{}{} of {} {} are finished and kept in {}; continue with --resume\n",
                outcome.interruption.empty() ? "" : "stopped by " + outcome.interruption + ": ",
-               checkpoint.rows_done(), plan.rows(), checkpoint.path());
+               checkpoint.rows_done(), plan.rows(), plan.counted(), checkpoint.path());
 }
 
 int run_to_end(const RunOptions& options, const StudyScene& made, const Ranks& ranks,

@@ -32,8 +32,9 @@ std::string misfit(const std::string& name, const std::string& program,
                    const std::string& first_program, const std::string& study,
                    const std::string& first_study) {
     if (program != first_program) {
-        return fmt::format("{} runs another program ({}; rank 0: {}); start the same on all", name,
-                           program, first_program);
+        return fmt::format(
+            "{} runs another program ({}; rank 0: {}); start the same program on all ranks", name,
+            program, first_program);
     }
     const std::string line = line_difference(first_study, study, "in rank 0");
     return line.empty() ? "" : fmt::format("{} read another study ({})", name, line);
@@ -50,7 +51,7 @@ StudyScene make_in_time(const StudyOptions& options, const Interruption& interru
         none.problems = {{options.path, 0, "",
                           fmt::format("{}{} before its first gearbox", kLeftOff,
                                       reason.empty() ? "the time limit" : reason),
-                          "there is nothing to continue; start it again"}};
+                          "nothing has been computed yet; start it again"}};
         return none;
     }
 }

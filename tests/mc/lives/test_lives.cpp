@@ -250,7 +250,7 @@ TEST_CASE("What cannot live on is refused with the key") {
     };
     CHECK(
         program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
-    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" looks at samples"));
+    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" needs samples"));
     CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
     CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts the tooth"));
     CHECK(refused(" --set life.records=6").mentions("no more than monitoring.baseline_records"));
