@@ -85,9 +85,9 @@ bool check_watch(const RunOptions& options, const Study& study) {
 
 bool check_signals(const RunOptions& options, const Study& study) {
     if (!options.part.empty() && !options.signals.empty()) {
-        fmt::print(stderr,
-                   "--signals: a part has rows of its own; ask merge's results, or "
-                   "`simulate --instance`\n");
+        fmt::print(
+            stderr,
+            "--signals: a part numbers its rows differently; use `gearpod simulate --instance`\n");
         return false;
     }
     const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());

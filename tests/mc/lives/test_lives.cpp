@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/lives/life_monitor.hpp"
@@ -193,6 +195,10 @@ TEST_CASE("A report on lives says what the run said, and other commands refuse t
         "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
     const auto whole = told(program(command));
     CHECK(told(program("report " + file + " --json -")) == whole);
+    std::istringstream text(program("report " + file).output);
+    for (std::string line; std::getline(text, line);) {
+        CHECK(line.size() <= 80);
+    }
     const mc::Results read = mc::read_results(file);
     REQUIRE(read.status.size() == 11);
     CHECK(read.noise_levels.size() == 40);  // hours
