@@ -32,6 +32,7 @@ double lap(WallClock::time_point& start) {
 // Optional outputs of a time integration, and the healthy states that it may start from.
 struct MarchWishes {
     bool with_motion = false;
+    int contact_meshes = 0;
     bool keep_states = false;
     const std::vector<lockstep::TileState>* healthy = nullptr;
     std::function<void(int, const lockstep::MeshRecord&)> hear = nullptr;
@@ -47,6 +48,7 @@ lockstep::TileSettings tile_settings(const Scene& scene, const MarchWishes& wish
     settings.compose = superposition(scene).healthy && wishes.healthy == nullptr;
     settings.compose_faulty = superposition(scene).faulty;
     settings.with_motion = wishes.with_motion;
+    settings.contact_meshes = wishes.contact_meshes;
     settings.keep_states = wishes.keep_states;
     settings.healthy = wishes.healthy;
     settings.hear = wishes.hear;
@@ -198,7 +200,9 @@ void add_signals(const Scene& scene, const signals::PathGrid& path, std::span<co
 void run_sampled(const Scene& scene, const signals::PathGrid& path, std::span<const GearboxId> ids,
                  const TileWishes& wanted, GearboxTile& tile) {
     const MarchCache* const kept = wanted.with_motion ? nullptr : wanted.marches;
-    const MarchWishes wishes{.with_motion = wanted.with_motion, .keep_states = wanted.keep_states};
+    const MarchWishes wishes{.with_motion = wanted.with_motion,
+                             .contact_meshes = wanted.contact_meshes,
+                             .keep_states = wanted.keep_states};
     const bool recorded = wanted.with_motion || wanted.keep_states || wanted.with_records;
     auto start = WallClock::now();
     if (const auto before = kept != nullptr ? kept->find(tile.inputs) : nullptr) {

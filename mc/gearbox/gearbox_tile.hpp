@@ -57,6 +57,7 @@ signals::PathGrid path_grid(const Scene& scene);
 struct TileWishes {
     // If any of these three is set, the records of every mesh period are kept.
     bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
+    int contact_meshes = 0;                         // likewise
     bool with_records = false;
     // Number of mesh periods of sensor samples to keep if the signal is recorded during
     // integration; -1 keeps all.

@@ -33,8 +33,8 @@ struct TileState {
 
 // One recorded mesh period. acceleration: [sample][channel][lane], m/s^2, low-passed; channels 2n
 // and 2n+1 are the absolute acceleration of source n (planet, bearing) along x and y. te:
-// [sample][lane], rad. motion: [sample][degree of freedom][lane], m; left empty unless it is asked
-// for.
+// [sample][lane], rad. motion: [sample][degree of freedom][lane], m, and mesh_force: [sample][gear
+// pair][lane], N, springs and mesh damping (MeshForces); both are empty unless requested.
 // estimate: [step][kEstimateRows][lane], the largest position (m) and velocity (m/s) over the
 // degrees of freedom and the largest estimated errors of these; for integrators that estimate their
 // error in a plan that asks for it (bogacki_shampine.hpp), left empty otherwise.
@@ -42,7 +42,7 @@ struct TileState {
 // the start of every step and at the end of the last one; left empty unless it is asked for.
 inline constexpr int kEstimateRows = 4;
 struct MeshRecord {
-    machine::AlignedVector acceleration, te, motion;
+    machine::AlignedVector acceleration, te, motion, mesh_force = {};
     machine::AlignedVector estimate = {};
     machine::AlignedVector step_states = {};
 };
@@ -87,5 +87,7 @@ MarchPlan in_doubles(MarchPlan plan);
 
 // Allocates a record of W lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);
+// Sizes the record's step states, which a kernel fills if they are not empty.
+void size_step_states(const MarchPlan& plan, int lanes, MeshRecord& record);
 
 }  // namespace gearpod::lockstep

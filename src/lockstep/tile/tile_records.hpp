@@ -23,7 +23,9 @@ struct TileSettings {
     bool compose = false;
     // Lanes with a fault too: what its passages change is marched from the composed states.
     bool compose_faulty = false;
-    bool with_motion = false;
+    bool with_motion = false;  // record motions and mesh forces too
+    // Contact loss counts in the first so many mesh periods; 0: in one of kContactMeshes.
+    int contact_meshes = 0;
     // Of meshes that are marched one by one: keep the state at the beginning of each.
     bool keep_states = false;
     // States that were kept of the same gearboxes without faults and with the same settings, or
@@ -52,7 +54,8 @@ struct TileResult {
     std::vector<char> composed;
     // [gear pair][lane]: the contact loss ratio, the share of its engagement within the nominal
     // path of contact in which a tooth pair carries no load, averaged over the tooth pairs. Counted
-    // in one of kContactMeshes mesh periods of the span with its faults (tooth_contact.hpp); where
+    // in one of kContactMeshes mesh periods of the span with its faults (tooth_contact.hpp), or as
+    // TileSettings::contact_meshes states; where
     // mesh periods repeat, in the healthy one. Superposed meshes have none. Empty where teeth
     // cannot part, and with TileSettings::healthy.
     machine::AlignedVector contact_loss;

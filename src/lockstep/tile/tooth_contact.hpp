@@ -14,7 +14,11 @@ namespace gearpod::lockstep {
 // True for the mesh periods in which contact loss is counted: one in kContactMeshes, spread evenly
 // over a span and over the teeth of every gear (multiples of the golden ratio), mesh 0 among them.
 inline constexpr unsigned kContactMeshes = 144;
-constexpr bool counts_contact(int mesh) {
+// With `first` above 0: for the first so many.
+constexpr bool counts_contact(int mesh, int first = 0) {
+    if (first > 0) {
+        return mesh < first;
+    }
     return static_cast<std::uint32_t>(mesh) * 2654435769u < 0xffffffffu / kContactMeshes;
 }
 
@@ -31,9 +35,6 @@ class ToothContact {
   public:
     // `mesh_period_s` holds one value a lane. The plan must outlive the object.
     ToothContact(const MarchPlan& plan, std::vector<double> mesh_period_s);
-
-    // Sizes the record's step states, which the other functions read.
-    void ask_for_steps(MeshRecord& record) const;
 
     // A lower bound of how far the tooth pairs are pressed together, [stretch][pair][tooth
     // pair][lane], m; infinite where a tooth pair is not engaged, minus infinite where the motion
