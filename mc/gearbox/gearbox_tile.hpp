@@ -55,9 +55,10 @@ signals::PathGrid path_grid(const Scene& scene);
 
 // Optional outputs of a tile.
 struct TileWishes {
-    // If any of these three is set, the records of every mesh period are kept.
+    // If with_motion, keep_states or with_records is set, the records of every mesh period are
+    // kept.
     bool with_motion = false, keep_states = false;  // as in lockstep::TileSettings
-    int contact_meshes = 0;                         // likewise
+    int contact_meshes = 0;                         // as in lockstep::TileSettings
     bool with_records = false;
     // Number of mesh periods of sensor samples to keep if the signal is recorded during
     // integration; -1 keeps all.
