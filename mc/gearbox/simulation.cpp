@@ -17,8 +17,8 @@ namespace {
 
 using Column = SignalColumn;
 
-// Values of the first lane that repeat with the recorded mesh periods: value(record, sample) over
-// `meshes` meshes.
+// Values of the first lane over `meshes` mesh periods, repeating the recorded ones. value(record,
+// sample) reads one value.
 template <typename Value>
 std::vector<double> unroll(const GearboxTile& tile, int samples, long meshes, Value value) {
     std::vector<double> all;
@@ -73,7 +73,7 @@ void add_sensor(const Scene& scene, const GearboxTile& tile, const signals::Path
     }
 }
 
-// Seconds of every sample, which a fluctuating speed spaces unevenly.
+// Time of every sample, s. A fluctuating speed makes the spacing uneven.
 std::vector<double> sample_times(const Scene& scene, const GearboxId& id,
                                  const InstanceInputs& instance, long meshes) {
     const auto& grid = scene.plan().grid;

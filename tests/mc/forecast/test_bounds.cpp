@@ -73,7 +73,7 @@ TEST_CASE("A run that cannot fit the memory says so before it begins") {
     const Outcome refused = bounded(run, 1500000);
     INFO(refused.output);
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("GB of memory at least"));
+    CHECK(refused.mentions("the run needs at least"));
     CHECK(refused.mentions("--force"));
     CHECK(folder.empty());
     // Tried all the same, it ends with a message and what it has.

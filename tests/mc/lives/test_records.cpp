@@ -178,7 +178,7 @@ TEST_CASE("Records and curves that cannot be are refused with the key") {
         CHECK(outcome.code == 2);
         return outcome;
     };
-    CHECK(refused("--set life.record_turns=1").mentions("windows return every 31"));
+    CHECK(refused("--set life.record_turns=1").mentions("windows repeat every 31"));
     CHECK(refused("--set life.record_s=60 --set life.record_turns=9")
               .mentions("given beside record_s"));
     CHECK(refused("--set 'features.use=[\"te_rms\"]' --set life.record_s=60")
