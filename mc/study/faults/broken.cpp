@@ -1,4 +1,4 @@
-// A tooth of which a share has broken off: stiffness/faults/broken.hpp.
+// Broken tooth, of which a fraction has broken off: stiffness/faults/broken.hpp.
 #include "stiffness/faults/broken.hpp"
 
 #include "mc/study/faults/fault_kind.hpp"
@@ -9,7 +9,7 @@ namespace gearpod::mc {
 namespace {
 
 struct LostTooth : FaultShape {
-    std::optional<double> lost;  // share, 0..1
+    std::optional<double> lost;  // fraction, 0..1
 
     bool operator==(const LostTooth&) const = default;
 };
@@ -25,7 +25,7 @@ class BrokenKind final : public FaultKind {
     const FaultSize& size() const override { return kBrokenSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
-    // Any tooth can lose any share.
+    // Every tooth can lose any fraction.
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {

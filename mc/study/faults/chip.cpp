@@ -1,4 +1,4 @@
-// A chip off one end of a tooth's tip: stiffness/faults/chip.hpp.
+// Chip off one end of a tooth's tip: stiffness/faults/chip.hpp.
 #include "stiffness/faults/chip.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ constexpr ChoiceName kEnds[] = {name("first", FaceEnd::first), name("last", Face
 struct Chip : FaultShape {
     std::optional<double> width_m;   // along the face width, at the tip
     std::optional<double> height_m;  // along the tooth
-    std::optional<FaceEnd> end;      // of helical teeth
+    std::optional<FaceEnd> end;      // only for helical teeth
 
     bool operator==(const Chip&) const = default;
 };

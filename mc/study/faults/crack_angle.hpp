@@ -1,4 +1,4 @@
-// Properties that all kinds of crack share: their angle, their law, and how deep one can go.
+// Properties common to all kinds of crack: angle, stiffness law and largest depth.
 #pragma once
 
 #include <optional>
@@ -29,16 +29,17 @@ inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrack
 // clang-format on
 
 double crack_angle_rad(const Study& study);
-// The law of the study's cracks: its own, or fracture mechanics for teeth with fillets and sections
-// for others.
+// Stiffness law of the study's cracks: the given one, else fracture mechanics for teeth with
+// fillets and sections for other profiles.
 stiffness::CrackLaw crack_law(const Study& study);
 
-// Depth at which the faulty member's tooth breaks, m. The study must have the tooth geometry.
+// Depth at which the faulty member's tooth is cut through, m. Precondition: the tooth geometry is
+// given.
 double max_crack_depth_m(const Study& study);
-// Thickness of that tooth where its cracks start, m.
+// Thickness of that tooth at the section where its cracks start, m.
 double critical_section_m(const Study& study);
-// Where the study's cracks start, how thick the tooth is there and what share of that section each
-// of these depths takes, for the user.
+// Text for the user: where the cracks start, the tooth thickness there, and the fraction of that
+// section that each of these depths takes.
 std::string crack_origin(const Study& study, std::span<const double> depths_m);
 // "than the tooth (a crack at 45 deg leaves it after 4.2 mm)".
 std::string than_the_tooth(const Study& study);

@@ -17,10 +17,11 @@ namespace gearpod::mc {
 namespace {
 
 struct Pits : FaultShape {
-    std::optional<double> width_m;                      // along the face width
-    std::optional<double> length_m, radius_m, depth_m;  // along the profile; centre of the band
-    int teeth = 1;                                      // neighbouring pitted teeth
-    std::optional<double> face_position_m;              // of helical teeth
+    std::optional<double> width_m;  // along the face width
+    std::optional<double> length_m, radius_m,
+        depth_m;    // along the profile; radius of the band's centre; depth of the pits
+    int teeth = 1;  // neighbouring pitted teeth
+    std::optional<double> face_position_m;  // only for helical teeth
 
     bool operator==(const Pits&) const = default;
 };
@@ -36,7 +37,7 @@ constexpr FaultKey kPittingOthers[] = {
 };
 // clang-format on
 
-// The mate against which the faulty flank works.
+// Mating member of the faulty flank.
 Member mate_of(const Fault& fault) {
     switch (*fault.member) {
         case Member::planet:
@@ -53,8 +54,8 @@ Member mate_of(const Fault& fault) {
     return Member::planet;
 }
 
-// Radii of the faulty member's flank that touches its mate, lowest and highest, m. A planet's flank
-// on the faulty side.
+// Lowest and highest radius of the faulty member's flank that its mate touches, m; for a planet, of
+// the flank on the faulty side.
 struct ActiveFlank {
     double low_m, high_m;
 };

@@ -1,4 +1,4 @@
-// A tooth known by what it takes from the mesh's stiffness alone: stiffness/faults/reduction.hpp.
+// Tooth fault given only by the loss of mesh stiffness: stiffness/faults/reduction.hpp.
 #include "stiffness/faults/reduction.hpp"
 
 #include "mc/study/faults/fault_kind.hpp"
@@ -9,7 +9,7 @@ namespace gearpod::mc {
 namespace {
 
 struct LostStiffness : FaultShape {
-    std::optional<double> lost;  // share, 0..1
+    std::optional<double> lost;  // fraction, 0..1
 
     bool operator==(const LostStiffness&) const = default;
 };
@@ -25,7 +25,7 @@ class ReductionKind final : public FaultKind {
     const FaultSize& size() const override { return kReductionSize; }
     std::span<const FaultKey> other_keys() const override { return {}; }
     bool shapes_tooth() const override { return false; }
-    // Any tooth can lose any share.
+    // Every tooth can lose any fraction.
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {

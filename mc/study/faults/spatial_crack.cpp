@@ -1,4 +1,4 @@
-// A crack whose depth, height and angle change along the width and as it grows:
+// Crack with depth, height and angle that vary along the face width and as it grows:
 // stiffness/faults/spatial_crack.hpp.
 #include "stiffness/faults/spatial_crack.hpp"
 
@@ -14,11 +14,11 @@
 namespace gearpod::mc {
 namespace {
 
-// Yang (2022), Eqs. 61-66: its growth, entry k at stage k + 1.
+// Growth of a spatial crack, Yang (2022), Eqs. 61-66. Entry k of a list belongs to stage k + 1.
 struct Growth : FaultShape {
-    std::optional<double> stage;  // 0: healthy; between entries linear
+    std::optional<double> stage;  // 0: healthy; linear between entries
     std::vector<double> depth_m, end_depth_m, length_m, height_m, end_height_m;
-    std::optional<double> end_angle_rad;  // by default the angle where it begins
+    std::optional<double> end_angle_rad;  // by default the angle at the starting face
     double height_wave = 0.0;
     double height_waves = 0.0;
     int slices = 16;
@@ -43,7 +43,7 @@ constexpr FaultKey kSpatialCrackOthers[] = {
 };
 // clang-format on
 
-// Every entry of a growth list stays at or below the limit.
+// Rejects entries of a growth list above the limit.
 void check_entries(StudyDraft& draft, const std::string& key, const std::vector<double>& list_m,
                    double limit_m, const std::string& why) {
     for (std::size_t k = 0; k < list_m.size() && draft.all_usable({key}); ++k) {
@@ -67,7 +67,7 @@ void check_grows(StudyDraft& draft, const std::string& key, const std::vector<do
     }
 }
 
-// An end depth belongs to a crack that has reached the other end face.
+// Rejects end depths of cracks that have not reached the other end face.
 void check_end_depths(StudyDraft& draft, const Growth& g, double face_m) {
     const std::string key = "fault.growth_end_depth_mm";
     for (std::size_t k = 0; k < g.end_depth_m.size() && draft.all_usable({key}); ++k) {
@@ -100,7 +100,7 @@ void check_growth(StudyDraft& draft, const Growth& g) {
     check_end_depths(draft, g, face_m);
 }
 
-// Whether all lists are usable and have an entry for every stage.
+// True if all lists are usable and have one entry for each stage.
 bool check_stages(StudyDraft& draft, const Growth& g) {
     const std::size_t stages = g.depth_m.size();
     const std::pair<const char*, std::size_t> lists[] = {

@@ -16,7 +16,7 @@
 namespace gearpod::mc {
 namespace {
 
-// "sun" or "carrier": the central members that turn.
+// Quoted names of the central members that turn, e.g. "sun" or "carrier".
 std::string turning_members(Member fixed) {
     std::string names;
     for (const Member member : {Member::sun, Member::ring, Member::carrier}) {
@@ -73,7 +73,7 @@ void check_path(StudyDraft& draft) {
     }
 }
 
-// Tian's model has no other degrees of freedom.
+// Tian's model of a fixed-shaft gearbox has translations as well as rotations.
 void check_fixed_shaft_motion(StudyDraft& draft) {
     const Study& s = draft.study;
     if (s.gearbox.kind == GearboxKind::fixed_shaft && s.effects.torsional() &&
@@ -217,11 +217,12 @@ void check_precision(StudyDraft& draft) {
     }
 }
 
-// As many of each kind of tilted record.
+// Rejects numbers of records that cannot be divided equally among the kinds of importance-sampled
+// records.
 void check_tilted_records(StudyDraft& draft) {
     const Ensemble& e = draft.study.ensemble;
     constexpr auto kKinds = static_cast<int>(signals::NoiseTilt::kKinds);
-    // Without several records the tilt has no place, which is said already.
+    // The presence check rejects tilting of a single record.
     if (e.tilted() && e.threshold_records > 1 && draft.all_usable({"ensemble.threshold_records"}) &&
         e.threshold_records % kKinds != 0) {
         draft.reject("ensemble.threshold_records",

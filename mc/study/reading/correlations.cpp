@@ -68,7 +68,7 @@ class CorrelationReader {
             for (const RandomInput& other : draft_.study.random) {
                 known.push_back(other.key);
             }
-            good_ = false;  // one that is random but bad is reported where it stands
+            good_ = false;  // a random input with a problem has its own message
             if (!draft_.bad.contains("random." + key)) {
                 reject(key + " is not random", known.empty() ? "" : suggest(key, known));
             }

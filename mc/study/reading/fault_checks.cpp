@@ -1,4 +1,5 @@
-// Checks of the fault: that its member, side and profile can have it, and that it fits the tooth.
+// Checks of the fault against its member, side and tooth profile, and against the size of the
+// tooth.
 #include <fmt/format.h>
 
 #include "mc/study/faults/all_faults.hpp"
@@ -10,7 +11,8 @@
 namespace gearpod::mc {
 namespace {
 
-// "reduction" or "broken": the kinds for any tooth, the plainest of which stands last.
+// Quoted names of the kinds that need no tooth shape, the simplest one first: "reduction" or
+// "broken".
 std::string shapeless_kinds() {
     std::string names;
     const auto kinds = all_faults();
@@ -57,7 +59,7 @@ void check_planet(StudyDraft& draft) {
     }
 }
 
-// Whether the tooth has a shape that a fault can change.
+// True if the fault needs no tooth shape or the study has one.
 bool check_profile(StudyDraft& draft) {
     const ToothProfile profile = draft.study.gearbox.tooth_profile;
     if (!stiffness_given(draft.study) || !draft.study.fault.kind->shapes_tooth() ||
@@ -74,7 +76,7 @@ bool check_profile(StudyDraft& draft) {
     return false;
 }
 
-// What needs the faulty tooth itself.
+// Checks that need the geometry of the faulty tooth.
 void check_shape(StudyDraft& draft) {
     const Study& s = draft.study;
     if (!draft.all_usable({"gearbox.kind", "gearbox.module_mm", "gearbox.pressure_angle_deg",
@@ -118,7 +120,7 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
     }
 }
 
-// Edges group continuous sizes; levels are their own groups.
+// Continuous sizes are grouped by edges; discrete levels form their own groups.
 void check_edges(StudyDraft& draft) {
     if (draft.study.fault.kind == nullptr) {
         return;

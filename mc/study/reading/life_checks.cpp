@@ -1,5 +1,4 @@
-// Checks of a life: what grows, between which depths, and that records are left behind the
-// baseline.
+// Checks of lives: the crack, its depths, and that records remain after the baseline.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +53,7 @@ void check_loads(StudyDraft& draft) {
     check("speed", life.marched_speeds, RecordQuantity::speed, life.speed_scatter);
 }
 
-// A baseline of too few records knows no scatter: own_deviations() are then NaN.
+// A baseline of too few records has no scatter estimate, and own_deviations() are then NaN.
 void check_watch(StudyDraft& draft) {
     const Life& life = draft.study.life;
     const Monitoring& watch = draft.study.monitoring;
@@ -78,7 +77,7 @@ void check_watch(StudyDraft& draft) {
 
 }  // namespace
 
-// Only on a study that is sound otherwise: its fault and teeth are then what they are.
+// Runs only on a study without other problems, whose fault and teeth are valid.
 void check_life(StudyDraft& draft) {
     const Study& study = draft.study;
     const Life& life = study.life;

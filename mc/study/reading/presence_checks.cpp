@@ -66,7 +66,7 @@ void check_exclusive_keys(StudyDraft& draft) {
     }
 }
 
-// All of a missing section's required keys in one message.
+// Reports all required keys of a missing section in one message.
 void check_sections(StudyDraft& draft) {
     for (const std::string_view name : section_names()) {
         const std::string section(name);

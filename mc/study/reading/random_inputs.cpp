@@ -35,8 +35,8 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
                                            : "narrow the distribution");
 }
 
-// `file` and `column` of an empirical distribution become its values; columns of the same file are
-// drawn in rows, in a group far from those that studies name.
+// Replaces `file` and `column` of an empirical distribution by its values. Columns of the same file
+// are sampled by row, in a group number far above those that studies use.
 Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     constexpr int kFileGroups = 900'000;
     Value table = entry.value;
@@ -68,7 +68,8 @@ Value with_values(StudyDraft& draft, const Key& key, const Entry& entry) {
     return table;
 }
 
-// What is drawn for every record is a quantile of a number that the record has.
+// Checks a distribution with per = "record". Such values are quantiles of a variate of the record,
+// so the distribution needs a quantile function.
 void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
                       const Distribution& distribution) {
     const std::string per = key.path() + ".per";
@@ -91,7 +92,7 @@ void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
     }
 }
 
-// Inputs that draw the same rows have as many.
+// Inputs that use the same rows must have the same number of values.
 void check_rows(StudyDraft& draft) {
     for (const RandomInput& input : draft.study.random) {
         const Distribution::Rows rows = input.distribution.rows();
@@ -172,7 +173,7 @@ void read_random(StudyDraft& draft, const Value& section) {
             read_random_section(draft, entry);
         }
     }
-    // In the order of the schema, whatever the order in the file.
+    // Sorted in the order of the schema, whatever their order in the file.
     const auto rank = [](const RandomInput& input) {
         const auto keys = schema();
         return std::find_if(keys.begin(), keys.end(),

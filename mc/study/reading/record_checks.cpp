@@ -1,4 +1,4 @@
-// Checks of what [random] draws for every record.
+// Checks of the distributions in [random] that vary from record to record.
 #include <fmt/format.h>
 
 #include "mc/study/reading/parts.hpp"
@@ -7,7 +7,7 @@
 namespace gearpod::mc {
 namespace {
 
-// The key that says the same in short, and what it is set to.
+// Short form of a record distribution: its key and the scatter that it gives.
 struct ShortForm {
     std::string key;
     double scatter;
@@ -56,7 +56,7 @@ void check_input(StudyDraft& draft, const RandomInput& input) {
 
 }  // namespace
 
-// Only on a study that is sound otherwise.
+// Runs only on a study without other problems.
 void check_records(StudyDraft& draft) {
     if (!draft.problems.empty()) {
         return;

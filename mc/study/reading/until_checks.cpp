@@ -22,7 +22,7 @@ void reject(StudyDraft& draft, const std::string& key, std::string what, std::st
 
 }  // namespace
 
-// Only on a study that is sound otherwise: its sizes and features are then what they are.
+// Runs only on a study without other problems, whose sizes and features are valid.
 void check_until(StudyDraft& draft) {
     const Study& study = draft.study;
     const Until& until = study.ensemble.until;

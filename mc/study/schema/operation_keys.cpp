@@ -40,7 +40,8 @@ std::span<const ChoiceName> path_names() {
 }
 
 using U = Fluctuations;
-// A speed that comes near zero is no speed to march in mesh phase; noise reaches six times its rms.
+// Limited so that the speed stays well above zero: time integration in mesh phase divides by it.
+// Noise can reach six times its rms.
 constexpr Range kSpeedAmplitude = from_to(0, 0.3);
 constexpr Range kSpeedNoise = from_to(0, 0.05);
 

@@ -26,7 +26,7 @@ Presence damping(const Study& s, MeshDamping kind, const std::string& why) {
     return {need, why, {"effects.mesh_damping", kMotion}};
 }
 
-// Required with that key, and else forbidden.
+// Required if that key is given, else forbidden.
 Presence with(const std::optional<double>& given, const std::string& because,
               const std::string& only, std::string_view governor) {
     return given ? Presence{Need::required, because, {governor}}
@@ -176,7 +176,7 @@ Presence foundation(const Study& s) {
 }
 
 Presence ring_foundation(const Study& s) {
-    // Sainsot's formula is fitted to external gears.
+    // Sainsot's formula is fitted to external gears only.
     return s.effects.foundation == Foundation::elastic_ring && !stiffness_given(s)
                ? Presence{Need::required,
                           "effects.foundation is \"elastic-ring\"",
@@ -266,7 +266,7 @@ Presence gravity(const Study& s) {
 }
 
 Presence mass(const Study& s) {
-    // Without inertia, but not without weight.
+    // A quasi-static gearbox needs its masses only for their weight.
     if (s.effects.quasi_static() && s.effects.gravity) {
         return {Need::required, "effects.gravity = true", {kMotion, "effects.gravity"}};
     }

@@ -19,7 +19,7 @@ constexpr ChoiceName kSamplings[] = {name("plain", SamplingKind::plain),
 constexpr ChoiceName kHorizons[] = {name("reuse", Horizon::reuse),
                                     name("superpose", Horizon::superpose),
                                     name("march", Horizon::march)};
-// "auto", and all of them by their own names.
+// "auto" and the names of all values.
 template <class Enum>
 std::vector<ChoiceName> names_or_auto(std::span<const Enum> values) {
     std::vector<ChoiceName> all{kAutomatic};
@@ -34,7 +34,7 @@ constexpr machine::InstructionSet kSets[] = {machine::InstructionSet::baseline,
                                              machine::InstructionSet::x86_64_v4};
 const std::vector<ChoiceName> kInstructionSets = names_or_auto<machine::InstructionSet>(kSets);
 
-// Nearer to 0 or 1 intervals have no numbers.
+// Closer to 0 or 1, intervals cannot be computed.
 constexpr Range kShare = from_to(1e-9, 1 - 1e-9);
 constexpr Range kTolerance = {0.0, 1.0, false, true};
 

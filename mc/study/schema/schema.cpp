@@ -70,7 +70,7 @@ struct KindText {
     }
 };
 
-// Words of the text, indented, in lines of 80 columns.
+// Text wrapped to lines of at most 80 columns, each one indented.
 std::string wrapped(const std::string& text, std::size_t indent) {
     constexpr std::size_t kWidth = 80;
     std::string out, line;
