@@ -13,7 +13,7 @@
 namespace gearpod::mc {
 namespace {
 
-// In periods a mesh.
+// Highest fluctuation frequency of a gearbox (sine or noise band), in cycles per mesh period.
 double fastest(const Study& study, const Drive& drive, const InstanceInputs& in) {
     const FluctuationInstance& f = in.fluctuations;
     const double period_s = dynamics::mesh_period_s(gearbox_inputs(study, drive, in));
@@ -34,7 +34,7 @@ double fastest(const Study& study, const Drive& drive, const InstanceInputs& in)
     return result;
 }
 
-// Of the nominal gearbox and a pilot of the ensemble.
+// The same, the maximum over the nominal gearbox and a pilot sample of the ensemble.
 double fastest(const Study& study, const Drive& drive) {
     const Sampler sampler(study);
     double result = fastest(study, drive, sampler.nominal());
@@ -76,7 +76,7 @@ void check_kernels(const Study& study, const lockstep::MarchPlan& plan) {
             : "use integrator = \"auto\"");
 }
 
-// Without inertia there are no steps, only the encoders' samples.
+// A quasi-static gearbox has no time steps, only the encoders' samples.
 void check_samples(const Study& study, const Drive& drive, int samples) {
     const double rate = fastest(study, drive);
     if (samples < 2.0 * rate) {

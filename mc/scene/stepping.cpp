@@ -18,10 +18,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kMostSamples = 20'000;  // likewise: a span of thousands of them fits the memory
+constexpr int kMostSamples =
+    20'000;  // per mesh period, so that a span of thousands of them fits in memory
 constexpr int kFewestSamples = 4;
 
-// The smallest number >= least whose only prime factors are 2, 3 and 5: Fourier transforms of a
+// Smallest number >= least whose only prime factors are 2, 3 and 5, so that Fourier transforms of a
 // whole planet turn stay fast.
 int round_up_to_smooth(int least) {
     for (int n = std::max(least, 1);; ++n) {
@@ -37,7 +38,7 @@ int round_up_to_smooth(int least) {
     }
 }
 
-// Samples a mesh period at least, for a rate of `key`.
+// Smallest number of samples per mesh period for a rate given by `key`.
 int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) {
     const double samples = std::ceil(rate_Hz / mesh_frequency_Hz - 1e-9);
     if (samples > kMostSamples) {
@@ -49,7 +50,7 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
     return std::max(1, static_cast<int>(samples));
 }
 
-// What the steps of a mesh period have to follow.
+// Requirements on the number of steps per mesh period.
 class StepNeeds {
   public:
     StepNeeds(const Study& study, const Drive& drive, const dynamics::GearboxLayout& layout,
@@ -61,7 +62,8 @@ class StepNeeds {
           sampler_(study),
           low_pass_rad_s_(2.0 * pi * study.sensor.low_pass_Hz) {
         gearboxes_.push_back(gearbox_inputs(study, drive, sampler_.nominal()));
-        // A pilot of the ensemble, the same for every run of the study, stands for the rest.
+        // A pilot sample of the ensemble, the same for every run of the study, represents the other
+        // gearboxes.
         constexpr std::uint64_t kPilot = 32;
         for (std::uint64_t i = 0; i < (study.random.empty() ? 0 : kPilot); ++i) {
             gearboxes_.push_back(graded(i));
@@ -73,20 +75,20 @@ class StepNeeds {
     }
 
     double decay_meshes() const { return decay_meshes_; }
-    // Steps with which an explicit method is stable for all of them.
+    // Number of steps with which an explicit method is stable for all gearboxes of the pilot.
     double stable(lockstep::Integrator integrator) const {
         return integrator == lockstep::Integrator::rk4 ? runge_kutta_ : stable_steps(integrator);
     }
-    // Steps with which it is stable for gearboxes that the pilot misses, too.
+    // The same with a margin for gearboxes outside the pilot.
     double ample(lockstep::Integrator integrator) const {
         constexpr double kMargin = 1.2, kLeastMargin = 1.04;
-        // Runge-Kutta methods damp what is near their limit, and have to be further from it.
+        // Runge-Kutta methods damp motion near their stability limit and need a larger margin.
         if (lockstep::facts(integrator).growth != nullptr) {
             return kMargin * stable(integrator);
         }
-        // Half as far again beyond the worst of a larger pilot as that is beyond the upper tenth,
-        // in logarithms: of ends of a range a little, of normal tails as far as 1e5 gearboxes
-        // reach.
+        // Extrapolates beyond the largest value of a larger pilot by half its distance from the
+        // upper decile, in logarithms. That is little for bounded distributions; for normal tails
+        // it covers the maximum of 1e5 gearboxes.
         constexpr std::uint64_t kPilot = 256;
         std::vector<double> needs{needed_steps(gearboxes_[0], integrator)};
         for (std::uint64_t i = 0; i < (study_.random.empty() ? 0 : kPilot); ++i) {
@@ -98,7 +100,7 @@ class StepNeeds {
         return worst * std::clamp(beyond, kLeastMargin, kMargin);
     }
     double band_periods() const { return low_pass_rad_s_ / (2.0 * pi) * period(gearboxes_[0]); }
-    // Steps with which an implicit method is accurate for all of them.
+    // Number of steps with which an implicit method is accurate for all gearboxes of the pilot.
     double implicit(lockstep::Integrator integrator) const {
         double steps = 1.0;
         for (const dynamics::GearboxInputs& gearbox : gearboxes_) {
@@ -139,7 +141,7 @@ class StepNeeds {
     const std::vector<double>& stiffest_;
     const Sampler sampler_;
     double low_pass_rad_s_;
-    std::vector<dynamics::GearboxInputs> gearboxes_;  // the nominal one first
+    std::vector<dynamics::GearboxInputs> gearboxes_;  // pilot sample, the nominal one first
     double decay_meshes_ = 0.0, runge_kutta_ = 0.0;
 };
 
@@ -152,8 +154,8 @@ class StepNeeds {
                      "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
 }
 
-// One grid serves all gearboxes: it must be stable for the stiffest and lightest of them. A gearbox
-// beyond what is ample by the pilot is reported as diverged.
+// One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
+// gearbox outside the margin is reported as diverged.
 Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrator, int given) {
     const double stable = needs.stable(integrator), ample = needs.ample(integrator);
     const double band = lockstep::facts(integrator).steps_in_band * needs.band_periods();
@@ -266,8 +268,8 @@ double settle_tolerance(const Study& study) {
                : asked;
 }
 
-// Enough mesh periods for twice the time in which the nominal gearbox's slowest mode decays to the
-// tolerance.
+// Twice the number of mesh periods in which the nominal gearbox's slowest mode decays to the
+// tolerance, within bounds.
 int choose_max_meshes(const Study& study, double decay_meshes) {
     constexpr double kFewest = 200.0, kMost = 1e6;
     const double decay = -2.0 * decay_meshes * std::log(settle_tolerance(study));
