@@ -11,7 +11,7 @@ namespace {
 
 using namespace gearpod::mc;
 
-// Says that `name` is no command, if so.
+// True if `name` is a command; otherwise prints an error.
 bool is_command(CLI::App& app, const std::string& name) {
     std::string names;
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -24,7 +24,8 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
-// The command line as a man page and as completion: what installs them calls the program for it.
+// Adds the options that print the command line as a man page and as bash completion, used at
+// installation.
 void add_descriptions(CLI::App& app) {
     const auto print = [](const std::string& text) {
         fmt::print("{}", text);

@@ -1,4 +1,4 @@
-// measure_accuracy().
+// measure_accuracy(): measures time and error of the solver settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,15 +20,16 @@
 namespace gearpod::mc {
 namespace {
 
-// Rungs slower than so many times the fastest that is as close are timed once, and not settled more
-// loosely.
+// Settings slower by more than this factor than the fastest of the same accuracy are timed only
+// once, and not tried with looser convergence tolerances.
 constexpr double kNearFrontier = 3.0;
-// Contenders for a tolerance: rungs within this factor of the fastest are timed more often.
+// Contenders for a tolerance are the settings within this factor of the fastest; they are timed
+// more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
-// The reference's share of the time.
+// Fraction of the processor time for the reference.
 constexpr double kReferenceShare = 1.0 / 3.0;
-// Tried on the fastest rung for each tolerance.
+// Stiffness tolerances tried with the fastest setting for each tolerance.
 constexpr double kStiffnessTolerances[] = {1e-8, 1e-6, 1e-5, 1e-4, 1e-3};
 
 class Measurement {
@@ -99,7 +100,7 @@ class Measurement {
         report_.rungs.back().refusal = refusal;
     }
 
-    // The fastest rung for each tolerance with fewer terms in the stiffness curves.
+    // Measures the fastest setting for each tolerance with fewer terms in the stiffness curves.
     void thin_stiffness() {
         if (!time_.enough()) {
             return leave_out("rungs with thinner stiffness curves");
@@ -133,7 +134,8 @@ class Measurement {
         march_first(first);
     }
 
-    // Rungs with the same steps stand together, so that a scene serves them all.
+    // Measures looser convergence tolerances. Settings with the same steps follow each other, so
+    // that one scene serves them all.
     void settle_loosely() {
         if (!time_.enough()) {
             return leave_out("rungs settled more loosely");
@@ -173,7 +175,8 @@ class Measurement {
 
     void leave_out(const std::string& what) { report_.left_out.push_back(what); }
 
-    // Processor seconds that a rung will take at least: all meshes take as many times as long.
+    // Lower bound of the processor time of a setting, s; only known where every mesh period is
+    // integrated.
     double least_s(const Rung& rung) const {
         const RungResult& own = report_.rungs[0];
         return marches_everything(rung) && own.meshes > 0.0 && !times_[0].march.empty()
@@ -197,7 +200,7 @@ class Measurement {
         }
     }
 
-    // Whether there was time for all.
+    // Times the settings again; false if the time ran out.
     bool march_again() {
         for (std::size_t i = 0; i < report_.rungs.size(); ++i) {
             if (!time_.enough()) {
@@ -232,7 +235,7 @@ class Measurement {
         result.meshes = record.meshes_per_tile();
         result.failed = static_cast<double>(std::count(record.ok.begin(), record.ok.end(), false));
         result.error = pilot_error(record, report_.reference.record);
-        // The study's own rung may leave the integrator to the program.
+        // The study's own setting may have the integrator "auto".
         const std::string integrator = result.rung.integrator == "auto"
                                            ? std::string(lockstep::name(own_integrator_))
                                            : result.rung.integrator;
@@ -245,7 +248,8 @@ class Measurement {
                result.error.largest_feature() <= tolerance;
     }
 
-    // The rung that the tolerance chooses joins the ladder if it is not on it.
+    // Finds the setting that numerics.tolerance chooses, and measures it if it is not among the
+    // settings yet.
     void choose(double tolerance) {
         request_.progress(fmt::format("choice for {:g}", tolerance));
         ChoiceCheck check;
@@ -273,7 +277,8 @@ class Measurement {
         report_.choices.push_back(check);
     }
 
-    // Interleaved: what the machine does meanwhile slows all of them alike.
+    // Times the contenders alternately, so that other load on the machine slows all of them
+    // equally.
     void time_contenders() {
         finish_times();
         std::vector<std::size_t> contenders;
@@ -361,7 +366,7 @@ class Measurement {
         });
     }
 
-    // Measured time of a step over rk4's, against the table.
+    // Compares the measured time of a step relative to rk4's with the cost model's table.
     void check_step_costs() {
         std::map<std::string, std::vector<double>> measured;
         for (const RungResult& result : report_.rungs) {

@@ -8,7 +8,8 @@
 namespace gearpod::mc {
 namespace {
 
-// Of the pilot ensemble, both groups: by default, and fewest for which anything is said.
+// Number of gearboxes of the pilot ensemble, both groups: default, and smallest for which results
+// are given.
 constexpr long kPilotGearboxes = 480;
 constexpr long kFewestGearboxes = 60;
 
@@ -39,7 +40,7 @@ std::vector<std::size_t> rungs_that_matter(const AccuracyReport& report) {
     return places;
 }
 
-// How many gearboxes there is time for; none where so few would say nothing.
+// Number of gearboxes for which there is time; 0 if too few for a result.
 long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLeft& time,
                 const std::vector<std::size_t>& places, AccuracyReport& report) {
     if (request.gearboxes) {

@@ -1,4 +1,4 @@
-// read_peers().
+// read_peers(): reads a table of other programs' results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace gearpod::mc {
 namespace {
 
-// Cells of a line; a cell in quotation marks may hold commas.
+// Cells of a CSV line; a quoted cell may contain commas.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;

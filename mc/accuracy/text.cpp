@@ -1,4 +1,4 @@
-// accuracy_text().
+// accuracy_text(): writes an accuracy report as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,12 +64,13 @@ void add_row(const AccuracyReport& report, const RungResult& r, const char* mark
                    r.failed > 0 ? fmt::format(" ({:g} failed)", r.failed) : "");
 }
 
-// With fewer terms in the stiffness curves.
+// True for settings with fewer terms in the stiffness curves.
 bool is_thin(const Rung& rung) {
     return !rung.other.empty() && rung.other.back().starts_with("numerics.stiffness_tolerance");
 }
 
-// Of each flight at the tightest settling, of the frontier, and the study's own.
+// True for settings that are listed: those of each family with the tightest convergence tolerance,
+// the frontier, the chosen ones and the study's own.
 bool worth_a_line(const AccuracyReport& report, std::size_t i) {
     const RungResult& r = report.rungs[i];
     return r.frontier || static_cast<int>(i) == report.own ||
