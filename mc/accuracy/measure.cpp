@@ -20,11 +20,9 @@
 namespace gearpod::mc {
 namespace {
 
-// Settings slower by more than this factor than the fastest of the same accuracy are timed only
-// once, and not tried with looser convergence tolerances.
+// Settings slower than equally accurate ones by more than this factor are timed only once.
 constexpr double kNearFrontier = 3.0;
-// Contenders for a tolerance are the settings within this factor of the fastest; they are timed
-// more often.
+// Settings within this factor of the fastest for a tolerance are timed more often.
 constexpr double kContender = 1.5;
 constexpr int kContenderRepeats = 10;
 // Fraction of the processor time for the reference.
@@ -100,7 +98,7 @@ class Measurement {
         report_.rungs.back().refusal = refusal;
     }
 
-    // Measures the fastest setting for each tolerance with fewer terms in the stiffness curves.
+    // Measures the fastest settings again with fewer terms in the stiffness curves.
     void thin_stiffness() {
         if (!time_.enough()) {
             return leave_out("rungs with thinner stiffness curves");
@@ -134,8 +132,7 @@ class Measurement {
         march_first(first);
     }
 
-    // Measures looser convergence tolerances. Settings with the same steps follow each other, so
-    // that one scene serves them all.
+    // Measures looser convergence tolerances; settings with the same steps use one scene in turn.
     void settle_loosely() {
         if (!time_.enough()) {
             return leave_out("rungs settled more loosely");
@@ -248,8 +245,7 @@ class Measurement {
                result.error.largest_feature() <= tolerance;
     }
 
-    // Finds the setting that numerics.tolerance chooses, and measures it if it is not among the
-    // settings yet.
+    // Finds the setting that numerics.tolerance chooses, and measures it if it is new.
     void choose(double tolerance) {
         request_.progress(fmt::format("choice for {:g}", tolerance));
         ChoiceCheck check;
@@ -277,8 +273,7 @@ class Measurement {
         report_.choices.push_back(check);
     }
 
-    // Times the contenders alternately, so that other load on the machine slows all of them
-    // equally.
+    // Times the contenders alternately, so that other load slows all of them equally.
     void time_contenders() {
         finish_times();
         std::vector<std::size_t> contenders;

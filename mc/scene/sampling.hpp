@@ -35,8 +35,8 @@ struct FixedShaftInstance {
     double load_torque_N_m;  // given, or in balance with the motor's torque
 };
 
-// As Fluctuations, with 0 for values that are not given. Orders are cycles per turn of the input,
-// frequencies cycles per second.
+// Fluctuation inputs of Fluctuations, with 0 for values that are not given. Orders are cycles per
+// turn of the input, frequencies cycles per second.
 struct FluctuationInstance {
     double torque, torque_order, torque_Hz, torque_phase_rad;
     double torque_noise, torque_noise_Hz;

@@ -43,7 +43,7 @@ class Scene {
     const lockstep::FaultPattern& pattern() const { return fault().pattern(); }
     // Gear pair that the first passage of the faulty tooth weakens, or -1.
     int faulty_pair() const { return pattern().passages.empty() ? -1 : pattern().passages[0].pair; }
-    // That pair with the faulty tooth of that size; null if the size is 0.
+    // Gear pair faulty_pair() with the faulty tooth of that size; null if the size is 0.
     std::shared_ptr<const stiffness::FaultyMesh> faulty_mesh(double size) const {
         return fault().mesh(0, size);
     }

@@ -56,8 +56,8 @@ using TonesAccess = Access<std::vector<Tone>, std::vector<Tone>>;
 using AnyAccess = std::variant<NumberAccess, IntegerAccess, BooleanAccess, ChoiceAccess,
                                NumbersAccess, TextsAccess, TonesAccess>;
 
-// Whether a key is required, optional or forbidden, and the reason. The keys `governors` decide it;
-// "" for none.
+// Requirement of a key (required, optional or forbidden) and the reason. It depends on the keys
+// `governors`; "" for none.
 enum class Need { required, optional, forbidden };
 struct Presence {
     Need need;
