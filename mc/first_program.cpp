@@ -52,8 +52,8 @@ bool is_for_others(const StudyOptions& options) {
 int start_launcher(char** argv) {
     if (Ranks::launched()) {
         fmt::print(stderr,
-                   "gearpod: what was built so far is `run`, by the integrators of the first "
-                   "study; {} --help builds the rest\n",
+                   "gearpod: so far only `run` with the integrators of the first study has been "
+                   "built; {} --help builds the rest\n",
                    GEARPOD_LAUNCHER);
         return kBadInput;
     }

@@ -88,7 +88,7 @@ bool is_bare_word(std::string_view text) {
 }
 
 // toml++ and the reader of its tables are recursive, so nesting is limited.
-constexpr std::string_view kNested = "nested more than 32 deep";
+constexpr std::string_view kNested = "nested deeper than 32 levels";
 static_assert(kMostNesting == 32);
 
 // Parses the value of an assignment. A bare word is a string, because shells remove quotes.
@@ -236,10 +236,10 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
     } catch (const toml::parse_error& error) {
         problems.push_back({file, static_cast<int>(error.source().begin.line), "",
                             "not valid TOML (" + plain_message(error.description()) + ")",
-                            "correct this line; what follows it was not read"});
+                            "correct this line; the rest of the file was not read"});
     } catch (const BrokenAssumption&) {
         problems.push_back({file, breaking_line(text), "", "not valid TOML (malformed)",
-                            "correct this line; what follows it was not read"});
+                            "correct this line; the rest of the file was not read"});
     }
     return {};
 }

@@ -30,7 +30,9 @@ struct Discrete {
     std::string problem() const {
         const bool both =
             !values.empty() && !weights.empty();  // an empty list is reported on its own
-        return both && values.size() != weights.size() ? "values and weights must be as many" : "";
+        return both && values.size() != weights.size()
+                   ? "values and weights must have the same length"
+                   : "";
     }
     double median() const { return quantile(0.5); }
     Support support() const {

@@ -148,7 +148,7 @@ class FieldReader {
         }
         if (entry.value.elements.size() > kMostElements) {
             return add(entry.position, entry.name,
-                       fmt::format("has {} values, and at most {} are computed with",
+                       fmt::format("has {} values, but at most {} are allowed",
                                    entry.value.elements.size(), kMostElements),
                        "give fewer");
         }
@@ -196,8 +196,9 @@ std::optional<bool> read_per(const Value& table, const std::string& key, Problem
         return true;
     }
     problems.push_back({per->position.file, per->position.line, fmt::format("{}.{}", key, kPer),
-                        "is no level of randomness",
-                        "write per = \"record\", or per = \"gearbox\" as without it"});
+                        "must be \"record\" or \"gearbox\"",
+                        "write per = \"record\" for a new value in every record; per = \"gearbox\" "
+                        "is the default"});
     return std::nullopt;
 }
 

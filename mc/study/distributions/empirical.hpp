@@ -20,8 +20,8 @@ namespace gearpod::mc {
 struct Empirical {
     static constexpr std::string_view kName = "empirical";
     static constexpr std::string_view kOtherwise =
-        "in place of values and rows: file (path of a CSV file), column (its name), of which "
-        "columns of the same file draw the same row";
+        "or, instead of values and rows: file (path of a CSV file) and column (its name); columns "
+        "of the same file are sampled by row";
     std::vector<double> values;
     int rows = 0;
 

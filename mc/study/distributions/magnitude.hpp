@@ -20,6 +20,6 @@ inline bool computable(double value) {
 inline constexpr std::size_t kMostElements = 1000;
 
 inline constexpr std::string_view kNotComputable =
-    "is beyond the numbers that can be computed with (0, or 1e-30 to 1e18 in size)";
+    "is outside the range that can be computed (0, or a magnitude from 1e-30 to 1e18)";
 
 }  // namespace gearpod::mc

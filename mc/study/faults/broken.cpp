@@ -15,7 +15,7 @@ struct LostTooth : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kBrokenSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "share of the tooth that has broken off: 1 carries nothing"};
+constexpr FaultSize kBrokenSize{"broken", number<&LostTooth::lost>, kNone, from_to(0, 1), "fraction of the tooth that has broken off; with 1 it transmits no load"};
 // clang-format on
 
 class BrokenKind final : public FaultKind {
@@ -29,7 +29,7 @@ class BrokenKind final : public FaultKind {
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {
-        return "the whole tooth pair loses this share of its stiffness, whatever the profile";
+        return "the tooth pair loses this fraction of its stiffness, for any profile";
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,

@@ -24,8 +24,8 @@ inline constexpr ChoiceName kCrackLaws[] = {
     name("fracture-mechanics", stiffness::CrackLaw::fracture_mechanics)};
 
 // clang-format off
-inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackShape::angle_rad>, kDeg, inside(0, 90), Need::optional, "the tables of cracked teeth hold for one angle", "angle between crack and tooth centre line; of a spatial crack where it begins"};
-inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrackLaws), kNone, kAny, Need::optional, kFaultShape, "how a crack softens its tooth: by the \"sections\" it leaves (the sources), or by \"fracture-mechanics\" from the critical section; the latter by default for teeth with fillets"};
+inline constexpr FaultKey kCrackAngle{"angle_deg", number<&CrackShape::angle_rad>, kDeg, inside(0, 90), Need::optional, "the stiffness tables of cracked teeth are computed for one angle", "angle between crack and tooth centre line; for a spatial crack, at the face where it starts"};
+inline constexpr FaultKey kCrackLaw{"crack_law", choice<&CrackShape::law>(kCrackLaws), kNone, kAny, Need::optional, kFaultShape, "stiffness model of a cracked tooth: \"sections\" (weaker beam sections, as in the published models) or \"fracture-mechanics\" (from the critical section; the default for teeth with fillets)"};
 // clang-format on
 
 double crack_angle_rad(const Study& study);

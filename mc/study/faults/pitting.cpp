@@ -32,8 +32,8 @@ constexpr FaultKey kPittingOthers[] = {
     {"pit_length_mm", number<&Pits::length_m>, kMm, kPositive, Need::required, kFaultShape, "length of the band along the tooth height"},
     {"pit_radius_mm", number<&Pits::radius_m>, kMm, kPositive, Need::required, kFaultShape, "radius of the band's centre"},
     {"pit_depth_mm", number<&Pits::depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depth of the pits under the flank"},
-    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "neighbouring pitted teeth"},
-    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "middle of the pits along the face width of helical teeth, from the end that engages first; by default halfway"},
+    {"teeth", integer<&Pits::teeth>, kNone, from_to(1, 100), Need::optional, kFaultShape, "number of neighbouring pitted teeth"},
+    {"pit_face_position_mm", number<&Pits::face_position_m>, kMm, kNotNegative, Need::optional, kFaultShape, "centre of the pits along the face width of helical teeth, from the end that engages first; by default half the face width"},
 };
 // clang-format on
 
@@ -92,8 +92,8 @@ void check_band(StudyDraft& draft, const Pits& pits) {
                  high_m = *pits.radius_m + 0.5 * *pits.length_m;
     if (low_m < flank.low_m / kMargin || high_m > flank.high_m * kMargin) {
         draft.reject("fault.pit_radius_mm",
-                     fmt::format("the pitted band from {:.6g} to {:.6g} mm leaves the flank that "
-                                 "is touched, {:.6g} to {:.6g} mm",
+                     fmt::format("the pitted band from {:.6g} to {:.6g} mm extends beyond the "
+                                 "active flank, {:.6g} to {:.6g} mm",
                                  low_m * kMmPerM, high_m * kMmPerM, flank.low_m * kMmPerM,
                                  flank.high_m * kMmPerM),
                      "move the band or shorten it");

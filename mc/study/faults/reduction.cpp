@@ -15,7 +15,7 @@ struct LostStiffness : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kReductionSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "share of the tooth pair's stiffness that is lost"};
+constexpr FaultSize kReductionSize{"reduction", number<&LostStiffness::lost>, kNone, from_to(0, 1), "fraction of the mesh stiffness that is lost while the faulty tooth is in contact"};
 // clang-format on
 
 class ReductionKind final : public FaultKind {
@@ -29,7 +29,7 @@ class ReductionKind final : public FaultKind {
     void check(StudyDraft&) const override {}
 
     std::string origin(const Study&, std::span<const double>) const override {
-        return "the whole mesh loses this share of its stiffness while the tooth is in contact";
+        return "the whole mesh loses this fraction of its stiffness while the tooth is in contact";
     }
 
     std::unique_ptr<const stiffness::ToothFaultFamily> family(const Study&,

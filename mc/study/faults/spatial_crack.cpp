@@ -27,19 +27,19 @@ struct Growth : FaultShape {
 };
 
 // clang-format off
-constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "how far a spatial crack has grown: entry k of the growth lists is stage k, linear between them, 0 healthy"};
+constexpr FaultSize kSpatialCrackSize{"stage", number<&Growth::stage>, kNone, kNotNegative, "growth stage of a spatial crack: 0 is healthy, k has entry k of the growth lists; linear in between"};
 constexpr FaultKey kSpatialCrackOthers[] = {
     kCrackAngle,
     kCrackLaw,
-    {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 where it begins"},
-    {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until it gets there"},
+    {"growth_depth_mm", numbers<&Growth::depth_m>, kMm, kPositive, Need::required, kFaultShape, "depths q1 at the face where the crack starts"},
+    {"growth_end_depth_mm", numbers<&Growth::end_depth_m>, kMm, kNotNegative, Need::required, kFaultShape, "depths q2 at the other end face; 0 until the crack reaches it"},
     {"growth_length_mm", numbers<&Growth::length_m>, kMm, kPositive, Need::required, kFaultShape, "lengths L_c along the face width"},
-    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 over the section from which cracks start, where it begins"},
+    {"growth_height_mm", numbers<&Growth::height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l1 above the section at which cracks start, at the face where the crack starts"},
     {"growth_end_height_mm", numbers<&Growth::end_height_m>, kMm, kNotNegative, Need::required, kFaultShape, "heights l2 at the other end face"},
     {"end_angle_deg", number<&Growth::end_angle_rad>, kDeg, Range{0.0, 90.0, true, false}, Need::optional, kFaultShape, "angle at the other end face; angle_deg by default"},
-    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "wave on the height, a of Yang (2022), Eq. 65; 0 for none"},
-    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "half waves along the face width, b of that equation"},
-    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "slices along the face width"},
+    {"height_wave", number<&Growth::height_wave>, kNone, kNotNegative, Need::optional, kFaultShape, "amplitude of the waves of the height, a in Yang (2022), Eq. 65; 0 for none"},
+    {"height_waves", number<&Growth::height_waves>, kNone, kNotNegative, Need::optional, kFaultShape, "number of half waves along the face width, b in Yang (2022), Eq. 65"},
+    {"slices", integer<&Growth::slices>, kNone, from_to(1, 10000), Need::optional, kFaultShape, "number of slices along the face width"},
 };
 // clang-format on
 
@@ -59,10 +59,10 @@ void check_grows(StudyDraft& draft, const std::string& key, const std::vector<do
     for (std::size_t k = 1; k < list_m.size() && draft.all_usable({key}); ++k) {
         if (list_m[k] < list_m[k - 1]) {
             draft.reject(key,
-                         fmt::format("stage {}: {:.6g} mm is below the stage before it (a crack "
-                                     "does not shrink)",
+                         fmt::format("stage {}: {:.6g} mm is below the value of the stage before "
+                                     "(a crack does not shrink)",
                                      k + 1, list_m[k] * kMmPerM),
-                         "let the list grow or stay");
+                         "make the list non-decreasing");
         }
     }
 }
@@ -76,7 +76,7 @@ void check_end_depths(StudyDraft& draft, const Growth& g, double face_m) {
                          fmt::format("stage {} has an end depth, but its length of {:.6g} mm does "
                                      "not reach the other end face at {:.6g} mm",
                                      k + 1, g.length_m[k] * kMmPerM, face_m * kMmPerM),
-                         "make it 0, or the length the face width");
+                         "set it to 0, or set the length to the face width");
         }
     }
 }
@@ -114,10 +114,11 @@ bool check_stages(StudyDraft& draft, const Growth& g) {
             same = false;
         } else if (size != stages) {
             same = false;
-            draft.reject(key,
-                         fmt::format("has {} entries, but growth_depth_mm has {} (one a stage)",
-                                     size, stages),
-                         "give all growth lists the same length");
+            draft.reject(
+                key,
+                fmt::format("has {} entries, but growth_depth_mm has {} (one for each stage)", size,
+                            stages),
+                "give all growth lists the same length");
         }
     }
     return same;

@@ -47,10 +47,10 @@ constexpr Range inside(double low, double high) {
 }
 
 inline constexpr std::string_view kRandom = "";  // may be random
-inline constexpr std::string_view kGeometry = "it shapes the teeth, which all gearboxes share";
-inline constexpr std::string_view kSampling = "all gearboxes are sampled alike";
-inline constexpr std::string_view kShared = "all gearboxes share it";
-inline constexpr std::string_view kFaultShape =
-    "it shapes the fault, of which only the size may differ";
+inline constexpr std::string_view kGeometry =
+    "it defines the teeth, which are the same in all gearboxes";
+inline constexpr std::string_view kSampling = "sampling is the same for all gearboxes";
+inline constexpr std::string_view kShared = "it is the same for all gearboxes";
+inline constexpr std::string_view kFaultShape = "only the size of a fault may be random";
 
 }  // namespace gearpod::mc

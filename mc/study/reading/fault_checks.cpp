@@ -51,11 +51,12 @@ void check_planet(StudyDraft& draft) {
     }
     if (draft.all_usable({"fault.side"}) && s.fault.side == FaultSide::both &&
         s.fault.kind->shapes_tooth()) {
-        draft.reject("fault.side",
-                     fmt::format("is \"both\" ({} lies on one flank, and each flank meets one of "
-                                 "sun and ring)",
-                                 s.fault.kind->words()),
-                     "use \"ring\" or \"sun\"");
+        draft.reject(
+            "fault.side",
+            fmt::format(
+                "is \"both\", but {} is on one flank, which meets either the sun or the ring",
+                s.fault.kind->words()),
+            "use \"ring\" or \"sun\"");
     }
 }
 
@@ -103,10 +104,12 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
     const std::string edges_name = edges_key.substr(edges_key.find('.') + 1);
     const std::vector<double>& edges = size_edges(draft.study);
     if (edges.empty()) {
-        draft.reject(edges_key,
-                     fmt::format("missing (random.{} is {}, whose sizes are grouped)", key.path(),
-                                 size.name()),
-                     fmt::format("add {} = [...] to [detection]", edges_name));
+        draft.reject(
+            edges_key,
+            fmt::format(
+                "missing (random.{} is {}, a continuous distribution, whose sizes must be grouped)",
+                key.path(), size.name()),
+            fmt::format("add {} = [...] to [detection]", edges_name));
         return;
     }
     const Support support = size.support();
@@ -116,7 +119,8 @@ void check_edges_given(StudyDraft& draft, const Distribution& size) {
         draft.reject(
             edges_key,
             fmt::format("does not cover all sizes, {} to {}{}", support.low, support.high, unit),
-            "let the first edge be the smallest and the last the largest size, or beyond");
+            "the first edge must not be above the smallest size, nor the last one below the "
+            "largest");
     }
 }
 
@@ -134,11 +138,11 @@ void check_edges(StudyDraft& draft) {
     if (random != nullptr && random->distribution.levels().empty()) {
         check_edges_given(draft, random->distribution);
     } else if (draft.is_given(edges_key)) {
-        draft.reject(edges_key,
-                     fmt::format("has no place here ({} is not continuous: each size is its own "
-                                 "group)",
-                                 size_key),
-                     "remove it");
+        draft.reject(
+            edges_key,
+            fmt::format("is not allowed here ({} is not continuous: each size is its own group)",
+                        size_key),
+            "remove it");
     }
 }
 

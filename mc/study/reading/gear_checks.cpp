@@ -47,11 +47,11 @@ void check_positions(StudyDraft& draft, int planets) {
     if (static_cast<int>(positions.size()) != planets) {
         draft.reject(
             key,
-            fmt::format("names {} positions, but there are {} planets", positions.size(), planets),
+            fmt::format("has {} positions, but there are {} planets", positions.size(), planets),
             "give one angle for each planet, or leave the key out for equal spacing");
     } else if (positions.front() != 0.0) {
         draft.reject(key, "does not begin with 0 (angles count from the first planet)",
-                     "turn all positions by the first one");
+                     "subtract the first position from all of them");
     }
 }
 
@@ -311,7 +311,7 @@ void check_levels(StudyDraft& draft, const std::string& mesh, const MeshValues& 
     if (low && high && draft.all_usable({low_key, high_key}) && *low > *high) {
         draft.reject(low_key,
                      fmt::format("{} N/m is above the high stiffness, {} N/m", *low, *high),
-                     "exchange the two");
+                     "swap the two values");
     }
 }
 

@@ -28,7 +28,7 @@ void check_support(StudyDraft& draft, const Key& key, const Entry& entry,
     }
     const auto bound = [](double value) { return fmt::format("{}", value); };
     std::string what =
-        fmt::format("{} draws values from {} to {}, but {} must be {}", distribution.name(),
+        fmt::format("{} has values from {} to {}, but {} must be {}", distribution.name(),
                     bound(support.low), bound(support.high), key.name, key.range.text());
     reject(draft, entry, key.path(), std::move(what),
            distribution.name() == "normal" ? "use lognormal or truncated-normal"
@@ -78,12 +78,12 @@ void check_record_law(StudyDraft& draft, const Key& key, const Entry& entry,
     }
     if (!record_quantity(key.path())) {
         reject(draft, entry, per,
-               fmt::format("{} belongs to the gearbox, the same in all its records", key.name),
-               "leave per out; records have operation.torque_N_m, a speed, sensor.gain and "
-               "sensor.noise_m_s2 of their own");
+               fmt::format("{} is the same in all records of a gearbox", key.name),
+               "remove per; only operation.torque_N_m, a speed, sensor.gain and sensor.noise_m_s2 "
+               "can vary from record to record");
     } else if (distribution.rows().group > 0) {
-        reject(draft, entry, per, "values of a record are drawn each by itself, not in rows",
-               "leave rows out, and give values");
+        reject(draft, entry, per, "values that vary from record to record cannot be sampled by row",
+               "remove rows, and give values");
     } else if (!distribution.has_quantile()) {
         reject(draft, entry, per,
                fmt::format("{} takes its values in turn, from gearbox to gearbox",
@@ -102,9 +102,9 @@ void check_rows(StudyDraft& draft) {
         const std::size_t count = first->distribution.rows().count;
         if (rows.group > 0 && rows.count != count) {
             draft.reject(draft.given_random[input.key], "random." + input.key + ".values",
-                         fmt::format("has {} values, but {} of the same rows has {}", rows.count,
+                         fmt::format("has {} values, but {} with the same rows has {}", rows.count,
                                      first->key, count),
-                         "give as many, or other rows");
+                         "give the same number of values, or another value of rows");
         }
     }
 }

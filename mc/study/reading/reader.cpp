@@ -49,7 +49,8 @@ void read_section(StudyDraft& draft, const Entry& section) {
 
 void read_title(StudyDraft& draft, const Entry& entry) {
     if (entry.value.kind == Value::Kind::text && !is_printable(entry.value.text)) {
-        draft.reject(entry.position, "title", "holds control characters", "write one line of text");
+        draft.reject(entry.position, "title", "contains control characters",
+                     "write one line of text");
     } else if (entry.value.kind == Value::Kind::text) {
         draft.study.title = entry.value.text;
     } else {

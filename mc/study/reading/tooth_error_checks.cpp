@@ -47,7 +47,7 @@ void check_teeth_listed(StudyDraft& draft, const std::string& key, const std::ve
     if (!list.empty() && static_cast<int>(list.size()) != teeth &&
         draft.all_usable({key, teeth_key, "gearbox.planets"})) {
         draft.reject(key, fmt::format("has {} deviations for {} teeth", list.size(), teeth),
-                     "give one for each tooth, of planets one planet after the other");
+                     "give one for each tooth; for planets, one planet after the other");
     }
 }
 

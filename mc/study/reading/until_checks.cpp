@@ -45,7 +45,7 @@ void check_until(StudyDraft& draft) {
         for (const analysis::SizeGroup& group : groups) {
             sizes += (sizes.empty() ? "" : ", ") + size_text(study, group);
         }
-        reject(draft, "size", fmt::format("{:g} is no fault size of this study", *until.size),
+        reject(draft, "size", fmt::format("{:g} is not a fault size of this study", *until.size),
                "its sizes are " + sizes);
     }
 }
