@@ -30,8 +30,8 @@ void add_graded(const Study& study, const Flight& flight, double least_cost,
     const double over = kFewestGraded * own_cost(study, flight) / least_cost;
     if (over > kWorthGrading) {
         all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
-                       fmt::format("not tried: an eighth of its {} equal steps would cost {:.0f} "
-                                   "times the cheapest integrator's",
+                       fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
+                                   "times as much as the steps of the cheapest integrator",
                                    flight.own_steps, over)});
         return;
     }

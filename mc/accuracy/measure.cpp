@@ -49,7 +49,7 @@ class Measurement {
     }
 
     AccuracyReport run() {
-        request_.progress("reference: two methods until they agree");
+        request_.progress("reference: refining two methods until they agree");
         ReferenceRequest reference;
         reference.seconds = kReferenceShare * time_.seconds();
         report_.reference = converged_reference(study_, pilot_, reference);
@@ -58,7 +58,7 @@ class Measurement {
             add(listed.rung, listed.refusal);
         }
         times_.resize(report_.rungs.size());
-        request_.progress(fmt::format("{} rungs", report_.rungs.size()));
+        request_.progress(fmt::format("{} solver settings", report_.rungs.size()));
         march_first(0);
         finish_times();
         for (const double tolerance : request_.tolerances) {
@@ -67,10 +67,9 @@ class Measurement {
         settle_loosely();
         for (int repeat = 1; repeat < request_.repeats; ++repeat) {
             finish_times();
-            request_.progress(fmt::format("time {} of {}", repeat + 1, request_.repeats));
+            request_.progress(fmt::format("timing {} of {}", repeat + 1, request_.repeats));
             if (!march_again()) {
-                leave_out(
-                    fmt::format("all but {} of {} timings of each rung", repeat, request_.repeats));
+                leave_out(fmt::format("all but {} of {} timings", repeat, request_.repeats));
                 break;
             }
         }
@@ -101,7 +100,7 @@ class Measurement {
     // Measures the fastest settings again with fewer terms in the stiffness curves.
     void thin_stiffness() {
         if (!time_.enough()) {
-            return leave_out("rungs with thinner stiffness curves");
+            return leave_out("settings with shorter stiffness series");
         }
         finish_times();
         std::vector<Rung> fastest_rungs;
@@ -128,14 +127,14 @@ class Measurement {
         }
         times_.resize(report_.rungs.size());
         request_.progress(
-            fmt::format("{} with thinner stiffness curves", report_.rungs.size() - first));
+            fmt::format("{} settings with shorter stiffness series", report_.rungs.size() - first));
         march_first(first);
     }
 
     // Measures looser convergence tolerances; settings with the same steps use one scene in turn.
     void settle_loosely() {
         if (!time_.enough()) {
-            return leave_out("rungs settled more loosely");
+            return leave_out("settings with a looser settle_tolerance");
         }
         finish_times();
         std::vector<Rung> loose;
@@ -157,7 +156,8 @@ class Measurement {
             }
         }
         times_.resize(report_.rungs.size());
-        request_.progress(fmt::format("{} settled more loosely", report_.rungs.size() - first));
+        request_.progress(fmt::format("{} settings with a looser settle_tolerance",
+                                      report_.rungs.size() - first));
         march_first(first);
     }
 
@@ -193,7 +193,7 @@ class Measurement {
             march(i, true);
         }
         if (untried > 0) {
-            leave_out(fmt::format("{} rungs", untried));
+            leave_out(fmt::format("{} solver settings", untried));
         }
     }
 
@@ -247,12 +247,12 @@ class Measurement {
 
     // Finds the setting that numerics.tolerance chooses, and measures it if it is new.
     void choose(double tolerance) {
-        request_.progress(fmt::format("choice for {:g}", tolerance));
+        request_.progress(fmt::format("choice for a tolerance of {:g}", tolerance));
         ChoiceCheck check;
         check.tolerance = tolerance;
         if (!time_.enough()) {
-            check.refusal = "not asked: the time was up";
-            leave_out(fmt::format("what numerics.tolerance = {:g} chooses", tolerance));
+            check.refusal = "not tried: the time had run out";
+            leave_out(fmt::format("the choice for numerics.tolerance = {:g}", tolerance));
             report_.choices.push_back(check);
             return;
         }
@@ -289,12 +289,12 @@ class Measurement {
         }
         std::sort(contenders.begin(), contenders.end());
         contenders.erase(std::unique(contenders.begin(), contenders.end()), contenders.end());
-        request_.progress(fmt::format("{} contenders again", contenders.size()));
+        request_.progress(fmt::format("the {} fastest settings again", contenders.size()));
         for (int repeat = 0; repeat < kContenderRepeats; ++repeat) {
             for (const std::size_t place : contenders) {
                 if (!time_.enough()) {
-                    leave_out(fmt::format("all but {} of {} timings of the fastest rungs", repeat,
-                                          kContenderRepeats));
+                    leave_out(fmt::format("all but {} of {} timings of the fastest settings",
+                                          repeat, kContenderRepeats));
                     return;
                 }
                 march(place, false);

@@ -58,10 +58,10 @@ long pilot_size(const Study& study, const AccuracyRequest& request, const TimeLe
     }
     const long some = static_cast<long>(std::max(0.0, time.seconds()) / gearbox_s);
     report.left_out.push_back(
-        fmt::format("detection rates of {} gearboxes by {} rungs{} (--gearboxes {} asks for them: "
-                    "about {:.0f} processor seconds)",
+        fmt::format("detection rates of {} gearboxes with {} settings{} (use --gearboxes {}: about "
+                    "{:.0f} processor seconds)",
                     all, places.size(),
-                    some >= kFewestGearboxes ? fmt::format(", but for {} gearboxes", some) : "",
+                    some >= kFewestGearboxes ? fmt::format(", except for {} gearboxes", some) : "",
                     all, needed_s));
     return some >= kFewestGearboxes ? some : 0;
 }
@@ -83,7 +83,7 @@ void measure_detection(const Study& study, const AccuracyRequest& request, const
     }
     for (const std::size_t place : places) {
         RungResult& result = report.rungs[place];
-        request.progress(fmt::format("detection rates by {}", result.rung.text()));
+        request.progress(fmt::format("detection rates with {}", result.rung.text()));
         result.detection =
             detection_change(run_pilot_ensemble(with_rung(pilot, result.rung)), reference);
     }

@@ -43,7 +43,7 @@ std::vector<PeerResult> read_peers(const std::string& path) {
     std::ifstream file(path);
     std::string line;
     if (!file || !std::getline(file, line)) {
-        throw std::runtime_error(path + ": cannot be read, or is empty");
+        throw std::runtime_error(path + ": cannot be read or is empty");
     }
     const std::vector<std::string> head = cells_of(line);
     const std::vector<std::string> first{"name", "command", "march_s", "mesh_s", "sensor", "te"};
@@ -56,8 +56,8 @@ std::vector<PeerResult> read_peers(const std::string& path) {
         const std::string where = fmt::format("{}:{}", path, number);
         const std::vector<std::string> cells = cells_of(line);
         if (cells.size() != head.size()) {
-            throw std::runtime_error(fmt::format("{}: has {} cells, the first line {}", where,
-                                                 cells.size(), head.size()));
+            throw std::runtime_error(fmt::format("{}: has {} cells, but the first line has {}",
+                                                 where, cells.size(), head.size()));
         }
         PeerResult peer{cells[0], cells[1], 0.0, 0.0, 0.0, 0.0, {}};
         double* const into[] = {&peer.march_s, &peer.mesh_s, &peer.sensor, &peer.te};

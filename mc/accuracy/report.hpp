@@ -14,7 +14,7 @@
 namespace gearpod::mc {
 
 // Message for a setting that was not tried for lack of time.
-inline constexpr const char* kNotTried = "not tried: the time was up";
+inline constexpr const char* kNotTried = "not tried: the time had run out";
 
 struct RungResult {
     Rung rung;

@@ -45,11 +45,11 @@ class Search {
         if (!reference_.reached) {
             throw SceneError(
                 "numerics.tolerance",
-                fmt::format("{:g} is beyond what this study's integrator shows: its features still "
-                            "move by {:.2g} from {} steps a mesh period to twice as many",
+                fmt::format("{:g} cannot be verified: with this study's integrator the features "
+                            "still change by {:.2g} from {} steps per mesh period to twice as many",
                             tolerance_, reference_.agreement.largest_feature(),
                             reference_.first.steps / 2),
-                "ask for a larger tolerance");
+                "use a larger tolerance");
         }
     }
 
@@ -67,10 +67,12 @@ class Search {
             flight.graded() ? search_graded(flight) : search(flight);
         }
         if (!std::isfinite(best_.cost)) {
-            throw SceneError("numerics.tolerance",
-                             fmt::format("no rung keeps the features within {:g} (nearest: {:.2g})",
-                                         tolerance_, least_error_),
-                             "ask for a larger tolerance, or leave out integrator and steps");
+            throw SceneError(
+                "numerics.tolerance",
+                fmt::format(
+                    "no solver setting keeps the features within {:g} (smallest error: {:.2g})",
+                    tolerance_, least_error_),
+                "use a larger tolerance, or remove integrator and steps_per_mesh");
         }
         return choice();
     }
@@ -234,7 +236,7 @@ class Search {
 }  // namespace
 
 std::string NumericsChoice::text() const {
-    return fmt::format("{} (features within {:.2g} on a pilot of {} gearboxes, {} the worst)",
+    return fmt::format("{} (features within {:.2g} on {} pilot gearboxes; the worst is {})",
                        rung.text(), error, gearboxes, worst_feature);
 }
 

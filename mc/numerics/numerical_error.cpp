@@ -214,10 +214,10 @@ std::string numerical_text(const Results& frame, const std::vector<NumericalShar
     const auto out = std::back_inserter(text);
     fmt::format_to(
         out,
-        "Numerical against statistical error: {} gearboxes by {}\nand by {}. rms: of the "
-        "error; spread: of healthy gearboxes. Pd, a90: what the\nnumerical error could turn, "
-        "beside what the number of gearboxes leaves open\n(half interval; a90 to its upper "
-        "bound)\n",
+        "Numerical and statistical error: {} gearboxes integrated with\n  {}\nand with\n  {}\nrms: "
+        "numerical error; spread: standard deviation of healthy gearboxes\nPd, a90: largest change "
+        "due to the numerical error / statistical uncertainty\n(half width of the interval of Pd; "
+        "distance of a90 from its upper bound)\n",
         error.gearboxes, error.rung, error.finer);
     const double per_unit = frame.request.size.per_unit();
     const auto number = [](double value) {

@@ -229,8 +229,9 @@ Reference converged_reference(const Study& study, const Pilot& pilot,
         keep_two(methods);
     }
     if (!std::isfinite(least)) {
-        throw SceneError("numerics.integrator",
-                         "no two integrators march this study, so none can be shown right", "");
+        throw SceneError(
+            "numerics.integrator",
+            "no two integrators can integrate this study, so no solution can be verified", "");
     }
     return reference;
 }

@@ -41,8 +41,7 @@ SceneGrid estimated_grid(const Study& study, const Stepping& stepping, int sampl
     const double steps = std::ceil(1.0 / longest(0.0, 1.0));
     if (!(steps <= kMostSteps)) {
         refuse_tolerance("numerics.step_tolerance", study.numerics.step_tolerance,
-                         fmt::format("{:.3g} steps a mesh period would be needed (at most "
-                                     "{})",
+                         fmt::format("{:.3g} steps per mesh period would be needed (at most {})",
                                      steps, kMostSteps));
     }
     lockstep::PhaseGrid grid =
@@ -74,10 +73,10 @@ SceneGrid graded_grid(const Study& study, const Stepping& stepping, int samples,
     lockstep::GradedChoice choice =
         lockstep::choose_grading(pilot, 1.0 / stepping.steps, tolerance, grid_of);
     if (!choice.reached) {
-        refuse_tolerance("numerics.grid_tolerance", tolerance,
-                         fmt::format("with {} steps a mesh period the pilot's signals are "
-                                     "off by {:.2g}",
-                                     choice.grid.steps.size(), choice.error));
+        refuse_tolerance(
+            "numerics.grid_tolerance", tolerance,
+            fmt::format("with {} steps per mesh period the pilot's signals have an error of {:.2g}",
+                        choice.grid.steps.size(), choice.error));
     }
     Calibration calibration;
     calibration.signal_error = choice.error;
@@ -98,7 +97,7 @@ SceneGrid choose_grid(const Study& study, const Stepping& stepping, int samples,
     if ((graded || estimated) && stepping.steps > kMostPilotSteps) {
         throw SceneError(
             graded ? "numerics.grid" : "numerics.steps_per_mesh",
-            fmt::format("a pilot of {} steps a mesh period takes too long (at most {})",
+            fmt::format("a pilot with {} steps per mesh period takes too long (at most {})",
                         stepping.steps, kMostPilotSteps),
             graded ? "use grid = \"uniform\"" : "give steps_per_mesh, or use another integrator");
     }

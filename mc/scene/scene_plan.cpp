@@ -78,9 +78,8 @@ class Planner {
         try {
             lockstep::add_tooth_pairs(stiffness_.pairs(), march.grid, march.nodes);
         } catch (const std::invalid_argument& error) {
-            throw SceneError(
-                "gearbox.addendum_coefficient", error.what(),
-                "use teeth of which fewer are in contact at a time, or fewer face_slices");
+            throw SceneError("gearbox.addendum_coefficient", error.what(),
+                             "use teeth with a lower contact ratio, or fewer face_slices");
         }
     }
 

@@ -43,7 +43,7 @@ int samples_at_least(double rate_Hz, double mesh_frequency_Hz, const char* key) 
     const double samples = std::ceil(rate_Hz / mesh_frequency_Hz - 1e-9);
     if (samples > kMostSamples) {
         throw SceneError(key,
-                         fmt::format("{:.3g} samples a mesh period are too many (at most {})",
+                         fmt::format("{:.3g} samples per mesh period are too many (at most {})",
                                      samples, kMostSamples),
                          "lower the rate or raise the speed");
     }
@@ -148,10 +148,10 @@ class StepNeeds {
 [[noreturn]] void refuse_explicit(const StepNeeds& needs, double steps) {
     const lockstep::StiffPart stiff = needs.stiffest_part();
     throw SceneError("numerics.integrator",
-                     fmt::format("the explicit method would need {:.3g} steps a mesh period ({} "
+                     fmt::format("the explicit method would need {:.3g} steps per mesh period ({} "
                                  "moves {} at a rate of {:.3g} 1/s)",
                                  steps, stiff.part, stiff.motion, stiff.rate_1_s),
-                     "use integrator = \"sdirk3\", which stands any stiffness, or \"auto\"");
+                     "use integrator = \"sdirk3\", which is stable for any stiffness, or \"auto\"");
 }
 
 // One grid is used for all gearboxes, so it must be stable for the stiffest and lightest of them. A
@@ -166,19 +166,20 @@ Stepping explicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
         refuse_explicit(needs, chosen);
     }
     if (!(chosen <= kMostSteps)) {
-        throw SceneError("numerics.steps_per_mesh",
-                         fmt::format("the sensor's low-pass would need {:.3g} steps a mesh period "
-                                     "(at most {})",
-                                     chosen, kMostSteps),
-                         "lower sensor.low_pass_Hz or raise the speed");
+        throw SceneError(
+            "numerics.steps_per_mesh",
+            fmt::format(
+                "the sensor's low-pass would need {:.3g} steps per mesh period (at most {})",
+                chosen, kMostSteps),
+            "lower sensor.low_pass_Hz or raise the speed");
     }
     if (given > 0 && given < least) {
         throw SceneError(
             "numerics.steps_per_mesh",
             fmt::format("{} steps are too few (below {}, {} is unstable for this study's stiffest "
-                        "gearbox, or its sensor's low-pass inaccurate)",
+                        "gearbox, or the sensor's low-pass is inaccurate)",
                         given, least, name(integrator)),
-            "leave the key out to have the steps chosen");
+            "remove the key, so that the steps are chosen automatically");
     }
     return {
         integrator,           given > 0 ? given : static_cast<int>(chosen), static_cast<int>(least),
@@ -189,7 +190,7 @@ Stepping implicit_stepping(const StepNeeds& needs, lockstep::Integrator integrat
     const double chosen = given > 0 ? given : std::ceil(needs.implicit(integrator));
     if (!(chosen <= kMostSteps)) {
         throw SceneError("numerics.steps_per_mesh",
-                         fmt::format("{:.3g} steps a mesh period would be needed (at most {})",
+                         fmt::format("{:.3g} steps per mesh period would be needed (at most {})",
                                      chosen, kMostSteps),
                          "lower sensor.low_pass_Hz or raise the speed");
     }
@@ -224,10 +225,9 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     if (result.samples < kFewestSamples) {
         throw SceneError(
             key,
-            fmt::format("{} sample(s) a mesh period leave nothing to {} (mesh "
-                        "frequency {:.4g} Hz)",
+            fmt::format("{} sample(s) per mesh period are too few to {} (mesh frequency {:.4g} Hz)",
                         result.samples, sensor ? "window" : "average", mesh_frequency_Hz),
-            fmt::format("at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
+            fmt::format("use at least {:.4g} Hz", kFewestSamples * mesh_frequency_Hz));
     }
     result.te_samples = std::min(samples_at_least(study.sensor.encoder_sampling_Hz,
                                                   mesh_frequency_Hz, "sensor.encoder_sampling_Hz"),
@@ -237,13 +237,12 @@ Sampling choose_sampling(const Study& study, double mesh_frequency_Hz) {
     }
     const unsigned needs = needs_of(used_features(study));
     if ((needs & features::kTeParts) != 0 && result.te_samples < kFewestSamples) {
-        throw SceneError(
-            "sensor.encoder_sampling_Hz",
-            fmt::format("{} sample(s) a mesh period do not part the transmission error, as te_fm4, "
-                        "te_m6a and te_m8a do",
-                        result.te_samples),
-            fmt::format("at least {:.4g} Hz, or without these features",
-                        kFewestSamples * mesh_frequency_Hz));
+        throw SceneError("sensor.encoder_sampling_Hz",
+                         fmt::format("{} sample(s) per mesh period are too few for te_fm4, te_m6a "
+                                     "and te_m8a, which split the transmission error",
+                                     result.te_samples),
+                         fmt::format("use at least {:.4g} Hz, or remove these features",
+                                     kFewestSamples * mesh_frequency_Hz));
     }
     return result;
 }
