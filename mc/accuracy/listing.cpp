@@ -31,7 +31,7 @@ void add_graded(const Study& study, const Flight& flight, double least_cost,
     if (over > kWorthGrading) {
         all.push_back({{flight.integrator, 0, study.numerics.settle_tolerance, flight.other},
                        fmt::format("not tried: an eighth of its {} uniform steps would cost {:.0f} "
-                                   "times as much as the steps of the cheapest integrator",
+                                   "times as much as the steps of the least expensive integrator",
                                    flight.own_steps, over)});
         return;
     }

@@ -32,7 +32,7 @@ double number_in(const std::string& cell, const std::string& where, const std::s
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size() || !(value >= 0.0)) {
         throw std::runtime_error(
-            fmt::format("{}: {}: \"{}\" is no number >= 0", where, column, cell));
+            fmt::format("{}: {}: \"{}\" is not a number >= 0", where, column, cell));
     }
     return value;
 }

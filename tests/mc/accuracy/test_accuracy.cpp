@@ -309,5 +309,5 @@ TEST_CASE("accuracy says what it cannot do", "[accuracy]") {
         test::program("accuracy " + test::study("published/tian-fig-4-9.toml") +
                       " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
-    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is no number >= 0"));
+    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }
