@@ -41,8 +41,8 @@ Value parse_document(const std::string& text, const std::string& file, Problems&
 void apply_override(Value& document, const std::string& assignment, Problems& problems);
 
 // Removes random.section.key wherever an override set section.key and none set any part of
-// random.section.key, and the correlations that name it, because the given value is meant for all
-// gearboxes.
+// random.section.key: the given value is meant for all gearboxes. Also removes the correlations
+// that name this key.
 void drop_overridden_random(Value& document);
 
 // Content of a file. A problem is appended if it cannot be read.

@@ -8,9 +8,10 @@ namespace gearpod::mc {
 // Largest depth; valid studies nest at most four deep.
 inline constexpr int kMostNesting = 32;
 
-// First line (from 1) on which a dotted key or header has more than kMostNesting parts, or on which
-// lists and tables are nested deeper than kMostNesting; 0 if there is none. Strings and comments
-// are ignored. Linear in the length of the text; after a syntax error the result may be wrong.
+// First line (from 1) that is nested too deep; 0 if there is none. That is a dotted key or header
+// with more than kMostNesting parts, or lists and tables nested deeper than kMostNesting. Strings
+// and comments are ignored. Linear in the length of the text; after a syntax error the result may
+// be wrong.
 int line_nested_too_deep(std::string_view text);
 
 }  // namespace gearpod::mc

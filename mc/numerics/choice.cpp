@@ -163,7 +163,7 @@ class Search {
     }
 
     // Finds the coarsest graded grid that keeps the tolerance. Every grid costs a pilot, so only
-    // grid tolerances near the tolerance are tried, and none if the fewest steps they can have
+    // grid tolerances near the tolerance are tried. None is tried if the fewest possible steps
     // would already be too expensive.
     void search_graded(const Flight& flight) {
         constexpr double kNear = 30.0;

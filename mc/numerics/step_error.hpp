@@ -12,9 +12,9 @@
 namespace gearpod::mc {
 
 // Integrates eight graded gearboxes over a few mesh periods as a run does, and again with finer
-// steps in double precision. Empty if teeth cannot separate, if the study is quasi-static, if no
-// gearbox of the pilot succeeds, or if the pilot costs more than `most_meshes` mesh periods of a
-// tile with the scene's own steps.
+// steps in double precision. Empty if teeth cannot separate, if the study is quasi-static, or if no
+// gearbox of the pilot succeeds. Also empty if the pilot costs more than `most_meshes` mesh periods
+// of a tile with the scene's own steps.
 std::optional<StepError> find_step_error(const Scene& scene, double most_meshes);
 // The same for a run of this many gearboxes; it may cost a fiftieth of their work.
 std::optional<StepError> find_step_error_of_run(const Scene& scene, std::size_t gearboxes);

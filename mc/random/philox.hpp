@@ -1,6 +1,6 @@
 // Counter-based random numbers: Philox4x64-10 (Salmon et al. 2011), from Random123.
 // Contract: the words depend on (seed, group, instance, parameter) only. The same instance is the
-// same gearbox for any ranks, threads, lanes, order or restart, and a new random parameter does not
+// same gearbox for any ranks, threads, lanes, order or restart. A new random parameter does not
 // change the random numbers of the others.
 #pragma once
 
@@ -26,8 +26,8 @@ constexpr std::uint64_t parameter_id(std::string_view name) {
     return fnv1a(name);
 }
 
-// UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4, the block being
-// Philox at counter (block, instance, parameter, 0) and key (seed, group).
+// UniformRandomBitGenerator. Word w of a stream is word w mod 4 of block w / 4. The block is Philox
+// at counter (block, instance, parameter, 0) and key (seed, group).
 class Philox {
   public:
     using result_type = std::uint64_t;

@@ -101,8 +101,8 @@ double pitch_error_m(const Study& study, Member member) {
 }
 
 // Largest corner gap that extended contact resolves, m: three times the nominal approach plus four
-// times the pitch errors of both gears, so that contact also starts and ends smoothly for teeth
-// with errors.
+// times the pitch errors of both gears. Contact then starts and ends smoothly also for teeth with
+// errors.
 double corner_reach_m(const Study& study, double force_N, const SceneMesh& mesh) {
     return 3.0 * force_N / mean_total(*mesh.stiffness) +
            4.0 * (pitch_error_m(study, mesh.members.driver) +

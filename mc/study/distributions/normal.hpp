@@ -1,5 +1,5 @@
 // Normal distribution. Values beyond 8.3 standard deviations (probability 1e-16) are rejected and
-// sampled again, so that a bounded input may be normal if its bound is that far from the mean.
+// sampled again. A bounded input may therefore be normal if its bound is that far from the mean.
 #pragma once
 
 #include <boost/math/special_functions/erf.hpp>
