@@ -17,10 +17,9 @@ struct NumericsChoice {
     std::string worst_feature;  // name of that feature
     double cost = 0.0;      // of integrating the pilot by the cost model, in rk4 steps per gearbox
     std::string reference;  // reference solution of the pilot
-    double reference_change =
-        0.0;            // of the reference's worst feature when its steps were last halved
-    int gearboxes = 0;  // number of pilot gearboxes
-    int marches = 0;    // number of pilot integrations needed for the choice
+    double reference_change = 0.0;  // of its worst feature when its steps were last halved
+    int gearboxes = 0;              // number of pilot gearboxes
+    int marches = 0;                // number of pilot integrations needed for the choice
 
     std::string text() const;
 };

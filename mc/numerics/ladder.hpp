@@ -14,8 +14,7 @@ namespace gearpod::mc {
 // integrator or the steps, only those are used.
 struct Flight {
     std::string integrator;
-    std::vector<std::string>
-        other;  // further overrides besides integrator, steps and convergence tolerance
+    std::vector<std::string> other;       // overrides besides integrator, steps and convergence
     std::vector<int> steps;               // ascending
     std::vector<double> grid_tolerances;  // descending; if not empty, `steps` is empty
     int own_steps = 0;                    // uniform steps by the integrator's own rule

@@ -21,8 +21,7 @@ struct ReferenceRequest {
 struct Reference {
     // Richardson-extrapolated if halving the steps shows the method's order.
     PilotRecord record;
-    Rung first,
-        second;  // the two settings that agree best, at their finest; `record` is that of the first
+    Rung first, second;        // the two that agree best, at their finest; `record` is from `first`
     double first_order = 0.0;  // observed on the sensor signal; 0: not extrapolated
     double second_order = 0.0;
     PilotError agreement;  // error of the second relative to the first

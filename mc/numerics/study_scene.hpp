@@ -11,9 +11,8 @@
 namespace gearpod::mc {
 
 struct StudyScene {
-    std::unique_ptr<const Scene> scene;  // null: see `problems`
-    std::optional<NumericsChoice>
-        choice;  // choice of its numerics; empty without numerics.tolerance
+    std::unique_ptr<const Scene> scene;    // null: see `problems`
+    std::optional<NumericsChoice> choice;  // of the numerics; empty without a tolerance
     Problems problems;
 
     explicit operator bool() const { return scene != nullptr; }

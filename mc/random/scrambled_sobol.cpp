@@ -29,8 +29,7 @@ std::uint32_t Sobol::coordinate(std::uint32_t number, std::size_t dimension) con
 }
 
 std::uint32_t owen_scrambled(std::uint32_t coordinate, const Philox& stream) {
-    constexpr unsigned kLevels =
-        8;  // levels of the tree in one block; its 256 bits are the nodes from 1 on
+    constexpr unsigned kLevels = 8;  // of the tree in a block; its 256 bits are the nodes from 1 on
     std::uint32_t scrambled = 0;
     for (unsigned depth = 0; depth < 32; depth += kLevels) {
         const std::uint64_t above = std::uint64_t{coordinate} >> (32 - depth);

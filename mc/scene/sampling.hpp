@@ -48,12 +48,11 @@ struct FluctuationInstance {
 struct InstanceInputs {
     EachMember<BodyInstance> bodies;
     double support_stiffness_N_m, support_damping_N_s_m;
-    double
-        mesh_damping;  // ratio (1), time (s) or constant (N s/m), depending on effects.mesh_damping
+    double mesh_damping;  // ratio (1), time (s) or constant (N s/m), by effects.mesh_damping
     FixedShaftInstance fixed_shaft;
     double backlash_m;  // 2b
-    double pitch_error_m, index_wave_m, eccentricity_m,
-        profile_slope_m;  // rms, in addition to those of a quality
+    // Deviations, rms, in addition to those of a quality.
+    double pitch_error_m, index_wave_m, eccentricity_m, profile_slope_m;
     Planets planets;
     double torque_N_m;
     double speed_rad_s;  // of Sampler::speed_member()

@@ -18,8 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kMostSamples =
-    20'000;  // per mesh period, so that a span of thousands of them fits in memory
+constexpr int kMostSamples = 20'000;  // per mesh period; a span of thousands of them fits in memory
 constexpr int kFewestSamples = 4;
 
 // Smallest number >= least whose only prime factors are 2, 3 and 5, so that Fourier transforms of a

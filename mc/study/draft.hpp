@@ -16,9 +16,8 @@ struct StudyDraft {
     Problems problems;
     std::map<std::string, Position> given;         // by key path, in its section
     std::map<std::string, Position> given_random;  // by key path, in [random]
-    std::vector<std::string> random_files =
-        {};                     // CSV files of random inputs, in order of appearance
-    std::set<std::string> bad;  // keys and sections without a usable value
+    std::vector<std::string> random_files = {};    // CSV files of random inputs, in their order
+    std::set<std::string> bad;                     // keys and sections without a usable value
     std::map<std::string, Position> sections;
 
     bool is_given(const std::string& path) const {

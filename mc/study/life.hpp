@@ -19,8 +19,8 @@ struct Life {
     std::optional<double> curve_pace;
     // Paris' law: C in mm a cycle at 1 MPa m^(1/2), and m.
     std::optional<double> paris_factor, paris_exponent;
-    std::optional<double>
-        fracture_toughness_Pa_m05;  // the ligament breaks at this stress intensity
+    // Stress intensity at which the remaining ligament breaks.
+    std::optional<double> fracture_toughness_Pa_m05;
     int depth_steps = 8;  // number of depth intervals from 0 to the last depth; integrated at their
                           // ends, interpolated between
     // Scatter of a record about its gearbox's value: standard deviation of the logarithm. Short

@@ -30,16 +30,14 @@ struct Numerics {
     // Relative tolerance of every feature, from which integrator, steps and convergence tolerance
     // are chosen; 0: they are not chosen.
     double tolerance = 0.0;
-    bool verify =
-        false;  // repeat some gearboxes with finer steps after a run; always with a tolerance
+    bool verify = false;  // repeat some gearboxes with finer steps; always with a tolerance
     double settle_tolerance = 1e-10;
     double stiffness_tolerance = 0.0;  // of the stiffness curves; 0: the smallest that is possible
     int face_slices = 0;               // slices across a face with varying gaps; 0: chosen
     int max_meshes = 0;                // 0: derived from the damping
     Horizon horizon = Horizon::reuse;
-    int lanes = full_lanes(
-        Precision::double_precision);  // allowed by the precision: 16 (single only), 8, 4 or 1
-    int threads = 0;                   // 0: all
+    int lanes = full_lanes(Precision::double_precision);     // 16 (single only), 8, 4 or 1
+    int threads = 0;                                         // 0: all
     std::optional<machine::InstructionSet> instruction_set;  // empty: the processor's widest set
 
     bool operator==(const Numerics&) const = default;

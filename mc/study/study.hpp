@@ -101,10 +101,9 @@ struct Gearbox {
     int planets = 0;
     EachMember<MemberValues> bodies;
     EachMesh<MeshValues> meshes;
-    std::vector<double> planet_positions_rad;  // ascending from 0; empty: equally spaced
-    std::optional<double> module_m,
-        normal_module_m;                      // transverse and normal module; exactly one is given
-    std::optional<double> centre_distance_m;  // working centre distance
+    std::vector<double> planet_positions_rad;         // ascending from 0; empty: equally spaced
+    std::optional<double> module_m, normal_module_m;  // transverse, or normal (helical)
+    std::optional<double> centre_distance_m;          // working centre distance
     double pressure_angle_rad = 0.0;
     double helix_angle_rad = 0.0;
     std::optional<double> face_width_m, young_modulus_Pa, poisson_ratio;
@@ -185,9 +184,8 @@ struct Operation {
 // Relative fluctuation of torque and speed about their means: a sine, and noise with a spectrum
 // that has fallen to half at its band (lockstep/plan/excitation.hpp).
 struct Fluctuations {
-    std::optional<double> torque;  // amplitude; all torques vary in proportion
-    std::optional<double> torque_order,
-        torque_Hz;  // exactly one: per turn of the input, or in time
+    std::optional<double> torque;                   // amplitude; all torques vary in proportion
+    std::optional<double> torque_order, torque_Hz;  // one of them: per input turn, or in time
     double torque_phase_rad = 0.0;
     std::optional<double> torque_noise, torque_noise_Hz;  // rms and band
     std::optional<double> speed;                          // amplitude
@@ -249,8 +247,7 @@ struct Sensor {
     double path_exponent = 0.1;
     double gain = 1.0;        // factor on the gearbox's vibration, before tones and noise are added
     double noise_m_s2 = 0.0;  // rms, white
-    std::optional<double>
-        noise_density_m_s2_per_sqrt_Hz;  // replaces noise_m_s2; the noise passes the low-pass
+    std::optional<double> noise_density_m_s2_per_sqrt_Hz;  // instead; low-pass filtered
     std::vector<Tone> tones;
     double tone_level = 1.0;  // factor on the amplitudes of all tones
     double encoder_sampling_Hz = 0.0;
@@ -286,8 +283,8 @@ struct Detection {
 
 // Monitoring of a gearbox that is measured repeatedly (analysis/monitoring).
 struct Monitoring {
-    int baseline_records =
-        20;  // first records of each gearbox, from which its normal state is estimated; or 0
+    // Number of first records of each gearbox, from which its normal state is estimated; or 0.
+    int baseline_records = 20;
     bool torque_regression = false;      // the normal state depends linearly on the records' torque
     std::vector<std::string> detectors;  // as in the file; by default the usual ones
     double false_alarms_per_1000_h = 5.0;  // allowed rate of false alarms in lives
@@ -314,12 +311,10 @@ struct Ensemble {
     std::int64_t instances = 0;            // gearboxes over all fault sizes
     std::int64_t threshold_instances = 0;  // further healthy gearboxes that set the thresholds
     int threshold_records = 1;             // records of each of those, with independent noise
-    std::optional<bool>
-        threshold_tilt;  // most of these records with noise exponentially tilted towards an alarm
-    std::int64_t seed = 0;  // 0..2^63-1
+    std::optional<bool> threshold_tilt;    // most records with exponentially tilted noise
+    std::int64_t seed = 0;                 // 0..2^63-1
     SamplingKind sampling = SamplingKind::plain;
-    double checkpoint_s =
-        30.0;  // seconds between two synchronizations of finished gearboxes to disk
+    double checkpoint_s = 30.0;  // interval of writing finished gearboxes to disk
     Until until;
 
     bool tilted() const { return threshold_tilt.value_or(false); }

@@ -28,8 +28,7 @@ struct Discrete {
                           Field{"weights", &Discrete::weights, kPositiveField}};
     }
     std::string problem() const {
-        const bool both =
-            !values.empty() && !weights.empty();  // an empty list is reported on its own
+        const bool both = !values.empty() && !weights.empty();  // else reported separately
         return both && values.size() != weights.size()
                    ? "values and weights must have the same length"
                    : "";

@@ -18,9 +18,9 @@ namespace {
 
 struct Pits : FaultShape {
     std::optional<double> width_m;  // along the face width
-    std::optional<double> length_m, radius_m,
-        depth_m;    // along the profile; radius of the band's centre; depth of the pits
-    int teeth = 1;  // neighbouring pitted teeth
+    // Length of the band along the profile, radius of its centre, depth of the pits.
+    std::optional<double> length_m, radius_m, depth_m;
+    int teeth = 1;                          // neighbouring pitted teeth
     std::optional<double> face_position_m;  // only for helical teeth
 
     bool operator==(const Pits&) const = default;
