@@ -21,8 +21,9 @@ struct Life {
     std::optional<double> paris_factor, paris_exponent;
     // Stress intensity at which the remaining ligament breaks.
     std::optional<double> fracture_toughness_Pa_m05;
-    int depth_steps = 8;  // number of depth intervals from 0 to the last depth; integrated at their
-                          // ends, interpolated between
+    // Number of depth steps from 0 to the last depth. A gearbox is integrated at their ends;
+    // signals in between are interpolated.
+    int depth_steps = 8;
     // Scatter of a record about its gearbox's value: standard deviation of the logarithm. Short
     // form of the record distributions of torque, speed, gain and noise in [random].
     double torque_scatter = 0.0, speed_scatter = 0.0, gain_scatter = 0.0, noise_scatter = 0.0;
