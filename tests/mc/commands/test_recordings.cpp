@@ -208,7 +208,7 @@ TEST_CASE("The report watches a gearbox's recordings one after another") {
     const Outcome wrong =
         recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -");
     CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("\"cusum\" is no detector"));
+    CHECK(wrong.mentions("\"cusum\" is not a detector"));
     CHECK(wrong.mentions("names \"single\" twice"));
 }
 

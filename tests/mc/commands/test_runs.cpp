@@ -298,9 +298,9 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
         CHECK((cell.upper - cell.lower) / 2 <= 0.25);
     }
     for (const auto& [wrong, words] :
-         {std::pair{"size=4", "4 is no fault size"}, std::pair{"noise_level=3", "3 is not among"},
-          std::pair{"feature=\"te_rsm\"", "te_rms"}, std::pair{"half_width=0.7", "< 0.5"},
-          std::pair{"width=0.7", "unknown key"}}) {
+         {std::pair{"size=4", "4 is not a fault size"},
+          std::pair{"noise_level=3", "3 is not among"}, std::pair{"feature=\"te_rsm\"", "te_rms"},
+          std::pair{"half_width=0.7", "< 0.5"}, std::pair{"width=0.7", "unknown key"}}) {
         const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
         const Outcome run = test::program(run_of(folder.file("x.h5")) + until +
                                           " --set 'ensemble.until." + wrong + "'");

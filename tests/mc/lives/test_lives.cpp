@@ -258,8 +258,8 @@ TEST_CASE("What cannot live on is refused with the key") {
         program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
     CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" needs samples"));
     CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
-    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts the tooth"));
-    CHECK(refused(" --set life.records=6").mentions("no more than monitoring.baseline_records"));
+    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts through the tooth"));
+    CHECK(refused(" --set life.records=6").mentions("is not above monitoring.baseline_records"));
     CHECK(refused(" --set fault.kind=reduction --set fault.reduction=0").code == 2);
     CHECK(refused(" --set 'sensor.noise_levels=[1,2]'").mentions("one noise"));
     CHECK(refused(" --set numerics.verify=true --set 'sensor.noise_levels=[1,2]'")
