@@ -37,6 +37,8 @@ struct TileState {
 //   acceleration of source n (planet, bearing) along x and y.
 // - te: [sample][lane], rad.
 // - motion: [sample][degree of freedom][lane], m; empty unless requested.
+// - mesh_force: [sample][gear pair][lane], N, springs and mesh damping (MeshForces); empty unless
+//   requested.
 // - estimate: [step][kEstimateRows][lane]: the largest position (m) and velocity (m/s) over the
 //   degrees of freedom, then the largest estimated errors of both. Empty unless the integrator
 //   estimates its error and the plan requests it (bogacki_shampine.hpp).
@@ -44,7 +46,7 @@ struct TileState {
 //   the start of every step and at the end of the last one; empty unless requested.
 inline constexpr int kEstimateRows = 4;
 struct MeshRecord {
-    machine::AlignedVector acceleration, te, motion;
+    machine::AlignedVector acceleration, te, motion, mesh_force = {};
     machine::AlignedVector estimate = {};
     machine::AlignedVector step_states = {};
 };
@@ -90,5 +92,7 @@ MarchPlan in_doubles(MarchPlan plan);
 
 // Allocates a record of `lanes` lanes for the plan.
 MeshRecord make_record(const MarchPlan& plan, int lanes, bool with_motion);
+// Allocates the record's step states; kernels fill them if they are not empty.
+void size_step_states(const MarchPlan& plan, int lanes, MeshRecord& record);
 
 }  // namespace gearpod::lockstep

@@ -36,7 +36,7 @@ class ComposedTile : MarchedTile<W> {
     machine::AlignedVector march_part_mesh(int k, const MeshOverrides& overrides,
                                            const MeshRecord* orbit, MeshRecord& record) {
         record = new_record();
-        contact_->ask_for_steps(record);
+        size_step_states(this->plan_, W, record);
         march(k, overrides, record);
         return contact_->least_pressing(record, overrides.gaps, orbit);
     }

@@ -89,6 +89,7 @@ void Composition::record(int k, MeshRecord& record) const {
     one(&MeshRecord::te);
     if (!record.motion.empty()) {
         one(&MeshRecord::motion);
+        one(&MeshRecord::mesh_force);
     }
 }
 
@@ -112,6 +113,7 @@ void Composition::take_orbit_once() {
             subtract(orbit.te, record.te);
             if (!record.motion.empty()) {
                 subtract(orbit.motion, record.motion);
+                subtract(orbit.mesh_force, record.mesh_force);
             }
         }
         for (TileState& state : parts[s].states) {

@@ -12,6 +12,7 @@
 #include "lockstep/integrators/sensor_filter.hpp"
 #include "lockstep/plan/fault_schedule.hpp"
 #include "lockstep/tile/driven_march.hpp"
+#include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/mesh_march.hpp"
 #include "lockstep/tile/rigid_rotation.hpp"
 #include "lockstep/tile/tile_lanes.hpp"
@@ -36,6 +37,9 @@ class MarchedTile {
         if (dynamics::separates(plan.mesh_law)) {
             contact_.emplace(plan, dynamics::mesh_periods_s(inputs));
             apart_.assign(static_cast<std::size_t>(plan.nodes.pairs) * W, 0.0);
+        }
+        if (settings_.with_motion) {
+            mesh_forces_.emplace(plan, inputs);
         }
         result_.status.assign(W, LaneStatus::ok);
         result_.content.assign(static_cast<std::size_t>(settings_.march_meshes), kUnchanged);
@@ -65,23 +69,18 @@ class MarchedTile {
 
     // Integrates mesh period `mesh` under its input excitation.
     void march(int mesh, const MeshOverrides& overrides, MeshRecord& record) {
-        if (driven_ != nullptr) {
-            (*driven_)(mesh, overrides, state_, record);
-        } else {
-            (*march_mesh_)(overrides, state_, record);
-        }
-        after_mesh();
+        integrate(driven_ != nullptr, mesh, overrides, record);
     }
 
     // Same for mesh period k of the span; also adds the contact loss of the lanes in the mask.
     void march_counting(int k, const MeshOverrides& overrides, MeshRecord& record,
                         const LaneMask<W>& lanes) {
-        if (!contact_ || k < 0 || !counts_contact(k)) {
+        if (!contact_ || k < 0 || !counts_contact(k, settings_.contact_meshes)) {
             march(k, overrides, record);
             return;
         }
         record.step_states.swap(step_states_);
-        contact_->ask_for_steps(record);
+        size_step_states(plan_, W, record);
         march(k, overrides, record);
         contact_->add_time_apart(record, overrides.gaps, lanes, apart_);
         record.step_states.swap(step_states_);
@@ -116,7 +115,7 @@ class MarchedTile {
     void add_contact_loss_of_span() {
         int meshes = 0;
         for (int k = 0; k < settings_.march_meshes; ++k) {
-            meshes += counts_contact(k) ? 1 : 0;
+            meshes += counts_contact(k, settings_.contact_meshes) ? 1 : 0;
         }
         add_contact_loss(meshes);
     }
@@ -129,7 +128,7 @@ class MarchedTile {
         LaneMask<W> all;
         all.fill(true);
         MeshRecord record = new_record();
-        contact_->ask_for_steps(record);
+        size_step_states(plan_, W, record);
         state_ = orbit_;
         march_settling(record);
         state_ = orbit_;
@@ -139,15 +138,27 @@ class MarchedTile {
 
     // Integrates a healthy mesh period under an excitation that repeats every mesh period.
     void march_settling(MeshRecord& record) {
-        if (driven_ != nullptr && settings_.excitation->repeats()) {
-            (*driven_)(0, {}, state_, record);
-        } else {
-            (*march_mesh_)({}, state_, record);
-        }
-        after_mesh();
+        integrate(driven_ != nullptr && settings_.excitation->repeats(), 0, {}, record);
     }
 
-    void after_mesh() {
+    // Integrates a mesh period, under the time-varying excitation if `excited`, and records the
+    // mesh forces if requested.
+    void integrate(bool excited, int mesh, const MeshOverrides& overrides, MeshRecord& record) {
+        const bool sized = !record.step_states.empty();
+        if (mesh_forces_ && !sized) {
+            size_step_states(plan_, W, record);
+        }
+        if (excited) {
+            (*driven_)(mesh, overrides, state_, record);
+        } else {
+            (*march_mesh_)(overrides, state_, record);
+        }
+        if (mesh_forces_) {
+            mesh_forces_->write(overrides, record);
+            if (!sized) {
+                record.step_states = {};
+            }
+        }
         ++result_.marched;
         rotation_.remove(state_);
     }
@@ -189,6 +200,7 @@ class MarchedTile {
             fill_lane<W>(record.acceleration, lane, NAN);
             fill_lane<W>(record.te, lane, NAN);
             fill_lane<W>(record.motion, lane, NAN);
+            fill_lane<W>(record.mesh_force, lane, NAN);
         }
         fill_lane<W>(orbit_.q, lane, 0.0);
         fill_lane<W>(orbit_.v, lane, 0.0);
@@ -299,7 +311,8 @@ class MarchedTile {
     const std::unique_ptr<const MeshMarch<W>> march_mesh_;
     const std::unique_ptr<DrivenMarch<W>> driven_;  // null for a steady excitation
     const RigidRotation rotation_;
-    std::optional<ToothContact> contact_;  // present if teeth can separate
+    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
+    std::optional<ToothContact> contact_;       // present if teeth can separate
     // sums of ToothContact::add_time_apart over the counted mesh periods
     machine::AlignedVector apart_;
     machine::AlignedVector step_states_;  // MeshRecord::step_states of the counted mesh periods

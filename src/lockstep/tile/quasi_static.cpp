@@ -9,6 +9,7 @@
 
 #include "lockstep/driven/driven_forces.hpp"
 #include "lockstep/driven/excitation_rows.hpp"
+#include "lockstep/tile/mesh_forces.hpp"
 #include "lockstep/tile/static_lanes.hpp"
 #include "lockstep/tile/tooth_contact.hpp"
 #include "machine/stop.hpp"
@@ -55,6 +56,9 @@ class QuasiStatic {
             contact_time_.engaged.assign(pairs, 0.0);
             contact_time_.apart.assign(pairs * W, 0.0);
         }
+        if (settings_.with_motion) {
+            mesh_forces_.emplace(plan, inputs);
+        }
         result_.status.assign(W, LaneStatus::ok);
         drive(inputs);
         if (plan.grid.stage_nodes.front() != 0.0) {
@@ -69,8 +73,8 @@ class QuasiStatic {
         add_record(0, {}, !one_by_one);
         if (one_by_one) {
             for (int k = 0; k < settings_.march_meshes; ++k) {
-                result_.content.push_back(
-                    add_record(k, schedule_.all_overrides(k), counts_contact(k)));
+                result_.content.push_back(add_record(k, schedule_.all_overrides(k),
+                                                     counts_contact(k, settings_.contact_meshes)));
             }
         } else {
             solve_pattern();
@@ -206,6 +210,10 @@ class QuasiStatic {
                 load_forces(i);
                 solve_static(lanes_, state_);
                 write(static_cast<std::size_t>(sample), record);
+                if (mesh_forces_) {
+                    mesh_forces_->at(i, overrides, state_.q, std::vector<double>(state_.q.size()),
+                                     record.mesh_force.data() + sample * plan_.nodes.pairs * W);
+                }
                 note_status();
                 if (counted && contact_) {
                     contact_->add_position(i, state_.q, overrides.gaps, 1.0 / plan_.grid.samples,
@@ -253,7 +261,7 @@ class QuasiStatic {
                 result_.contact_loss[i] = NAN;
             }
             for (MeshRecord& record : result_.records) {
-                for (auto* values : {&record.te, &record.motion}) {
+                for (auto* values : {&record.te, &record.motion, &record.mesh_force}) {
                     for (std::size_t i = l; i < values->size(); i += W) {
                         (*values)[i] = NAN;
                     }
@@ -271,7 +279,8 @@ class QuasiStatic {
     DrivenForces<W> forces_;                // used only with
     std::unique_ptr<ExcitationRows> rows_;  // an excitation
     StaticState<W> state_;
-    std::optional<ToothContact> contact_;  // present if teeth can separate
+    std::optional<MeshForces<W>> mesh_forces_;  // present if motions are requested
+    std::optional<ToothContact> contact_;       // present if teeth can separate
     ContactTime contact_time_;
     TileResult result_;
 };

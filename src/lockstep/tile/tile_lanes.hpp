@@ -54,6 +54,7 @@ void copy_lanes(const MeshRecord& from, MeshRecord& to, const LaneMask<W>& lanes
     copy_lanes<W>(from.acceleration, to.acceleration, lanes);
     copy_lanes<W>(from.te, to.te, lanes);
     copy_lanes<W>(from.motion, to.motion, lanes);
+    copy_lanes<W>(from.mesh_force, to.mesh_force, lanes);
 }
 
 template <int W>

@@ -25,7 +25,10 @@ struct TileSettings {
     // Also superposes lanes with a fault; the perturbation due to its passages is integrated from
     // the superposed states.
     bool compose_faulty = false;
-    bool with_motion = false;
+    bool with_motion = false;  // also records motions and mesh forces
+    // Number of mesh periods, from the first, in which contact loss is counted; 0: one in
+    // kContactMeshes.
+    int contact_meshes = 0;
     // Keeps the state at the start of each fully integrated mesh period.
     bool keep_states = false;
     // States kept from the same gearboxes without faults and with the same settings, or null. If
@@ -57,8 +60,9 @@ struct TileResult {
     // [gear pair][lane]: contact loss ratio, averaged over the tooth pairs. It is the fraction of a
     // tooth pair's engagement, within the nominal path of contact, in which it carries no load.
     // Counted in one of kContactMeshes mesh periods of the span including its faults
-    // (tooth_contact.hpp); if mesh periods repeat, in the healthy one. Superposed mesh periods have
-    // no contact loss. Empty if teeth cannot separate, and with TileSettings::healthy.
+    // (tooth_contact.hpp), or as set by TileSettings::contact_meshes. If mesh periods repeat, it is
+    // counted in the healthy one. Superposed mesh periods have no contact loss. Empty if teeth
+    // cannot separate, and with TileSettings::healthy.
     machine::AlignedVector contact_loss;
     int marched = 0;  // total number of mesh periods integrated or solved
 };

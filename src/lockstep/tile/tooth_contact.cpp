@@ -102,12 +102,6 @@ void ToothContact::add_node(int pair, int step, std::size_t node) {
     nodes_[p].push_back(std::move(own));
 }
 
-void ToothContact::ask_for_steps(MeshRecord& record) const {
-    record.step_states.resize(2 * (plan_.grid.steps.size() + 1) *
-                              static_cast<std::size_t>(dynamics::degrees_of_freedom(plan_.layout)) *
-                              mesh_period_s_.size());
-}
-
 // Adds sign times the pair's deflection, or its rate, at the step ends to d. `first_degree` is the
 // index at which positions or velocities start in a row of step states.
 void ToothContact::deflect(const MeshRecord& record, int pair, double sign,

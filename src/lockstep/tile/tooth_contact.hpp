@@ -15,7 +15,11 @@ namespace gearpod::lockstep {
 // including mesh period 0. Multiples of the golden ratio spread them evenly over a span and over
 // the teeth of every gear.
 inline constexpr unsigned kContactMeshes = 144;
-constexpr bool counts_contact(int mesh) {
+// If `first` is positive, they are the first `first` mesh periods instead.
+constexpr bool counts_contact(int mesh, int first = 0) {
+    if (first > 0) {
+        return mesh < first;
+    }
     return static_cast<std::uint32_t>(mesh) * 2654435769u < 0xffffffffu / kContactMeshes;
 }
 
@@ -32,9 +36,6 @@ class ToothContact {
   public:
     // `mesh_period_s` has one value per lane. The plan must outlive the object.
     ToothContact(const MarchPlan& plan, std::vector<double> mesh_period_s);
-
-    // Allocates the record's step states, which the other functions read.
-    void ask_for_steps(MeshRecord& record) const;
 
     // Lower bound of the compression of the tooth pairs, [stretch][pair][tooth pair][lane], m. It
     // is infinite where a tooth pair is not engaged, and minus infinite if the motion is not
