@@ -15,7 +15,7 @@ namespace gearpod::lockstep {
 // including mesh period 0. Multiples of the golden ratio spread them evenly over a span and over
 // the teeth of every gear.
 inline constexpr unsigned kContactMeshes = 144;
-// If `first` is positive, they are the first `first` mesh periods instead.
+// With a positive `first`, counts the first `first` mesh periods instead.
 constexpr bool counts_contact(int mesh, int first = 0) {
     if (first > 0) {
         return mesh < first;
