@@ -271,7 +271,7 @@ GEARPOD_INLINE void march_steps(const MarchPlan& plan, const typename Model::Lan
     const int steps = static_cast<int>(plan.grid.steps.size());
     for (int i = 0; i < steps; ++i) {
         const Step& step = plan.grid.steps[static_cast<std::size_t>(i)];
-        prefetch_step(plan, i + 4);
+        prefetch_step(plan, std::min(i + 4, steps - 1));
         if (step.sample >= 0) {
             write_sample<Model::kWidth>(plan, state, step.sample, record);
         }
