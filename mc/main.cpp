@@ -11,7 +11,7 @@ namespace {
 
 using namespace gearpod::mc;
 
-// Says that `name` is no command, if so.
+// True if `name` is a command; otherwise prints an error.
 bool is_command(CLI::App& app, const std::string& name) {
     std::string names;
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -24,7 +24,8 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
-// The command line as a man page and as completion: what installs them calls the program for it.
+// Adds the options that print the command line as a man page and as bash completion, used at
+// installation.
 void add_descriptions(CLI::App& app) {
     const auto print = [](const std::string& text) {
         fmt::print("{}", text);
@@ -40,8 +41,8 @@ void add_descriptions(CLI::App& app) {
 
 int run_program(int argc, char** argv) {
     CLI::App app{
-        "gearpod: probability of detection (POD) of gear faults by a sensor, a feature and a "
-        "threshold"};
+        "gearpod: which gear-tooth cracks do a sensor, a feature and a threshold detect, and with "
+        "what probability?"};
     app.set_version_flag("--version", build_text(), "print the version and the build settings");
     add_descriptions(app);
     app.require_subcommand(1);

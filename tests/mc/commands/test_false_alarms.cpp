@@ -123,5 +123,5 @@ TEST_CASE("What a calibration left open is a band of its own, in text, data and 
     const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
                                     " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
     CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("\"sensor.gain\" is no random input of the gearboxes"));
+    CHECK(unknown.mentions("\"sensor.gain\" is not a random input of the gearboxes"));
 }

@@ -51,7 +51,7 @@ TEST_CASE("A level needs tones") {
     const auto outcome = program("describe " + kStudy + " --set sensor.tone_level=2");
     CHECK(outcome.code == 2);
     CHECK(outcome.mentions("sensor.tone_level"));
-    CHECK(outcome.mentions("there are none: sensor.tones"));
+    CHECK(outcome.mentions("no tones are given: sensor.tones"));
 }
 
 // Each background that a march serves has its own level.
