@@ -54,7 +54,7 @@ class ComposedTile : MarchedTile<W> {
             MeshRecord& record = part.records.emplace_back();
             part.pressing.push_back(
                 march_part_mesh(k, {{}, tooth_gaps(plan_, errors, k)}, &whole.orbit, record));
-            record.step_states = {};
+            machine::AlignedVector().swap(record.step_states);
         }
         for (int l = 0; l < W; ++l) {
             periodic[static_cast<std::size_t>(l)] =

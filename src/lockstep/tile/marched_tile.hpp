@@ -146,6 +146,7 @@ class MarchedTile {
     void integrate(bool excited, int mesh, const MeshOverrides& overrides, MeshRecord& record) {
         const bool sized = !record.step_states.empty();
         if (mesh_forces_ && !sized) {
+            record.step_states.swap(step_states_);
             size_step_states(plan_, W, record);
         }
         if (excited) {
@@ -156,7 +157,7 @@ class MarchedTile {
         if (mesh_forces_) {
             mesh_forces_->write(overrides, record);
             if (!sized) {
-                record.step_states = {};
+                record.step_states.swap(step_states_);
             }
         }
         ++result_.marched;
