@@ -1,4 +1,5 @@
-// The fixed-shaft gearbox of Tian (2004): its matrices, its lockstep accelerations and its statics.
+// Checks the fixed-shaft gearbox of Tian (2004): its matrices, its lockstep accelerations and its
+// statics.
 #include <catch2/catch.hpp>
 #include <random>
 #include <vector>
@@ -40,8 +41,8 @@ FixedShaftInputs random_inputs(std::mt19937& engine) {
     return in;
 }
 
-// Tian's Eqs. 4.1-4.8 as printed, but for the mesh force on the gear (Eq. 4.4), which must oppose
-// that on the pinion: accelerations of x1 y1 x2 y2 and of the angles of motor, pinion, gear, load.
+// Tian's Eqs. 4.1-4.8 as printed, except the mesh force on the gear (Eq. 4.4), which must oppose
+// that on the pinion. Accelerations of x1 y1 x2 y2 and of the angles of motor, pinion, gear, load.
 Eigen::VectorXd printed_equations(const FixedShaftLayout& layout, const FixedShaftInputs& in,
                                   double k_t, double c_t, const Eigen::VectorXd& q,
                                   const Eigen::VectorXd& v) {
