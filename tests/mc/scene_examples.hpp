@@ -1,11 +1,12 @@
-// Complete studies of the other kinds of gearbox, motion and fault, which the tests vary.
+// Complete studies of the other kinds of gearbox, degrees of freedom and fault, for variation in
+// tests.
 #pragma once
 
 #include <string>
 
 namespace gearpod::tests {
 
-// The sections that end every example.
+// The sections at the end of every example.
 inline const std::string kVibrationSections = R"([sensor]
 sampling_Hz = 50000
 low_pass_Hz = 10000
@@ -16,7 +17,7 @@ threshold_instances = 2
 seed = 1
 )";
 
-// Tian (2004), Table 4.1; a chip as in section 3.2.
+// Source: Tian (2004), Table 4.1; a chip as in section 3.2.
 inline const std::string kFixedShaftStudy = R"(title = "fixed-shaft"
 [gearbox]
 kind = "fixed-shaft"

@@ -49,7 +49,7 @@ Coverage coverage(double share, int gearboxes, int recordings, double rate, int 
     return covered;
 }
 
-TEST_CASE("Interval coverage of threshold rates from many recordings of few gearboxes") {
+TEST_CASE("Rates of thresholds from many recordings of few gearboxes are covered") {
     // The standard deviation of a coverage of 0.95 in 400 studies is 0.011.
     for (const double share : {0.0, 0.3, 0.7, 1.0}) {
         for (const auto& [gearboxes, recordings] :
