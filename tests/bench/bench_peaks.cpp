@@ -1,6 +1,6 @@
 // Prints this processor's peak rates, to which the shares in README.md refer: fused multiply-adds
 // of doubles, loads and stores of registers, by width.
-// bench_peaks [ROUNDS]
+// Usage: bench_peaks [ROUNDS]
 #include <fmt/format.h>
 
 #include <algorithm>

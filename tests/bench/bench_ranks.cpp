@@ -1,9 +1,9 @@
 // Measures how many ranks rank 0 can serve: batches whose realizations take no time, or a given
 // time, on all ranks, through the code of `run` into a checkpoint on the disk.
-// mpirun --oversubscribe -n 8 bench_ranks STUDY.toml OUT.h5 MILLISECONDS [SECTION.KEY=VALUE ...]
-// OUT.h5.part is created and removed. The cost of rank 0 is the processor time of the thread that
-// communicates and writes, which other programs on the machine do not increase. Batches per second
-// are by wall time.
+// Usage: mpirun --oversubscribe -n 8 bench_ranks STUDY.toml OUT.h5 MILLISECONDS [SECTION.KEY=VALUE
+// ...] OUT.h5.part is created and removed. The cost of rank 0 is the processor time of the thread
+// that communicates and writes, which other programs on the machine do not increase. Batches per
+// second are by wall time.
 #include <fmt/format.h>
 
 #include <chrono>

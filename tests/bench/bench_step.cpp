@@ -1,6 +1,6 @@
 // Measures time steps of realizations integrated in lockstep: steps per second, and their share of
 // the core's peak of fused multiply-adds.
-// bench_step [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
+// Usage: bench_step [--benchmark_filter=REGEX] [--benchmark_repetitions=N] ...
 // A round integrates one mesh period and then measures the peak. Times are this thread's processor
 // time; the result is their median over the rounds.
 #include <benchmark/benchmark.h>

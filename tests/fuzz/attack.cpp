@@ -1,7 +1,7 @@
 // Attacks the built program with mutated studies, damaged files with valid checksums, hostile
 // signals and files in two roles. Checks: no signal, no hang, no memory above 2 GB, only documented
 // exit codes, no NaN or infinity among the numbers of a success, no input overwritten.
-// attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
+// Usage: attack PROGRAM study|results|checkpoint|signal|table|roles SEED SECONDS [MOST]
 #include "attack.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // Reads mutated study files in child processes. Checks: no crash, no hang, no accepted file with
 // invalid values.
-// fuzz_studies SEED SECONDS
+// Usage: fuzz_studies SEED SECONDS
 // Child processes try one file after another; the number of the current file is known if one dies
 // or hangs.
 #include <signal.h>

@@ -57,7 +57,8 @@ chip_mm = 8
 chip_height_mm = 2
 )" + kVibrationSections;
 
-// Park et al. (2016): 16/26/68, the carrier drives; a planet tooth that loses stiffness.
+// Source: Park et al. (2016), 16/26/68 with the carrier driving; a planet tooth that loses
+// stiffness.
 inline const std::string kQuasiStaticStudy = R"(title = "quasi-static"
 [gearbox]
 kind = "planetary"
@@ -101,7 +102,7 @@ threshold_instances = 4
 seed = 3
 )";
 
-// Yang et al. (2022), Tables 1 and 2.
+// Source: Yang et al. (2022), Tables 1 and 2.
 inline const std::string kSpatialCrackStudy = R"(title = "spatial crack"
 [gearbox]
 kind = "planetary"

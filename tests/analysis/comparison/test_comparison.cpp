@@ -11,11 +11,9 @@ using namespace gearpod::analysis;
 
 namespace {
 
-constexpr double kNoiseA = 0.7,
-                 kNoiseB = 0.35;  // of two sensors; the gearbox-to-gearbox part has 0.5
+// Noise of the two sensors; the gearbox-to-gearbox part is 0.5.
+constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
 
-// Feature of value size + gearbox + sensor. Alarms occur above the threshold, so detection rates,
-// a90 and areas are normal integrals.
 struct Synthetic {
     std::vector<double> healthy_a, healthy_b, size, a, b;
 

@@ -85,8 +85,8 @@ TEST_CASE("Intervals of an irrelevant input cover 1/2 over 1,000 studies") {
         covered += result.inputs[0].bounds.lower <= 0.5 && result.inputs[0].bounds.upper >= 0.5;
     }
     CHECK(judged > 700);
-    CHECK(covered / static_cast<double>(judged) ==
-          Approx(0.95).margin(0.025));  // three standard deviations
+    // The margin is three standard deviations.
+    CHECK(covered / static_cast<double>(judged) == Approx(0.95).margin(0.025));
 }
 
 TEST_CASE("Without misses or hits there is no influence to estimate") {

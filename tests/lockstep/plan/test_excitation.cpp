@@ -78,8 +78,8 @@ TEST_CASE("the damper dissipates the power that a fluctuating torque supplies",
     pair.in.force_N[dynamics::sun] = kForce;
     Excitation excitation;
     excitation.torque = sine(kAmplitude, kFrequency * kPeriod, 0.0, 0.0);
-    const auto d =
-        march_pair(pair, excitation, 0, 20);  // six periods of the torque per mesh period
+    // The torque has six periods per mesh period.
+    const auto d = march_pair(pair, excitation, 0, 20);
     // Over whole periods the sum of (F A / m_s) m sin(w t) d' equals that of c d'^2.
     double in = 0.0, out = 0.0;
     const std::size_t n = d.size();

@@ -124,8 +124,8 @@ TEST_CASE("Reused periodic orbits and passages agree with integration of every m
         const TileResult b = run_tile<1>(plan, one, faults, march);
         REQUIRE(a.status[0] == LaneStatus::ok);
         double difference = 0.0, scale = 0.0;
-        for (std::size_t k = 31 * 11; k < 31 * 12;
-             ++k) {  // once full integration has converged as well
+        // Compares after full integration has converged as well.
+        for (std::size_t k = 31 * 11; k < 31 * 12; ++k) {
             const auto& ra = a.records[static_cast<std::size_t>(a.content[k % 31])];
             const auto& rb = b.records[static_cast<std::size_t>(b.content[k])];
             for (std::size_t i = 0; i < ra.acceleration.size(); ++i) {

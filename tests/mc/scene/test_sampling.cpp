@@ -135,8 +135,8 @@ TEST_CASE("Random values of each distribution follow its distribution function")
         const std::string text =
             "{distribution='truncated-normal', mean=0, sd=1, low=" + std::to_string(low) +
             ", high=" + std::to_string(high) + "}";
-        const double sign =
-            low >= 0 ? -1.0 : 1.0;  // differences of small tails, not of values near one
+        // Differences of small tails, not of values near one.
+        const double sign = low >= 0 ? -1.0 : 1.0;
         const double below = phi(sign * low), above = phi(sign * high);
         CHECK(kolmogorov_smirnov(draws_of(text, kDraws), [&, a = below, b = above](double x) {
                   return (phi(sign * x) - a) / (b - a);
