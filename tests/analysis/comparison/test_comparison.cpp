@@ -14,6 +14,8 @@ namespace {
 // Noise of the two sensors; the gearbox-to-gearbox part is 0.5.
 constexpr double kNoiseA = 0.7, kNoiseB = 0.35;
 
+// Feature of value size + gearbox + sensor. Alarms occur above the threshold, so detection rates,
+// a90 and areas are normal integrals.
 struct Synthetic {
     std::vector<double> healthy_a, healthy_b, size, a, b;
 
