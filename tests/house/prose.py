@@ -38,7 +38,7 @@ SENTENCE_END = re.compile(r'(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bvs)(?<!\bFig)(?
 
 class Glossary:
     def __init__(self, text):
-        self.words, self.kept = [], set()
+        self.words, self.kept, self.known = [], set(), {}
         for line in text.splitlines():
             line = line.partition("#")[0].rstrip()
             if line.startswith("keep "):
@@ -50,11 +50,12 @@ class Glossary:
 
     def offence(self, name):
         """The listed word and the standard term, or nothing."""
-        if name in self.kept:
-            return None
-        text = " ".join(WORD.findall(name)).lower().replace("periodic orbit", "")
-        return next(((pattern, term) for expression, pattern, term in self.words
-                     if expression.search(text)), None)
+        if name not in self.known:
+            text = " ".join(WORD.findall(name)).lower().replace("periodic orbit", "")
+            self.known[name] = None if name in self.kept else next(
+                ((pattern, term) for expression, pattern, term in self.words
+                 if expression.search(text)), None)
+        return self.known[name]
 
 
 def sources(root):
@@ -243,8 +244,8 @@ def check_pages(texts, report):
 
 def main(arguments):
     root = pathlib.Path(arguments[0])
-    listed = arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).with_name("glossary.txt")
-    glossary = Glossary(pathlib.Path(listed).read_text(encoding="utf-8"))
+    listed = arguments[1:] or [pathlib.Path(__file__).with_name("glossary.txt")]
+    glossary = Glossary(pathlib.Path(listed[0]).read_text(encoding="utf-8"))
     files = sources(root)
     texts = {file: (root / file).read_text(encoding="utf-8") for file in files
              if file.endswith(CODE + SCRIPTS + (".py", ".md"))}

@@ -4,9 +4,8 @@ scipy's solver): README.md. Writes helical.csv.
 
 Usage: helical_fem.py [--size F] [--layers N] [--out helical.csv] [--only CASE]
 
-solid: the drawn
-gears; slices: mean over the slices in contact; _weber: with Weber and Banaschek's contact instead
-of the linear one. Lengths in mm, forces in N; stiffness in N/m.
+solid: the drawn gears; slices: mean over the slices in contact; _weber: with Weber and Banaschek's
+contact instead of the linear one. Lengths in mm, forces in N; stiffness in N/m.
 """
 import argparse
 import math
