@@ -65,8 +65,8 @@ class Tree:
 
     def resolved(self, file, header):
         """Path of the included file: relative to the including one, to src, or to the top."""
-        beside = posixpath.normpath(f"{folder(file)}/{header}")
-        places = (beside, f"src/{header}", header)
+        relative = posixpath.normpath(f"{folder(file)}/{header}")
+        places = (relative, f"src/{header}", header)
         return next((place for place in places if place in self.known), None)
 
 

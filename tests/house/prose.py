@@ -30,6 +30,8 @@ CPP = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^(\s]{0,16})\(.*?
                  r'|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\''
                  r'|^[ \t]*#[ \t]*include[^\n]*|(?P<name>[A-Za-z_]\w*)', re.S | re.M)
 TITLE = re.compile(r'\b(?:TEST_CASE|SECTION)\w*\(\s*((?:"(?:\\.|[^"\\])*"\s*)+)')
+# Standard terms that contain a listed word.
+STANDARD = re.compile(r"periodic orbits?|exponentially tilted")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 DIRECTIVE = re.compile(r"(NOLINT|clang-format|noqa|type:|shellcheck|pylint|!)")
 SENTENCE_END = re.compile(r'(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bvs)(?<!\bFig)(?<!\bFigs)(?<!\bEq)'
@@ -44,17 +46,18 @@ class Glossary:
             if line.startswith("keep "):
                 self.kept.add(line.split()[1])
             elif line:
-                pattern, _, term = line.partition("  ")
+                pattern, term = re.split(r"\s\s+", line, maxsplit=1)
                 self.words.append((re.compile(rf"\b{pattern.replace('*', '[a-z]*')}\b"),
-                                   pattern, term.strip()))
+                                   pattern, term))
 
     def offence(self, name):
         """The listed word and the standard term, or nothing."""
         if name not in self.known:
-            text = " ".join(WORD.findall(name)).lower().replace("periodic orbit", "")
+            text = STANDARD.sub("", " ".join(WORD.findall(name)).lower())
             self.known[name] = None if name in self.kept else next(
                 ((pattern, term) for expression, pattern, term in self.words
-                 if expression.search(text)), None)
+                 if expression.search(text)
+                 and not (" " in name and term.endswith("(not in titles)"))), None)
         return self.known[name]
 
 

@@ -35,7 +35,7 @@ double share_beyond(std::size_t baseline, bool with_condition, double freedom) {
     return static_cast<double>(beyond) / kGearboxes;
 }
 
-TEST_CASE("Deviations from a gearbox's own baseline follow Student's t for any gearbox") {
+TEST_CASE("Deviations from a gearbox's baseline records follow Student's t") {
     // Three standard errors of a share of 5 % are 0.33 %.
     CHECK(share_beyond(5, false, 4.0) == Approx(0.05).margin(0.0033));
     CHECK(share_beyond(20, false, 19.0) == Approx(0.05).margin(0.0033));

@@ -90,7 +90,7 @@ TEST_CASE(
     CHECK(whole.error < 0.02);
 }
 
-TEST_CASE("Noise tilted to low energy has the lower tail of the loudest stretch") {
+TEST_CASE("Noise exponentially tilted to low energy has the lower tail of the loudest stretch") {
     const std::vector<double> folded = folded_of(0.5), sigmas{kSigma};
     NoiseTilt tilt(kLayout, kPhases, 0.0);
     tilt.load(folded, sigmas, NoiseTilt::Towards::quiet);
