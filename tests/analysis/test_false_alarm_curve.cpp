@@ -56,7 +56,7 @@ TEST_CASE(
         const double truth = true_a90(point.false_alarm_rate);
         INFO(point.false_alarm_rate << " " << truth);
         REQUIRE(point.a90.estimate.where == SizeEstimate::Where::reached);
-        // Thresholds are equal where the tail replaces the sample's largest value.
+        // The a90 may stay equal at 2e-4, where the tail replaces the sample's largest value.
         CHECK((point.a90.estimate.size > before || point.false_alarm_rate == 2e-4));
         CHECK(point.a90.estimate.size >= before);
         before = point.a90.estimate.size;

@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-// Full integration takes a second, a reused one as much as given; every gearbox another sixteenth.
+// Integration of a tile takes a second unless it is reused; the features of every gearbox take
+// another sixteenth.
 RunCalibration given_costs(int threads) {
     RunCalibration calibration;
     calibration.threads = threads;
