@@ -12,7 +12,7 @@ using namespace gearpod::analysis;
 
 namespace {
 
-// As many sizes as gearboxes, with outcomes from a curve of this slope at its midpoint.
+// Table with one size per gearbox, with outcomes from a curve of this slope at its midpoint.
 HitMissTable drawn(int count, double slope, double floor, double ceiling, std::mt19937_64& engine) {
     std::uniform_real_distribution<double> uniform;
     std::vector<double> sizes;
