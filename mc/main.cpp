@@ -11,7 +11,7 @@ namespace {
 
 using namespace gearpod::mc;
 
-// Says that `name` is no command, if so.
+// True if `name` is a command; otherwise prints an error.
 bool is_command(CLI::App& app, const std::string& name) {
     std::string names;
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -24,7 +24,8 @@ bool is_command(CLI::App& app, const std::string& name) {
     return false;
 }
 
-// The command line as a man page and as completion: what installs them calls the program for it.
+// Adds the options that print the command line as a man page and as bash completion, used at
+// installation.
 void add_descriptions(CLI::App& app) {
     const auto print = [](const std::string& text) {
         fmt::print("{}", text);
@@ -40,8 +41,8 @@ void add_descriptions(CLI::App& app) {
 
 int run_program(int argc, char** argv) {
     CLI::App app{
-        "gearpod: which gear-tooth crack would a sensor, a feature and a threshold have "
-        "found, and how surely?"};
+        "gearpod: which gear-tooth cracks do a sensor, a feature and a threshold detect, and with "
+        "what probability?"};
     app.set_version_flag("--version", build_text(), "version, and what the program was built with");
     add_descriptions(app);
     app.require_subcommand(1);
@@ -61,13 +62,14 @@ int run_program(int argc, char** argv) {
 
     MergeOptions merge;
     auto* merge_app = app.add_subcommand(
-        "merge", "one results file from those of a study's parts, as one run writes it");
+        "merge", "merge the results files of a study's parts into the file that one run writes");
     merge_app->add_option("results", merge.results, "results files of run --part 1/N to N/N")
         ->required();
     needs_name(merge_app->add_option("--out", merge.out, "results file")->required());
-    merge_app->add_flag("--force", merge.force,
-                        "overwrite the results of another study, or a file that is none");
-    merge_app->add_flag("--quiet", merge.quiet, "print nothing but problems");
+    merge_app->add_flag(
+        "--force", merge.force,
+        "overwrite the results of another study, or a file that is not a results file");
+    merge_app->add_flag("--quiet", merge.quiet, "print errors only");
     merge_app->callback([&] { code = merge_command(merge); });
 
     ReportOptions report;
@@ -83,17 +85,18 @@ int run_program(int argc, char** argv) {
     add_compare(app, compare, code);
 
     DescribeOptions describe;
-    auto* describe_app = app.add_subcommand(
-        "describe",
-        "what a study would simulate, and what a run would take: computes some gearboxes "
-        "for a few seconds, writes nothing");
+    auto* describe_app =
+        app.add_subcommand("describe",
+                           "show what a study simulates and forecast the time and memory of its "
+                           "run: computes some gearboxes for a few seconds, writes nothing");
     add_study(*describe_app, describe.study)->required(false);
-    describe_app->add_flag("--keys", describe.keys,
-                           "all keys of study files, or those with a word: describe --keys sensor");
+    describe_app->add_flag(
+        "--keys", describe.keys,
+        "list all keys of study files, or those that contain a word: describe --keys sensor");
     describe_app
         ->add_option("--ranks", describe.ranks,
-                     "also what a run of so many ranks takes: time, memory of each, disk, and from "
-                     "how many on the first one holds the others up")
+                     "also forecast a run on this many ranks: time, memory per rank, disk space, "
+                     "and the number of ranks above which rank 0 limits the speed")
         ->check(CLI::Range(1, 1000000));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
@@ -105,30 +108,32 @@ int run_program(int argc, char** argv) {
     StiffnessOptions stiffness;
     auto* stiffness_app = app.add_subcommand("stiffness", "mesh stiffness over one mesh period");
     add_study(*stiffness_app, stiffness.study);
-    needs_name(
-        stiffness_app->add_option("--csv", stiffness.csv, "write curves to a file, or to -"));
-    stiffness_app->add_option("--points", stiffness.points, "phases in the table")
+    needs_name(stiffness_app->add_option("--csv", stiffness.csv,
+                                         "write the curves to a file, or to standard output (-)"));
+    stiffness_app->add_option("--points", stiffness.points, "number of phases in the table")
         ->check(CLI::Range(2, 1000000));
-    stiffness_app->add_flag(
-        "--te", stiffness.te,
-        "static transmission error of the meshes under the nominal load, relief "
-        "included, in place of their stiffness");
+    stiffness_app->add_flag("--te", stiffness.te,
+                            "static transmission error of the meshes under the nominal load, "
+                            "relief included, instead of their stiffness");
     stiffness_app->callback([&] { code = stiffness_command(stiffness); });
 
     ModesOptions modes;
     auto* modes_app = app.add_subcommand("modes", "natural frequencies at mean mesh stiffness");
     add_study(*modes_app, modes.study);
-    needs_name(modes_app->add_option("--json", modes.json, "write JSON to a file, or to -"));
+    needs_name(modes_app->add_option("--json", modes.json,
+                                     "write JSON to a file, or to standard output (-)"));
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
     auto* accuracy_app = app.add_subcommand(
-        "accuracy", "what accuracy costs: every way to march a study, its time and its error");
+        "accuracy", "measure the time and the error of every solver setting for a study");
     add_study(*accuracy_app, accuracy.study);
-    needs_name(accuracy_app->add_option("--json", accuracy.json, "write JSON to a file, or to -"));
+    needs_name(accuracy_app->add_option("--json", accuracy.json,
+                                        "write JSON to a file, or to standard output (-)"));
     accuracy_app->add_option("--peers", accuracy.peers,
-                             "table (CSV) of other programs' results to show beside ours");
-    accuracy_app->add_option("--repeats", accuracy.repeats, "how often every rung is timed")
+                             "table (CSV) of other programs' results, shown for comparison");
+    accuracy_app
+        ->add_option("--repeats", accuracy.repeats, "number of timings of every solver setting")
         ->check(CLI::Range(1, 1000));
     accuracy_app
         ->add_option("--gearboxes", accuracy.gearboxes,
@@ -137,14 +142,15 @@ int run_program(int argc, char** argv) {
         ->check(CLI::Range(0L, 1000000L));
     accuracy_app
         ->add_option("--seconds", accuracy.seconds,
-                     "processor seconds after which no part is begun, and said to be left out; 0: "
-                     "as long as it takes")
+                     "processor seconds after which no further part is started (omitted parts are "
+                     "listed); 0: no limit")
         ->check(CLI::Range(0.0, 1e9));
-    accuracy_app->add_flag("--quiet", accuracy.quiet, "no progress");
+    accuracy_app->add_flag("--quiet", accuracy.quiet, "print no progress");
     accuracy_app->callback([&] { code = accuracy_command(accuracy); });
 
     SimulateOptions simulate;
-    auto* simulate_app = app.add_subcommand("simulate", "one gearbox's signals and features");
+    auto* simulate_app =
+        app.add_subcommand("simulate", "compute the signals and features of one gearbox");
     add_study(*simulate_app, simulate.study);
     simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
         ->required();

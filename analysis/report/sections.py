@@ -174,7 +174,7 @@ def failures(report, page):
     failed = given["diverged"] + given["not_settled"]
     body = paragraph(
         f"{count(failed)} of {plural(given['gearboxes'], 'gearbox', 'gearboxes')} failed: "
-        f"{count(given['diverged'])} diverged, {count(given['not_settled'])} did not settle. Failed "
+        f"{count(given['diverged'])} diverged, {count(given['not_settled'])} did not converge. Failed "
         "ones are counted, and stand for neither a detection nor a miss.")
     if given["first_rows"]:
         meaning = dict(part.strip().split(" ", 1) for part in given["status_meanings"].split(","))

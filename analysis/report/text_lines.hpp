@@ -16,7 +16,8 @@ void set_text_width(std::size_t columns);
 inline constexpr double kTestLevel = 0.05;
 
 // Adds the text and an end of line. Breaks at spaces before the width; further lines are indented.
-void add_wrapped(std::string& out, const std::string& text, std::size_t indent);
+void add_wrapped(std::string& out, const std::string& text, std::size_t indent,
+                 std::size_t width = text_width());
 
 std::string with_unit(double size, const SizeUnit& unit);              // "1.24 mm"
 std::string range_text(const SizeGroup& range, const SizeUnit& unit);  // "0.5 mm to 1 mm"

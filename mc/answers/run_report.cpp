@@ -127,7 +127,7 @@ std::string results_text(const Results& frame, const RowSource& rows,
 }
 
 void print_failures(const RowCounts& rows, int max_meshes) {
-    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not settle)\n", rows.failed(),
+    fmt::print("gearboxes: {} of {} failed ({} diverged, {} did not converge)\n", rows.failed(),
                rows.all, rows.diverged, rows.not_settled);
     for (const Status status : {Status::supercritical, Status::parametric, Status::step_too_long,
                                 Status::no_equilibrium}) {

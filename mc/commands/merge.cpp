@@ -143,7 +143,7 @@ class Merge {
         for (std::size_t batch = 0; batch < whole().batches(); ++batch) {
             if (!owner.contains(batch)) {
                 return fmt::format(
-                    "{} of {} tiles of gearboxes, {} the first, are in none of the files: {}\n",
+                    "{} of {} batches of gearboxes, {} the first, are in none of the files: {}\n",
                     whole().batches() - owner.size(), whole().batches(), rows_text(whole(), batch),
                     missing_part(batch));
             }

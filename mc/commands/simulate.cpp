@@ -10,6 +10,7 @@
 #include "mc/gearbox/simulation.hpp"
 #include "mc/input/exception_text.hpp"
 #include "mc/results/batch_rows.hpp"
+#include "mc/results/layout.hpp"
 #include "mc/results/provenance.hpp"
 #include "mc/run/support.hpp"
 
@@ -50,6 +51,13 @@ void write_hdf5(const std::string& path, const Simulation& simulation, const Stu
         write_numbers(features.get(), simulation.feature_names[f], {levels},
                       {at, at + static_cast<std::ptrdiff_t>(levels)});
     }
+    if (!simulation.contact_loss.empty()) {
+        const Hdf5Handle group = create_group(file.get(), kContactLoss);
+        for (const MeshResult& mesh : simulation.contact_loss) {
+            write_numbers(group.get(), mesh.name, {1}, mesh.values);
+            write_text(group.get(), mesh.name, "unit", "1");
+        }
+    }
     write_file(path, file_bytes(file));
 }
 
@@ -66,6 +74,10 @@ void print_summary(const Simulation& simulation, const std::string& out) {
             fmt::print("{:>12.6g}", simulation.features[f * levels + level]);
         }
         fmt::print("\n");
+    }
+    for (const MeshResult& mesh : simulation.contact_loss) {
+        fmt::print("contact loss    {:>12.4g} of a tooth pair's time, {}\n", mesh.values[0],
+                   mesh.name);
     }
     if (!out.empty()) {
         fmt::print("signals: {}\n", out);

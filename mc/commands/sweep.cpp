@@ -55,7 +55,7 @@ Problems problems_of(const SweepOptions& options, const std::vector<VariedKey>& 
         StudyReading reading = read_study(run.study.path, run.study.overrides);
         if (options.lives && reading.study && !reading.study->life.interval_h) {
             reading.problems.push_back({run.study.path, 0, "life.interval_h",
-                                        "missing: how often a gearbox is measured", "add [life]"});
+                                        "missing: the time between records", "add [life]"});
         }
         for (Problem& problem : reading.problems) {
             for (const VariedKey& key : keys) {

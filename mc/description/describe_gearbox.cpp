@@ -190,13 +190,20 @@ void print_shifts(const Scene& scene) {
     }
 }
 
-// Parts of a helical pair's contact ratio.
-std::string helical_parts(const stiffness::MeshStiffness& mesh) {
-    const double transverse = mesh.slice().contact_ratio();
-    return transverse < mesh.contact_ratio()
-               ? fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse,
-                             mesh.contact_ratio() - transverse)
-               : "";
+// Contact ratio on the nominal path, its parts for helical teeth, and the time that a tooth pair
+// may touch if corner contact extends the path.
+std::string contact_ratio_text(const stiffness::MeshStiffness& mesh) {
+    const double nominal = mesh.path_end() - mesh.path_begin();
+    const double transverse = mesh.slice().path_end() - mesh.slice().path_begin();
+    std::string text = fmt::format("{:.4f}", nominal);
+    if (transverse < nominal - 1e-9) {
+        text +=
+            fmt::format(" (transverse {:.4f}, overlap {:.4f})", transverse, nominal - transverse);
+    }
+    if (nominal < mesh.contact_ratio() - 1e-9) {
+        text += fmt::format(", {:.4f} with corner contact", mesh.contact_ratio());
+    }
+    return text;
 }
 
 // Says how much stiffer than real teeth a mesh is whose gear bodies do not give way.
@@ -232,10 +239,9 @@ void print_gearbox(const Scene& scene) {
     }
     print_shifts(scene);
     for (const SceneMesh& mesh : scene.meshes()) {
-        print_entry(
-            (mesh_name(mesh.members) + " mesh").c_str(),
-            fmt::format("contact ratio {:.4f}{}, mean {:.4g} N/m", mesh.stiffness->contact_ratio(),
-                        helical_parts(*mesh.stiffness), mean_total(*mesh.stiffness)));
+        print_entry((mesh_name(mesh.members) + " mesh").c_str(),
+                    fmt::format("contact ratio {}, mean {:.4g} N/m",
+                                contact_ratio_text(*mesh.stiffness), mean_total(*mesh.stiffness)));
     }
     print_rigid_bodies(scene);
     print_entry("mesh frequency", fmt::format("{:.4f} Hz", scene.nominal_mesh_frequency_Hz()));

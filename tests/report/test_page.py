@@ -141,9 +141,9 @@ class Answers(unittest.TestCase):
 class Statements(unittest.TestCase):
     def test_missing_values_are_counted(self):
         self.assertIn("te_fm0 at noise × 1: 1 000", said("nan_feature"))
-        self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not settle",
+        self.assertIn("1 000 of 1 000 gearboxes failed: 500 diverged, 500 did not converge",
                       said("all_failed"))
-        self.assertIn("0 (diverged), 1 (not settled)", said("all_failed"))
+        self.assertIn("0 (diverged), 1 (not converged)", said("all_failed"))
 
     def test_a_constant_feature_is_named(self):
         self.assertIn("the feature is constant there or nearly so",

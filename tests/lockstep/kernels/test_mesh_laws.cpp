@@ -100,6 +100,45 @@ TEST_CASE("No force acts in the gap, and a collision conserves momentum and ener
     CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
 }
 
+TEST_CASE("Undamped tooth pairs that touch one after another conserve energy") {
+    // Three tooth pairs of different stiffness, whose gaps close one after another.
+    const double stiffness[] = {1e8, 2e8, 3e8}, gap[] = {0.0, 1.3e-6, 2.1e-6};
+    for (const auto integrator : {Integrator::rk4, Integrator::central_difference}) {
+        std::vector<double> errors;
+        for (const int steps : {4000, 8000}) {
+            PairOfMasses masses(MeshLaw::unilateral, steps, 3e-4, 0.0, integrator);
+            StiffnessNodes& nodes = masses.plan.nodes;
+            nodes.tooth_pairs = 3;
+            for (std::size_t i = 0; i < nodes.stiffness.size() / 2; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    nodes.tooth_stiffness.insert(nodes.tooth_stiffness.end(), {stiffness[j], 0.0});
+                    nodes.tooth_gap.insert(nodes.tooth_gap.end(), {gap[j], 0.0});
+                    nodes.tooth_place.insert(nodes.tooth_place.end(), 2, 0.0);
+                }
+            }
+            masses.in.force_N[dynamics::sun] = 0.0;
+            masses.state.q[2] = 0.5e-6;
+            masses.state.v = {0.0, 0.0, 0.12, 0.0};
+            const auto energy = [&] {
+                double sum = 0.5 * PairOfMasses::kMass * std::pow(masses.rate(), 2);
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const double pressed = std::max(0.0, masses.deflection() - gap[j]);
+                    sum += 0.5 * stiffness[j] * pressed * pressed;
+                }
+                return sum;
+            };
+            const double before = energy(), momentum = masses.momentum();
+            const auto d = masses.march();
+            CHECK(*std::ranges::max_element(d) > gap[2]);  // all three have touched
+            CHECK(masses.momentum() == Approx(momentum).epsilon(1e-12));
+            errors.push_back(std::abs(energy() / before - 1.0));
+        }
+        INFO("integrator " << static_cast<int>(integrator) << ": errors " << errors[0] << ", "
+                           << errors[1]);
+        CHECK(errors[1] < 2e-6);
+    }
+}
+
 TEST_CASE("A loaded pair bounces as the event-driven solution does") {
     const auto integrator = GENERATE(Integrator::rk4, Integrator::newmark, Integrator::sdirk3,
                                      Integrator::central_difference);

@@ -2,6 +2,7 @@
 // of their neighbours.
 #include <catch2/catch.hpp>
 
+#include "lockstep/integrators/facts.hpp"
 #include "machine/dispatch.hpp"
 #include "tests/lockstep/liang_train.hpp"
 
@@ -156,5 +157,31 @@ TEST_CASE("A gearbox without a fault has one mesh period, with zero mean displac
             rms += a * a / 24;
         }
         CHECK(std::abs(mean) < 0.05 * std::sqrt(rms));
+    }
+}
+
+TEST_CASE("Mean mesh forces carry the torque from the sun to the ring") {
+    const auto& train = LiangTrain::instance();
+    for (const auto law : {dynamics::MeshLaw::linear, dynamics::MeshLaw::unilateral}) {
+        for (const auto integrator : {Integrator::rk4, Integrator::central_difference}) {
+            MarchPlan plan = train.plan(400, 6000, kFull);
+            plan.mesh_law = law;
+            plan.integrator = integrator;
+            plan.grid.stage_nodes = facts(integrator).stage_nodes;
+            plan.nodes = tabulate(train.pairs, plan.grid, dynamics::MeshDamping::ratio);
+            const std::vector<dynamics::GearboxInputs> one{train.inputs(kSpeedup)};
+            TileSettings settings;
+            settings.with_motion = true;
+            const TileResult tile = run_tile<1>(plan, one, train.no_fault(1), settings);
+            const machine::AlignedVector& force = tile.records[0].mesh_force;
+            REQUIRE(force.size() == 400 * 8);
+            double sun = 0.0, ring = 0.0;  // the planets' sums, means over the period
+            for (std::size_t i = 0; i < force.size(); ++i) {
+                (i % 8 < 4 ? sun : ring) += force[i] / 400;
+            }
+            const double carried = 429.0 / train.sun.base_radius();
+            CHECK(sun == Approx(carried).epsilon(1e-3));
+            CHECK(ring == Approx(carried).epsilon(1e-3));
+        }
     }
 }

@@ -60,12 +60,11 @@ std::vector<Marched> march(const MarchPlan& plan, const ToothErrors& errors,
                            const std::vector<dynamics::GearboxInputs>& inputs, int meshes) {
     const auto march_mesh = make_mesh_march<8>(plan, inputs);
     const RigidRotation rotation(plan.layout, inputs);
-    const ToothContact contact(plan, dynamics::mesh_periods_s(inputs));
     TileState state = rest_state(plan, inputs);
     std::vector<Marched> all;
     for (int k = 0; k < meshes; ++k) {
         Marched one{make_record(plan, 8, true), tooth_gaps(plan, errors, k)};
-        contact.ask_for_steps(one.record);
+        size_step_states(plan, 8, one.record);
         (*march_mesh)({{}, one.gaps}, state, one.record);
         rotation.remove(state);
         all.push_back(std::move(one));

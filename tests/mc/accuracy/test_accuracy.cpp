@@ -137,7 +137,7 @@ TEST_CASE("a tolerance that the given steps cannot meet is refused", "[accuracy]
         {"numerics.tolerance=1e-3", "numerics.integrator=newmark", "numerics.steps_per_mesh=120"});
     CHECK_THROWS_AS(resolve_numerics(study), SceneError);
     CHECK_THROWS_WITH(resolve_numerics(study),
-                      Catch::Contains("no rung keeps the features within 0.001"));
+                      Catch::Contains("no solver setting keeps the features within 0.001"));
 }
 
 TEST_CASE("every integrator has a row in the table of step costs", "[accuracy]") {
@@ -290,8 +290,9 @@ TEST_CASE("accuracy omits what it has no time for, and reports this", "[accuracy
     }
     const std::string text = accuracy_text(report);
     const std::vector<std::string> said{
-        "left out, the time was up", std::to_string(untried) + " rungs",
-        "what numerics.tolerance = 0.001 chooses", "rungs settled more loosely", "detection rates"};
+        "omitted because the time had run out", std::to_string(untried) + " solver settings",
+        "the choice for numerics.tolerance = 0.001", "settings with a looser settle_tolerance",
+        "detection rates"};
     for (const std::string& what : said) {
         INFO(what);
         CHECK(text.find(what) != std::string::npos);
@@ -310,5 +311,5 @@ TEST_CASE("accuracy reports what it cannot do", "[accuracy]") {
         test::program("accuracy " + test::study("published/tian-fig-4-9.toml") +
                       " --quiet --peers " + folder.file("bad.csv"));
     CHECK(bad.code == kBadInput);
-    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is no number >= 0"));
+    CHECK(bad.mentions("bad.csv:2: sensor: \"z\" is not a number >= 0"));
 }

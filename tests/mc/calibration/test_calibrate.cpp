@@ -211,7 +211,7 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
           Approx(inputs[2]["median"].get<double>())
               .margin(0.1 * (inputs[2]["high"].get<double>() - inputs[2]["low"].get<double>())));
     CHECK(study.study->detection.uncertain_inputs.size() == 4);
-    CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT TELL IT") !=
+    CHECK(text_of(folder.file("c.toml")).find("THE RECORDINGS DO NOT DETERMINE IT") !=
           std::string::npos);
     CHECK(program("run " + folder.file("c.toml") + " --quiet --instances 2 --out " +
                   folder.file("c.h5"))
@@ -265,14 +265,14 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
         {"--healthy a.csv --features b.csv", "more than one source of records"},
         {"--healthy no-such.csv", "no such file"},
         {"--healthy '" + folder.file("none*.csv") + "'", "no file matches"},
-        {"--healthy " + folder.file("bad.csv"), "\"x\" is no number"},
-        {"--features " + folder.file("table.csv"), "has no column named after a sensor's feature"},
+        {"--healthy " + folder.file("bad.csv"), "\"x\" is not a number"},
+        {"--features " + folder.file("table.csv"), "has no column named after a sensor feature"},
         {"--features " + folder.file("text.csv"), "unknown unit furlong"},
-        {"--features " + folder.file("text.csv"), "\"x\" is no finite number"},
+        {"--features " + folder.file("text.csv"), "\"x\" is not a finite number"},
         {"--healthy a.csv --prior sensor.nose=1:2", "unknown key"},
         {"--healthy a.csv --prior sensor.gain=2:1", "LOW must be below HIGH"},
         {"--healthy a.csv --prior sensor.gain=0:1:log", "LOW must be > 0"},
-        {"--healthy a.csv --prior sensor.gain=1", "is no range"},
+        {"--healthy a.csv --prior sensor.gain=1", "is not a range"},
         {"--healthy a.csv --prior fault.reduction=0:1", "healthy gearboxes have no fault"},
         {"--healthy a.csv --prior gearbox.planets=3:4", "may not be random"},
         {"--healthy a.csv --draws 3", "--draws"},

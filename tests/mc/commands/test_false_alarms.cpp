@@ -125,5 +125,5 @@ TEST_CASE("Uncertainty left by a calibration is a separate band in text, data an
     const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
                                     " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
     CHECK(unknown.code == 2);
-    CHECK(unknown.mentions("\"sensor.gain\" is no random input of the gearboxes"));
+    CHECK(unknown.mentions("\"sensor.gain\" is not a random input of the gearboxes"));
 }

@@ -51,7 +51,7 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
         CHECK((rival.code == 0 || rival.code == 2 || rival.code == 137));
         if (rival.code == 2) {
             INFO(rival.output);
-            CHECK(rival.mentions("is working on it"));
+            CHECK(rival.mentions("is using it"));
         }
         kill(-child, SIGKILL);
         int status = 0;
@@ -64,7 +64,7 @@ TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing
         }
     }
     Outcome last = test::shell(command(out));
-    for (int i = 0; i < 50 && last.mentions("is working on it"); ++i) {
+    for (int i = 0; i < 50 && last.mentions("is using it"); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks may outlive mpirun
         last = test::shell(command(out));
     }

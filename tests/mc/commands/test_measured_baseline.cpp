@@ -102,7 +102,7 @@ TEST_CASE("A file that is no baseline of a recording is reported") {
     const auto json = json_of(path, "--baseline " + written(folder, "other.csv", other));
     CHECK_FALSE(json["features"].contains("change_window_ratio"));
     CHECK_THAT(json["unavailable"]["change_window_ratio"].get<std::string>(),
-               Catch::Contains("other.csv") && Catch::Contains("not like this baseline"));
+               Catch::Contains("other.csv") && Catch::Contains("does not resemble this baseline"));
     CHECK(json["features"].contains("window_ratio"));
 
     const Outcome none = features(path, "--baseline " + folder.file("none.csv"));

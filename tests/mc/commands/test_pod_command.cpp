@@ -77,7 +77,7 @@ TEST_CASE("pod refuses unusable input by name, all at once") {
     CHECK_THAT(refused(written(folder, "none.csv", "size,hit\n")),
                Catch::Contains("no line with a value"));
     CHECK_THAT(refused(written(folder, "binary.csv", std::string("size,hit\n\0\0", 11))),
-               Catch::Contains("no line of text"));
+               Catch::Contains("is not a line of text"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --threshold 3"),
                Catch::Contains("--threshold is for responses"));
     CHECK_THAT(refused(kTables + "inspections_responses.csv --response A"),

@@ -170,7 +170,7 @@ TEST_CASE("Gearboxes that fail are counted; the run exits with 3 and keeps its f
                                     " --set numerics.max_meshes=1 --out " +
                                     folder.file("r.h5"));
     CHECK(outcome.code == 3);
-    CHECK(mentions(outcome, "27 of 27 failed (0 diverged, 27 did not settle)"));
+    CHECK(mentions(outcome, "27 of 27 failed (0 diverged, 27 did not converge)"));
     CHECK(fs::exists(folder.file("r.h5")));
 }
 

@@ -112,7 +112,7 @@ TEST_CASE("A bad recording is reported and does not stop the others; the exit co
     CHECK(outcome.code == 3);
     CHECK(outcome.mentions("61 of 63 have features"));
     CHECK(outcome.mentions("missing.csv: no such file"));
-    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is no number"));
+    CHECK(outcome.mentions("broken.csv:3: column sensor: \"x\" is not a number"));
     const auto results = mc::read_results(recorded.folder.file("f.h5"));
     REQUIRE(results.group.size() == 61);
     CHECK(results.group[0] == 0);
@@ -208,7 +208,7 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
     const Outcome wrong =
         recorded.features("--set 'monitoring.detectors=[\"cusum\",\"single\",\"single\"]' --csv -");
     CHECK(wrong.code == 2);
-    CHECK(wrong.mentions("\"cusum\" is no detector"));
+    CHECK(wrong.mentions("\"cusum\" is not a detector"));
     CHECK(wrong.mentions("names \"single\" twice"));
 }
 
@@ -294,7 +294,7 @@ TEST_CASE("A row of an HDF5 file is a record, with the dataset's scale") {
                                     kSmall + " --samples-per-mesh 8 --csv -");
     INFO(outcome.output);
     CHECK(outcome.code == 3);
-    CHECK(outcome.mentions("sensor has 2 rows, but row 2 is asked for"));
+    CHECK(outcome.mentions("sensor has 2 rows, but row 2 is requested"));
     std::istringstream lines(outcome.output);
     std::string header, row, alone;
     std::getline(lines, header);

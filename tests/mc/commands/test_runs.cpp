@@ -199,7 +199,7 @@ TEST_CASE("Stopped by signals inside of batches and resumed, a run keeps its bit
         const Outcome part = test::shell(stop + (i % 2 == 0 ? "" : mpirun(2)) + GEARPOD_PROGRAM +
                                          " " + command(out) + " --resume");
         INFO(part.output);
-        if (part.mentions("is working on it")) {
+        if (part.mentions("is using it")) {
             std::this_thread::sleep_for(200ms);  // mpirun ends before its ranks do
             continue;
         }
@@ -230,10 +230,10 @@ TEST_CASE("An extended ensemble computes only new gearboxes, with the bits of a 
     const Outcome grown = test::program(run_of(out) + " --resume");
     INFO(grown.output);
     CHECK(grown.code == 0);
-    CHECK(grown.mentions("r.h5: 4 of 7 tiles"));
+    CHECK(grown.mentions("r.h5: 4 of 7 batches"));
     CHECK(bits(out) == reference());
     const Outcome again = test::program(run_of(out) + " --resume");
-    CHECK(again.mentions("r.h5: 7 of 7 tiles"));
+    CHECK(again.mentions("r.h5: 7 of 7 batches"));
     CHECK(bits(out) == reference());
     CHECK(folder.files() == 1);
 
@@ -261,8 +261,8 @@ TEST_CASE("An extended threshold sample computes only new gearboxes, with or wit
         const Outcome grown = test::program(run_of(out) + " --resume");
         INFO(grown.output);
         CHECK(grown.code == 0);
-        // One of the old sample's two tiles is full, and all or one of the four graded ones.
-        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 tiles" : "r.h5: 2 of 7 tiles"));
+        // One of the old sample's two batches is full, and all or one of the four graded ones.
+        CHECK(grown.mentions(graded == 50 ? "r.h5: 5 of 7 batches" : "r.h5: 2 of 7 batches"));
         CHECK(bits(out) == reference());
     }
     const Outcome fewer = test::program(run_of(out, 50, 20) + " --resume");
@@ -298,9 +298,9 @@ TEST_CASE("ensemble.until stops at the same gearbox for any number of ranks") {
         CHECK((cell.upper - cell.lower) / 2 <= 0.25);
     }
     for (const auto& [wrong, words] :
-         {std::pair{"size=4", "4 is no fault size"}, std::pair{"noise_level=3", "3 is not among"},
-          std::pair{"feature=\"te_rsm\"", "te_rms"}, std::pair{"half_width=0.7", "< 0.5"},
-          std::pair{"width=0.7", "unknown key"}}) {
+         {std::pair{"size=4", "4 is not a fault size"},
+          std::pair{"noise_level=3", "3 is not among"}, std::pair{"feature=\"te_rsm\"", "te_rms"},
+          std::pair{"half_width=0.7", "< 0.5"}, std::pair{"width=0.7", "unknown key"}}) {
         const std::string key = std::string(wrong).substr(0, std::string(wrong).find('='));
         const Outcome run = test::program(run_of(folder.file("x.h5")) + until +
                                           " --set 'ensemble.until." + wrong + "'");

@@ -165,14 +165,14 @@ TEST_CASE("Tilting without records, with other counts or with coloured noise is 
     const auto problem = [](const std::vector<std::string>& keys) {
         return mc::format(mc::read_study(test::study("planet-crack-ideal.toml"), keys).problems);
     };
-    CHECK_THAT(
-        problem({"ensemble.threshold_tilt=true"}),
-        Catch::Contains("only with ensemble.threshold_records") && !Catch::Contains("no multiple"));
+    CHECK_THAT(problem({"ensemble.threshold_tilt=true"}),
+               Catch::Contains("only with ensemble.threshold_records") &&
+                   !Catch::Contains("not a multiple"));
     CHECK_THAT(problem({"ensemble.threshold_tilt=true", "ensemble.threshold_records=6"}),
-               Catch::Contains("6 are no multiple of 4") && Catch::Contains("take 8"));
+               Catch::Contains("6 is not a multiple of 4") && Catch::Contains("use 8"));
     const auto coloured =
         mc::format(mc::read_study(test::study("noise-density.toml"),
                                   {"ensemble.threshold_tilt=true", "ensemble.threshold_records=8"})
                        .problems);
-    CHECK_THAT(coloured, Catch::Contains("colours the noise"));
+    CHECK_THAT(coloured, Catch::Contains("tilting needs white noise"));
 }

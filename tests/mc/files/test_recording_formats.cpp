@@ -170,7 +170,7 @@ TEST_CASE("a truncated MATLAB file is refused, compressed or not") {
         for (const double share : {0.3, 0.6, 0.9, 0.999}) {
             const auto kept = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
             INFO(form << " " << share);
-            CHECK(refusal(written(folder, "cut.mat", bytes.substr(0, kept))).find("is cut off") !=
+            CHECK(refusal(written(folder, "cut.mat", bytes.substr(0, kept))).find("is truncated") !=
                   std::string::npos);
         }
     }
@@ -220,11 +220,11 @@ TEST_CASE("links out of an HDF5 file are refused by name and not opened") {
     const std::string link = make("link.h5", [&](hid_t file) {
         H5Lcreate_external(pipe.c_str(), "/sensor", file, "sensor", H5P_DEFAULT, H5P_DEFAULT);
     });
-    CHECK(refusal(link).find("sensor lies in another file") != std::string::npos);
+    CHECK(refusal(link).find("sensor is stored in another file") != std::string::npos);
     const std::string group = make("group.h5", [&](hid_t file) {
         H5Lcreate_external(pipe.c_str(), "/", file, "signals", H5P_DEFAULT, H5P_DEFAULT);
     });
-    CHECK(refusal(group).find("signals lies in another file") != std::string::npos);
+    CHECK(refusal(group).find("signals is stored in another file") != std::string::npos);
     const std::string raw = make("raw.h5", [&](hid_t file) {
         const hsize_t count = 3;
         const mc::Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "raw");
@@ -234,7 +234,7 @@ TEST_CASE("links out of an HDF5 file are refused by name and not opened") {
                                                 H5P_DEFAULT, made.get(), H5P_DEFAULT),
                                      H5Dclose, "raw");
     });
-    CHECK(refusal(raw).find("sensor lies in another file") != std::string::npos);
+    CHECK(refusal(raw).find("sensor is stored in another file") != std::string::npos);
     // A link within the file is equivalent to the dataset.
     const std::string soft = make("soft.h5", [&](hid_t file) {
         H5Lcreate_soft("/time", file, "sensor", H5P_DEFAULT, H5P_DEFAULT);

@@ -54,7 +54,7 @@ TEST_CASE("Counts beyond their limits are refused with the limit") {
           std::pair{std::string("sensor.sampling_Hz=1e7"), "at most 20000"},
           std::pair{std::string("ensemble.instances=1000000001"), "ensemble.instances"},
           std::pair{std::string("sensor.encoder_sampling_Hz=1\" --set \"features.use=['te_fm4']"),
-                    "do not part the transmission error"},
+                    "too few for te_fm4, te_m6a and te_m8a"},
           std::pair{std::string("features.te_harmonics=100000"), "features.te_harmonics"}}) {
         const Outcome outcome = bounded("describe " + study + " --set \"" + set + "\"");
         INFO(outcome.output.substr(0, 400));
@@ -73,7 +73,7 @@ TEST_CASE("A run that exceeds the memory reports this before it begins") {
     const Outcome refused = bounded(run, 1500000);
     INFO(refused.output);
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("GB of memory at least"));
+    CHECK(refused.mentions("the run needs at least"));
     CHECK(refused.mentions("--force"));
     CHECK(folder.empty());
     // A forced run ends with a message and keeps its results.

@@ -21,6 +21,7 @@ Study light_study(const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{
         "operation.carrier_speed_rpm=20",
         "numerics.horizon=march",
+        "effects.contact_onset=abrupt",
         "sensor.noise_levels=[1]",
         "ensemble.threshold_records=1",
         "detection.false_alarm_rate=0.05",

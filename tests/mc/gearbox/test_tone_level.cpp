@@ -51,7 +51,7 @@ TEST_CASE("A level requires tones") {
     const auto outcome = program("describe " + kStudy + " --set sensor.tone_level=2");
     CHECK(outcome.code == 2);
     CHECK(outcome.mentions("sensor.tone_level"));
-    CHECK(outcome.mentions("there are none: sensor.tones"));
+    CHECK(outcome.mentions("no tones are given: sensor.tones"));
 }
 
 // Each background that shares an integration has its own level.

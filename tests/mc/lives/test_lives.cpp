@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include "mc/gearbox/instance_features.hpp"
 #include "mc/lives/life_monitor.hpp"
@@ -193,6 +195,10 @@ TEST_CASE("A report on lives repeats the run's text, and other commands refuse t
         "lives " + study("planet-crack-ideal.toml") + life_options() + " --out " + file;
     const auto whole = told(program(command));
     CHECK(told(program("report " + file + " --json -")) == whole);
+    std::istringstream text(program("report " + file).output);
+    for (std::string line; std::getline(text, line);) {
+        CHECK(line.size() <= 80);
+    }
     const mc::Results read = mc::read_results(file);
     REQUIRE(read.status.size() == 11);
     CHECK(read.noise_levels.size() == 40);  // hours
@@ -250,10 +256,10 @@ TEST_CASE("Studies without possible lives are refused with the key") {
     };
     CHECK(
         program("lives " + study("planet-crack-ideal.toml")).mentions("life.interval_h: missing"));
-    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" looks at samples"));
+    CHECK(refused(" --set 'features.use=[\"fm4\"]'").mentions("\"fm4\" needs samples"));
     CHECK(refused(" --set life.first_depth_mm=4").mentions("is not below last_depth_mm"));
-    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts the tooth"));
-    CHECK(refused(" --set life.records=6").mentions("no more than monitoring.baseline_records"));
+    CHECK(refused(" --set life.last_depth_mm=40").mentions("cuts through the tooth"));
+    CHECK(refused(" --set life.records=6").mentions("is not above monitoring.baseline_records"));
     CHECK(refused(" --set fault.kind=reduction --set fault.reduction=0").code == 2);
     CHECK(refused(" --set 'sensor.noise_levels=[1,2]'").mentions("one noise"));
     CHECK(refused(" --set numerics.verify=true --set 'sensor.noise_levels=[1,2]'")

@@ -147,11 +147,11 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
         CHECK(std::ranges::count(text, '\n') == 1);
     };
     says({law("gearbox.mesh_damping_ratio", "distribution=\"uniform\",low=0.04,high=0.1")},
-         "mesh_damping_ratio belongs to the gearbox");
+         "mesh_damping_ratio is the same in all records of a gearbox");
     says({"random.sensor.gain={distribution=\"uniform\",low=1,high=2,per=\"day\"}"},
-         "is no level of randomness");
+         "must be \"record\" or \"gearbox\"");
     says({law("sensor.gain", "distribution=\"levels\",values=[1,2]")}, "takes its values in turn");
-    says({kTorque, "life.torque_scatter=0.1"}, "given beside life.torque_scatter");
+    says({kTorque, "life.torque_scatter=0.1"}, "conflicts with life.torque_scatter");
     auto snapshot = std::vector<std::string>{kTorque, "ensemble.threshold_records=3"};
     std::string text;
     for (const auto& problem :
@@ -159,7 +159,7 @@ TEST_CASE("Keys of inputs per record are read, written and refused by name") {
         text += mc::format(problem) + "\n";
     }
     INFO(text);
-    CHECK(text.find("3 records of a gearbox differ in noise alone") != std::string::npos);
+    CHECK(text.find("the 3 records of a gearbox differ only in their noise") != std::string::npos);
 }
 
 TEST_CASE("describe shows the law of inputs per record") {

@@ -179,22 +179,22 @@ TEST_CASE("Invalid records and curves are refused with the key") {
         CHECK(outcome.code == 2);
         return outcome;
     };
-    CHECK(refused("--set life.record_turns=1").mentions("windows return every 31"));
+    CHECK(refused("--set life.record_turns=1").mentions("windows repeat every 31"));
     CHECK(refused("--set life.record_s=60 --set life.record_turns=9")
-              .mentions("given beside record_s"));
+              .mentions("conflicts with record_s"));
     CHECK(refused("--set 'features.use=[\"te_rms\"]' --set life.record_s=60")
               .mentions("recordings have another length"));
     CHECK(refused("--set 'life.curve_h=[0,1]' --set 'life.curve_depth_mm=[1,4]'")
               .mentions("life.first_depth_mm"));
     CHECK(refused("--set 'life.curve_depth_mm=[1,4]'").mentions("only with life.curve_h"));
-    CHECK(refused("--set life.marched_speeds=3").mentions("records have one speed"));
+    CHECK(refused("--set life.marched_speeds=3").mentions("all records have the same speed"));
     CHECK(refused("--set life.marched_torques=1 --set life.torque_scatter=0.1")
               .mentions("life.marched_torques: must be between 2 and 16"));
-    CHECK(refused("--set monitoring.baseline_records=2").mentions("take 3 or more, or 0"));
+    CHECK(refused("--set monitoring.baseline_records=2").mentions("use at least 3, or 0"));
     CHECK(refused("--set monitoring.baseline_records=3 --set monitoring.torque_regression=true")
-              .mentions("along a line in the torque"));
+              .mentions("about a line in the torque"));
     CHECK(refused("--set monitoring.false_alarms_per_1000_h=200")
-              .mentions("an alarm or more in every record"));
+              .mentions("one alarm or more in every record"));
 }
 
 TEST_CASE("describe states which inputs vary per gearbox and which per record") {

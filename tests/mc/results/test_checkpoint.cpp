@@ -227,7 +227,7 @@ TEST_CASE("Two runs cannot use one checkpoint at the same time") {
         }
         const std::string resumed = reason_of(path);
         const bool good = contains(resumed, worker) && contains(created, worker) &&
-                          contains(created, "is working on it") && !contains(created, "delete");
+                          contains(created, "is using it") && !contains(created, "delete");
         std::_Exit(good ? 0 : 1);
     }
     int status = 0;
@@ -254,7 +254,7 @@ TEST_CASE("Only one of several competing runs gets a checkpoint") {
                 try {
                     mine = Checkpoint::create(path, kIdentity, kPlan);
                 } catch (const std::runtime_error& error) {
-                    code = contains(error.what(), "is working on it") ? 1 : 2;
+                    code = contains(error.what(), "is using it") ? 1 : 2;
                 }
                 ::usleep(200000);
                 std::_Exit(code);
@@ -279,7 +279,7 @@ TEST_CASE("A checkpoint that is a link or a pipe is refused without blocking") {
     const Folder folder;
     const std::string path = folder.file("r.h5.part");
     REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
-    CHECK(contains(reason_of(path), "is no regular file"));
+    CHECK(contains(reason_of(path), "is not a regular file"));
     std::filesystem::remove(path);
     fill(folder.file("other"), {0});
     std::filesystem::create_symlink("other", path);
@@ -314,7 +314,7 @@ TEST_CASE("For any damaged byte of a checkpoint no damaged batch is used") {
         if (there < written.size()) {
             REQUIRE(there == written.size() - 1);
             REQUIRE(checkpoint->findings().size() == 1);
-            REQUIRE(contains(checkpoint->findings()[0], "1 tile is damaged"));
+            REQUIRE(contains(checkpoint->findings()[0], "1 batch is damaged"));
             ++found;
         }
     }
@@ -334,13 +334,13 @@ TEST_CASE(
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         CHECK(checkpoint->batches_done() == 2);
         REQUIRE(checkpoint->findings().size() == 1);
-        CHECK(contains(checkpoint->findings()[0], "3 of 5 tiles"));
+        CHECK(contains(checkpoint->findings()[0], "3 of 5 batches"));
     }
     write_bytes(path, bytes.substr(0, 4096 + 4 * record + 100));
     {
         const auto checkpoint = Checkpoint::resume(path, kIdentity, kPlan);
         CHECK(checkpoint->batches_done() == 4);
-        CHECK(contains(checkpoint->findings()[0], "1 tile is damaged or incomplete"));
+        CHECK(contains(checkpoint->findings()[0], "1 batch is damaged or incomplete"));
     }
     for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{60}}) {
         write_bytes(path, bytes.substr(0, length));

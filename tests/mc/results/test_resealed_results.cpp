@@ -59,7 +59,7 @@ std::vector<Edit> edits() {
     return {
         {"fewer noise levels", levels({0.0}), "noise_levels"},
         {"more noise levels", levels({0.0, 0.5, 1.0}), "noise_levels"},
-        {"other noise levels", levels({0.0, 0.75}), "not the study's"},
+        {"other noise levels", levels({0.0, 0.75}), "differ from the study's"},
         {"a noise level that is none", levels({0.0, NAN}), "must be finite"},
         {"an infinite noise level", levels({0.0, INFINITY}), "must be finite"},
         {"descending noise levels", levels({0.5, 0.0}), "ascending"},
@@ -96,7 +96,7 @@ std::vector<Edit> edits() {
              mc::check(H5Ldelete(root, "status", H5P_DEFAULT), "");
              mc::write_integers(root, "status", {8}, {0, 0, 0, 0, 99, 0, 0, 0});
          },
-         "/status of row 4 is 99"},
+         "/status of row 4 has the invalid value 99"},
         {"too short a column",
          [](hid_t root) {
              replace_numbers(root, "instances/path_exponent", {3}, {1, 2, 3});
@@ -104,7 +104,7 @@ std::vector<Edit> edits() {
          "damaged"},
         {"records of healthy gearboxes that have one each",
          [](hid_t root) { mc::write_number(root, "detection", "threshold_records", 3.0); },
-         "threshold_records = 3, but of the study 1"},
+         "threshold_records = 3, but the study has 1"},
         {"a confidence of nothing",
          [](hid_t root) {
              mc::check(H5Adelete_by_name(root, "detection", "confidence", H5P_DEFAULT), "");

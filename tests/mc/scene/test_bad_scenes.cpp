@@ -25,7 +25,7 @@ struct BadScene {
 const BadScene kBadScenes[] = {
     // Keys of the other kind of gearbox.
     {kFixedShaftStudy, "[effects]", "planets = 3\n[effects]", "gearbox.planets",
-     "has no place here (only for gearbox.kind = \"planetary\"); remove it"},
+     "is not allowed here (only for gearbox.kind = \"planetary\"); remove it"},
     {kFixedShaftStudy, "[operation]", "[operation]\nfixed = \"ring\"", "operation.fixed",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "[operation]", "[operation]\ncarrier_speed_rpm = 10",
@@ -33,7 +33,7 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "[effects]", "[effects]\ninertial_terms = true", "effects.inertial_terms",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "[effects]", "[effects]\npath = \"hamming\"", "effects.path",
-     "sits on a bearing"},
+     "is on a bearing"},
     {kFixedShaftStudy, "[sensor]", "[sensor]\npath_exponent = 0.1", "sensor.path_exponent",
      "only for gearbox.kind = \"planetary\""},
     {kFixedShaftStudy, "pinion_speed_rpm = 1800\n", "", "operation.pinion_speed_rpm", "missing"},
@@ -60,14 +60,14 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 17", "fault.chip_mm",
      "17 mm is wider than the face, 16 mm; stay at or below 16 mm"},
     {kFixedShaftStudy, "chip_height_mm = 2", "chip_height_mm = 9", "fault.chip_height_mm",
-     "takes the whole tooth off"},
+     "removes the whole tooth"},
     {kFixedShaftStudy, "chip_mm = 8\n", "", "fault.chip_mm", "missing (fault.kind is \"chip\")"},
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 8\ndepth_mm = 1", "fault.depth_mm",
      "only for fault.kind = \"crack\""},
     {kFixedShaftStudy, "chip_mm = 8", "chip_mm = 8\nangle_deg = 45", "fault.angle_deg",
      "only for fault.kind = \"crack\" or \"spatial-crack\""},
     {kExampleStudy, "side = \"ring\"", "side = \"both\"", "fault.side",
-     "is \"both\" (a crack lies on one flank"},
+     "is \"both\", but a crack is on one flank"},
     {kQuasiStaticStudy, "values = [0, 0.1, 0.2, 0.3]", "values = [0, 1.1]",
      "random.fault.reduction", "reduction must be between 0 and 1"},
     {kQuasiStaticStudy, "side = \"both\"\n", "", "fault.side",
@@ -96,7 +96,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "end_angle_deg = 90", "end_angle_deg = 91", "fault.end_angle_deg",
      "must be > 0 and <= 90"},
     {kSpatialCrackStudy, "[sensor]", "[detection]\nsize_edges_mm = [0, 1]\n[sensor]",
-     "detection.size_edges_mm", "the fault's size is a pure number: size_edges groups it"},
+     "detection.size_edges_mm", "the fault's size is a pure number: use size_edges"},
     {kSpatialCrackStudy, "[sensor]", "[detection]\nsize_edges = [0, 1]\n[sensor]",
      "detection.size_edges", "fault.stage is not continuous"},
     // Profiles and effects that exclude one another.
@@ -155,7 +155,7 @@ const BadScene kBadScenes[] = {
      "gearbox.sun_rim_mm",
      "16 mm leaves no web (from the root circle to the bore there are 15.5 mm)"},
     {kExampleStudy, "[operation]", "sun_rim_mm = 4\n[operation]", "gearbox.sun_rim_mm",
-     "it takes from elastic gear bodies, and effects.foundation is \"none\""},
+     "only for elastic gear bodies, but effects.foundation is \"none\""},
     {kSpatialCrackStudy, "backlash_mm = 0.1\n", "", "gearbox.backlash_mm",
      "missing (effects.separation is \"two-sided\")"},
     {kSpatialCrackStudy, "separation = \"two-sided\"", "separation = \"one-sided\"",
@@ -165,7 +165,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "sun_planet_error_um = [10, 2]", "sun_planet_error_um = [10, -2]",
      "gearbox.sun_planet_error_um", "must be >= 0, but is -2"},
     {kSpatialCrackStudy, "horizon = \"march\"", "horizon = \"reuse\"", "numerics.horizon",
-     "is \"reuse\", but every tooth has errors of its own"},
+     "is \"reuse\", but every tooth has individual errors"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "tooth_quality = 13", "gearbox.tooth_quality",
      "must be between 0 and 12"},
     {kSpatialCrackStudy, "pitch_error_um = 3", "gear_quality = 6", "gearbox.gear_quality",
@@ -181,7 +181,7 @@ const BadScene kBadScenes[] = {
     {kSpatialCrackStudy, "separation = \"two-sided\"",
      "separation = \"two-sided\"\nmotion = \"torsional\"\n[random]\n"
      "gearbox.pin_radial_rms_um = { distribution = \"constant\", value = 1 }",
-     "gearbox.pin_radial_rms_um", "rigid bearings hold the planets in their places"},
+     "gearbox.pin_radial_rms_um", "the bearings of this model are rigid"},
     {kSpatialCrackStudy, "integrator = \"newmark\"", "integrator = \"newmak\"",
      "numerics.integrator", "did you mean newmark?"},
     // Tones.
@@ -205,13 +205,13 @@ const BadScene kBadScenes[] = {
     // Inputs that must not be random.
     {kQuasiStaticStudy, "[random]",
      "[random]\ngearbox.helix_angle_deg = { distribution = \"constant\", value = 1 }",
-     "random.gearbox.helix_angle_deg", "may not be random (it shapes the teeth"},
+     "random.gearbox.helix_angle_deg", "may not be random (it defines the teeth"},
     {kSpatialCrackStudy, "[sensor]",
      "[random]\ngearbox.sun_planet_error_um = { distribution = \"constant\", value = 1 }\n[sensor]",
      "random.gearbox.sun_planet_error_um", "may not be random (it is not a number)"},
     {kFixedShaftStudy, "[sensor]",
      "[random]\nfault.chip_height_mm = { distribution = \"constant\", value = 1 }\n[sensor]",
-     "random.fault.chip_height_mm", "of which only the size may differ"},
+     "random.fault.chip_height_mm", "only the size of a fault may be random"},
 };
 
 bool mentions(const Problem& problem, const std::string& words) {
@@ -268,6 +268,6 @@ TEST_CASE("A pitted band is refused outside the contact with the mating flank") 
         INFO(format(reading.problems));
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].key == "fault.pit_radius_mm");
-        CHECK(mentions(reading.problems[0], "leaves the flank that is touched"));
+        CHECK(mentions(reading.problems[0], "extends beyond the active flank"));
     }
 }

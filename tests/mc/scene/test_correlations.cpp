@@ -185,13 +185,14 @@ TEST_CASE("Impossible correlations are refused") {
     has(problem_of(
             {torque, mass, list("[" + pair_of(t, m, "0.5") + "," + pair_of(m, t, "0.4") + "]")}),
         "pair 2: gearbox.planet_mass_kg and operation.torque_N_m are correlated already");
-    has(problem_of({torque, list("[" + pair_of(t, "fault.depth_mm", "0.5") + "]")}), "graded by");
+    has(problem_of({torque, list("[" + pair_of(t, "fault.depth_mm", "0.5") + "]")}),
+        "is the fault size");
     has(problem_of({torque, kMass + "{distribution='levels',values=[1,2]}",
                     list("[" + pair_of(t, m, "0.5") + "]")}),
         "takes its values in turn");
     has(problem_of({torque, kMass + "{distribution='empirical',values=[1,2],rows=3}",
                     list("[" + pair_of(t, m, "0.5") + "]")}),
-        "drawn in rows");
+        "sampled by row");
     has(problem_of({torque, mass, list("[" + pair_of(t, m, "0.5").insert(1, "with=1,") + "]")}),
         "unknown key with");
     has(problem_of({torque, mass, list("3")}), "must be a list of pairs");

@@ -87,19 +87,19 @@ const BadStudy kBad[] = {
      {"gearbox.pitch_error_um=1", "operation.torque_noise=0.1", "operation.torque_noise_band_Hz=3",
       "numerics.horizon=superpose"},
      "numerics.horizon",
-     "is \"superpose\", but torque, speed or weight vary"},
+     "is \"superpose\", but torque, speed or weight varies"},
     {kExampleStudy,
      {"numerics.horizon=superpose"},
      "numerics.horizon",
-     "is \"superpose\", but no tooth has errors of its own"},
+     "is \"superpose\", but the teeth have no individual errors"},
     {kExampleStudy,
      {"effects.gravity=true", "numerics.horizon=reuse"},
      "numerics.horizon",
-     "gravity turns past the carrier"},
+     "gravity rotates relative to the carrier"},
     {kExampleStudy,
      {"effects.gravity=true", "effects.motion=torsional"},
      "effects.gravity",
-     "would do nothing"},
+     "would have no effect"},
     {kExampleStudy,
      {"effects.gravity_direction_deg=0"},
      "effects.gravity_direction_deg",
@@ -119,17 +119,17 @@ struct BadScene {
 const BadScene kBadScenes[] = {
     {{"effects.gravity=true", "numerics.integrator=newmark"},
      "numerics.integrator",
-     "gravity is marched by rk4 and sdirk3, not by newmark"},
+     "gravity is supported by rk4 and sdirk3, not by newmark"},
     {{"effects.gravity=true", "numerics.precision=single"},
      "numerics.precision",
-     "gravity is marched in doubles"},
+     "gravity needs double precision"},
     {{"operation.speed_fluctuation=0.1", "operation.speed_fluctuation_order=1",
       "numerics.integrator=sdirk3"},
      "numerics.integrator",
-     "a fluctuating speed is marched by rk4"},
+     "a fluctuating speed is supported by rk4"},
     {{"operation.torque_fluctuation=0.1", "operation.torque_fluctuation_Hz=100000"},
      "numerics.steps_per_mesh",
-     "too few to follow what fluctuates fastest"},
+     "too few for the fastest fluctuation"},
 };
 
 }  // namespace
@@ -149,7 +149,7 @@ TEST_CASE("Invalid fluctuations and a weight without effect are refused with key
     }
     CHECK_THROWS_WITH(Scene(study_of(kQuasiStaticStudy, {"operation.torque_noise=0.1",
                                                          "operation.torque_noise_band_Hz=1e7"})),
-                      Catch::Contains("cannot show what fluctuates fastest"));
+                      Catch::Contains("too few for the fastest fluctuation"));
     for (const BadScene& bad : kBadScenes) {
         const Study study = study_of(kExampleStudy, with(kFast, bad.overrides));
         CAPTURE(bad.key, bad.words);

@@ -122,7 +122,7 @@ const BadFile kBadFiles[] = {
     {"torque_N_m = 429\n", "", "[operation]", "operation.torque_N_m", "missing; add torque_N_m"},
     {"carrier_speed_rpm = 8.87\n", "", "[operation]", "operation", "no speed is given"},
     {"mesh_damping_ratio = 0.07\n", "", "[gearbox]", "gearbox.mesh_damping_ratio",
-     "missing (effects.mesh_damping = \"ratio\" goes with it)"},
+     "missing (belongs to effects.mesh_damping = \"ratio\")"},
     {"side = \"ring\"\n", "", "[fault]", "fault.side", "missing (fault.member is \"planet\")"},
     {"fault.depth_mm = { distribution = \"levels\", values = [0, 1, 2, 3, 4.3] }\n", "", "[fault]",
      "fault.depth_mm", "missing (fault.kind is \"crack\")"},
@@ -132,7 +132,7 @@ const BadFile kBadFiles[] = {
     {"sun_mass_kg", "sun_inertia_kg_m2 = 1e-3\nsun_inertia_over_r2_kg = 0.5\nsun_mass_kg",
      "sun_inertia_over_r2", "gearbox.sun_inertia_over_r2_kg", "conflicts with"},
     {"[operation]", "mesh_damping_time_s = 1e-6\n[operation]", "mesh_damping_time_s",
-     "gearbox.mesh_damping_time_s", "has no place here"},
+     "gearbox.mesh_damping_time_s", "is not allowed here"},
     {"[operation]", "sun_planet_stiffness_N_m = 1e8\n[operation]", "sun_planet_stiffness",
      "gearbox.sun_planet_stiffness_N_m", "only for gearbox.tooth_profile = \"constant\""},
     {"[operation]", "[operation]\ninput = \"ring\"", "input", "operation.input",
@@ -183,9 +183,9 @@ const BadFile kBadFiles[] = {
     {"\"lognormal\", median = 1.1e8, cv = 0.2", "\"normal\", mean = 1e8, sd = 2e7", "\"normal\"",
      "random.gearbox.planet_bearing_stiffness_N_m", "use lognormal or truncated-normal"},
     {"[random]", "[random]\ngearbox.module_mm = { distribution = \"constant\", value = 3 }",
-     "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it shapes the teeth"},
+     "gearbox.module_mm =", "random.gearbox.module_mm", "may not be random (it defines the teeth"},
     {"[random]", "[random]\nsensor.sampling_Hz = { distribution = \"constant\", value = 3 }",
-     "sensor.sampling_Hz =", "random.sensor.sampling_Hz", "all gearboxes are sampled alike"},
+     "sensor.sampling_Hz =", "random.sensor.sampling_Hz", "sampling is the same for all gearboxes"},
     {"[random]", "[random]\nsensor.noise = { distribution = \"constant\", value = 3 }",
      "sensor.noise =", "random.sensor.noise", "did you mean noise_m_s2? (unit missing)"},
     {"[random]", "[random]\nsensor.noise_m_s2 = 3",
@@ -232,7 +232,7 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     auto reading = read_study_text(text, "bad.toml");
     REQUIRE(reading.problems.size() == 1);
     CHECK(reading.problems[0].key == "detection.size_edges_mm");
-    CHECK(mentions(reading.problems[0], "whose sizes are grouped"));
+    CHECK(mentions(reading.problems[0], "whose sizes must be grouped"));
 
     reading = read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 3]\n", "bad.toml");
     REQUIRE(reading.problems.size() == 1);
@@ -298,8 +298,8 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
                 "sensor.noise_levels: must ascend, but 1 is not above 2, the value before it"});
     CHECK(whats_of(example_with("[operation]",
                                 "[features]\nuse = [1, \"te_rmss\", 2.5]\n[operation]")) ==
-          Whats{"features.use: must be a list of strings, but holds an integer",
-                "features.use: must be a list of strings, but holds a number",
+          Whats{"features.use: must be a list of strings, but contains an integer",
+                "features.use: must be a list of strings, but contains a number",
                 "features.use: unknown feature \"te_rmss\""});
 }
 

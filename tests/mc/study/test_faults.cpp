@@ -166,7 +166,7 @@ TEST_CASE("Text about a fault names its kind and its size") {
         const FaultKind& other = *find_fault(kind->name() == "broken" ? "reduction" : "broken");
         const std::string misplaced =
             problems_of(text_with(other), "[fault]\n", "[fault]\n" + size + " = 0\n");
-        CHECK(holds(misplaced, "fault." + size + ": has no place"));
+        CHECK(holds(misplaced, "fault." + size + ": is not allowed"));
         CHECK(holds(misplaced, "only for " + name));
         const std::string without_member = problems_of(text, "member = \"sun\"\n", "");
         CHECK(
@@ -174,7 +174,7 @@ TEST_CASE("Text about a fault names its kind and its size") {
 
         const std::string both =
             problems_of(text, "member = \"sun\"", "member = \"planet\"\nside = \"both\"");
-        CHECK(holds(both, "(" + words + " lies on one flank") == kind->shapes_tooth());
+        CHECK(holds(both, "(" + words + " is on one flank") == kind->shapes_tooth());
     }
 }
 
@@ -209,5 +209,5 @@ TEST_CASE("A crack's fraction of the critical section is reported") {
     const std::string origin = find_fault("crack")->origin(study, sizes);
     INFO(origin);
     CHECK(holds(origin, "root circle"));
-    CHECK(holds(origin, "mm takes 25, 50 % of that section"));
+    CHECK(holds(origin, "mm is 25, 50 % of that section"));
 }

@@ -41,7 +41,7 @@ TEST_CASE("A study nested too deeply is refused before a parser recurses into it
         const auto reading = read_study_text("# one\n" + text, "deep.toml");
         REQUIRE(reading.problems.size() == 1);
         CHECK(reading.problems[0].line == 2);
-        CHECK(reading.problems[0].what == "nested more than 32 deep");
+        CHECK(reading.problems[0].what == "nested deeper than 32 levels");
     }
     for (const std::string& set :
          {dotted + "=1", "fault.side={" + dotted + "=1}", "fault.side=" + repeated(kDeep, "[")}) {

@@ -87,7 +87,7 @@ ONSET = {"abrupt": 'contact_onset = "abrupt"', "extended": 'contact_onset = "ext
 
 
 def gearpod_run(program, case, onset, settings, folder):
-    """Motions by `gearpod simulate`, rows of samples, and what the HDF5 file says of contact."""
+    """Motions by `gearpod simulate`, rows of samples, mesh forces, and contact loss of each mesh."""
     study, out = pathlib.Path(folder) / "case.toml", pathlib.Path(folder) / "case.h5"
     study.write_text(study_text(case, onset, SAMPLES))
     command = [program, "simulate", str(study), "--instance", "0", "--meshes", str(case["meshes"]), "--out", str(out)]
@@ -98,7 +98,7 @@ def gearpod_run(program, case, onset, settings, folder):
         raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
     with h5py.File(out) as file:
         signals = {name: data[:] for name, data in file["signals"].items()}
-        extra = {name: np.array(value) for name, value in file.attrs.items() if "contact" in name}
+        extra = {name: float(value[0]) for name, value in file["contact_loss"].items()}
     names = [f"{b}_{axis}" for b in list(BODIES) + [f"planet{p + 1}" for p in range(case["planets"])]
              for axis in "xyu"]
     if names[9] not in signals:
