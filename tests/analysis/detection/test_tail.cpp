@@ -135,7 +135,7 @@ TEST_CASE("Intervals of rates beyond the sample cover the truth over 500 studies
     }
 }
 
-TEST_CASE("Interval coverage beyond the sample, and expected rates equal to those requested",
+TEST_CASE("Intervals beyond the sample cover the truth, and expected rates equal those requested",
           "[.rare-coverage]") {
     for (const auto& [sample, rate] :
          {std::pair{1000L, 2e-4}, std::pair{2000L, 1e-4}, std::pair{200'000L, 1e-6}}) {
