@@ -36,14 +36,14 @@ void add_descriptions(CLI::App& app) {
         "print the man page (gearpod --man | man -l -)");
     app.add_flag_callback(
         "--completion", [&app, print] { print(bash_completion(app)); },
-        "print bash's completion (source <(gearpod --completion))");
+        "print the bash completion (source <(gearpod --completion))");
 }
 
 int run_program(int argc, char** argv) {
     CLI::App app{
         "gearpod: which gear-tooth cracks do a sensor, a feature and a threshold detect, and with "
         "what probability?"};
-    app.set_version_flag("--version", build_text(), "version, and what the program was built with");
+    app.set_version_flag("--version", build_text(), "print the version and the build settings");
     add_descriptions(app);
     app.require_subcommand(1);
     int code = kDone;
@@ -62,14 +62,13 @@ int run_program(int argc, char** argv) {
 
     MergeOptions merge;
     auto* merge_app = app.add_subcommand(
-        "merge", "merge the results files of a study's parts into the file that one run writes");
-    merge_app->add_option("results", merge.results, "results files of run --part 1/N to N/N")
+        "merge", "join the results files of all parts of a study into one, as one run writes it");
+    merge_app->add_option("results", merge.results, "results files of `run --part` 1/N to N/N")
         ->required();
-    needs_name(merge_app->add_option("--out", merge.out, "results file")->required());
-    merge_app->add_flag(
-        "--force", merge.force,
-        "overwrite the results of another study, or a file that is not a results file");
-    merge_app->add_flag("--quiet", merge.quiet, "print errors only");
+    needs_name(merge_app->add_option("--out", merge.out, "results file to write")->required());
+    merge_app->add_flag("--force", merge.force,
+                        "overwrite the results of another study or any other file");
+    merge_app->add_flag("--quiet", merge.quiet, "print problems only");
     merge_app->callback([&] { code = merge_command(merge); });
 
     ReportOptions report;
@@ -85,18 +84,18 @@ int run_program(int argc, char** argv) {
     add_compare(app, compare, code);
 
     DescribeOptions describe;
-    auto* describe_app =
-        app.add_subcommand("describe",
-                           "show what a study simulates and forecast the time and memory of its "
-                           "run: computes some gearboxes for a few seconds, writes nothing");
+    auto* describe_app = app.add_subcommand(
+        "describe",
+        "print a study's settings, the effects simulated and omitted, and the estimated time and "
+        "memory of a run; computes for a few seconds and writes nothing");
     add_study(*describe_app, describe.study)->required(false);
-    describe_app->add_flag(
-        "--keys", describe.keys,
-        "list all keys of study files, or those that contain a word: describe --keys sensor");
+    describe_app->add_flag("--keys", describe.keys,
+                           "print all keys of study files, or those with a word: describe --keys "
+                           "sensor");
     describe_app
         ->add_option("--ranks", describe.ranks,
-                     "also forecast a run on this many ranks: time, memory per rank, disk space, "
-                     "and the number of ranks above which rank 0 limits the speed")
+                     "also forecast a run with this many MPI ranks: time, memory per rank, disk, "
+                     "and the number of ranks from which rank 0 limits the speed")
         ->check(CLI::Range(1, 1000000));
     describe_app->callback([&] {
         if (describe.study.path.empty() && !describe.keys) {
@@ -106,46 +105,51 @@ int run_program(int argc, char** argv) {
     });
 
     StiffnessOptions stiffness;
-    auto* stiffness_app = app.add_subcommand("stiffness", "mesh stiffness over one mesh period");
+    auto* stiffness_app =
+        app.add_subcommand("stiffness", "print the mesh stiffness over one mesh period");
     add_study(*stiffness_app, stiffness.study);
     needs_name(stiffness_app->add_option("--csv", stiffness.csv,
-                                         "write the curves to a file, or to standard output (-)"));
-    stiffness_app->add_option("--points", stiffness.points, "number of phases in the table")
+                                         "write the curves to a file, or - for standard output"));
+    stiffness_app->add_option("--points", stiffness.points, "phases of the curves (default: 1000)")
         ->check(CLI::Range(2, 1000000));
-    stiffness_app->add_flag("--te", stiffness.te,
-                            "static transmission error of the meshes under the nominal load, "
-                            "relief included, instead of their stiffness");
+    stiffness_app->add_flag(
+        "--te", stiffness.te,
+        "print the static transmission error under nominal load, including tooth relief, instead "
+        "of the stiffness");
     stiffness_app->callback([&] { code = stiffness_command(stiffness); });
 
     ModesOptions modes;
-    auto* modes_app = app.add_subcommand("modes", "natural frequencies at mean mesh stiffness");
+    auto* modes_app =
+        app.add_subcommand("modes", "print the natural frequencies at mean mesh stiffness");
     add_study(*modes_app, modes.study);
     needs_name(modes_app->add_option("--json", modes.json,
-                                     "write JSON to a file, or to standard output (-)"));
+                                     "write JSON to a file, or - for standard output"));
     modes_app->callback([&] { code = modes_command(modes); });
 
     AccuracyOptions accuracy;
     auto* accuracy_app = app.add_subcommand(
-        "accuracy", "measure the time and the error of every solver setting for a study");
+        "accuracy",
+        "compare solver settings for a study: numerical error and computing time of each");
     add_study(*accuracy_app, accuracy.study);
     needs_name(accuracy_app->add_option("--json", accuracy.json,
-                                        "write JSON to a file, or to standard output (-)"));
+                                        "write JSON to a file, or - for standard output"));
     accuracy_app->add_option("--peers", accuracy.peers,
-                             "table (CSV) of other programs' results, shown for comparison");
+                             "table (CSV) with results of other programs, for comparison");
     accuracy_app
-        ->add_option("--repeats", accuracy.repeats, "number of timings of every solver setting")
+        ->add_option("--repeats", accuracy.repeats,
+                     "number of timings of each solver setting (default: 3)")
         ->check(CLI::Range(1, 1000));
     accuracy_app
         ->add_option("--gearboxes", accuracy.gearboxes,
-                     "gearboxes whose detection rates are compared, 0 for none; by default 480, or "
-                     "as many as the time allows")
+                     "number of gearboxes whose detection rates are compared; 0: none (default: "
+                     "480, or as many as the time allows)")
         ->check(CLI::Range(0L, 1000000L));
     accuracy_app
         ->add_option("--seconds", accuracy.seconds,
-                     "processor seconds after which no further part is started (omitted parts are "
-                     "listed); 0: no limit")
+                     "processor time in seconds after which remaining parts are omitted; 0: no "
+                     "limit (default: 300)")
         ->check(CLI::Range(0.0, 1e9));
-    accuracy_app->add_flag("--quiet", accuracy.quiet, "print no progress");
+    accuracy_app->add_flag("--quiet", accuracy.quiet, "show no progress");
     accuracy_app->callback([&] { code = accuracy_command(accuracy); });
 
     SimulateOptions simulate;
@@ -154,9 +158,11 @@ int run_program(int argc, char** argv) {
     add_study(*simulate_app, simulate.study);
     simulate_app->add_option("--instance", simulate.instance, "row of the results file, from 0")
         ->required();
-    needs_name(simulate_app->add_option("--out", simulate.out, "signals as .h5 or .csv"));
+    needs_name(
+        simulate_app->add_option("--out", simulate.out, "file for the signals, .h5 or .csv"));
     simulate_app
-        ->add_option("--meshes", simulate.meshes, "mesh periods to write (default: a planet turn)")
+        ->add_option("--meshes", simulate.meshes,
+                     "number of mesh periods (default: one planet turn)")
         ->check(CLI::PositiveNumber);
     simulate_app->callback([&] { code = simulate_command(simulate); });
 

@@ -92,7 +92,7 @@ int simulate_command(const SimulateOptions& options) {
     bool good = scene != nullptr;
     if (!options.out.empty()) {
         if (!csv && !options.out.ends_with(".h5")) {
-            fmt::print(stderr, "--out {}: unknown kind of file; end it in .h5 or .csv\n",
+            fmt::print(stderr, "--out {}: unknown file type; end the name in .h5 or .csv\n",
                        options.out);
             good = false;
         } else {
@@ -106,7 +106,9 @@ int simulate_command(const SimulateOptions& options) {
     const auto rows = static_cast<long>(BatchPlan(study.ensemble).rows());
     const long meshes = options.meshes > 0 ? options.meshes : scene->span().planet_teeth;
     if (options.instance < 0 || options.instance >= rows || meshes > scene->signal_meshes()) {
-        fmt::print(stderr, "--instance is a row of the results, 0 to {}; --meshes is at most {}\n",
+        fmt::print(stderr,
+                   "--instance must be a row of the results, 0 to {}; --meshes must be at most "
+                   "{}\n",
                    rows - 1, scene->signal_meshes());
         return kBadInput;
     }

@@ -22,7 +22,7 @@ void add_text(std::string& out, const std::string& text) {
     analysis::add_wrapped(out, text, 2, kWidth);
 }
 
-// "2.31", "> 4" where that many are not found before the last depth.
+// Formats a depth in mm: "2.31", or "> 4" if the probability is not reached at the last depth.
 std::string depth_text(double depth_m, const Study& study) {
     return std::isnan(depth_m)   ? "-"
            : std::isinf(depth_m) ? fmt::format("> {:g}", 1e3 * *study.life.last_depth_m)
@@ -81,7 +81,7 @@ LifeJson interval_json(const analysis::Interval& interval) {
 std::string costs_text(const Campaign& campaign) {
     const LifeCosts& costs = campaign.costs;
     if (costs.gearbox_count == 0) {
-        return "";  // all had been computed before
+        return "";  // an earlier run had computed all gearboxes
     }
     return fmt::format(
         "processor time: {:.3g} s per gearbox, {:.3g} ms per record ({} gearboxes, {} records)",
@@ -90,14 +90,14 @@ std::string costs_text(const Campaign& campaign) {
         costs.gearbox_count, costs.record_count);
 }
 
-// "27/32 [0.68, 0.93]"; "-" where no tooth goes, or there is no threshold.
+// Formats the share found: "27/32 [0.68, 0.93]"; "-" if no tooth fails or there is no threshold.
 std::string share_text(const analysis::LifeAnswers& a) {
     return std::isnan(a.share) ? "-"
                                : fmt::format("{}/{} [{:.2f}, {:.2f}]", a.found, a.ended,
                                              a.share_bounds.lower, a.share_bounds.upper);
 }
 
-// Cells of lines below each other, two columns to the left and the others to the right.
+// Aligns cells in columns; the first two columns are left-aligned, the others right-aligned.
 std::string table_text(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths(lines.front().size(), 0);
     for (const auto& line : lines) {
@@ -119,7 +119,7 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines) {
 std::string interpolation_text(const Campaign& campaign, const Life& life) {
     const InterpolationErrors& off = campaign.interpolation;
     if (std::isnan(off.first)) {
-        return "";  // none of those that are looked at was marched
+        return "";  // none of the gearboxes used for the error estimate was integrated
     }
     std::string text = fmt::format(
         "interpolation error of the signals (rms): {:.2g} of the crack's effect at {:.3g} mm, "
@@ -132,7 +132,7 @@ std::string interpolation_text(const Campaign& campaign, const Life& life) {
     return text;
 }
 
-// Why there are dashes; "" where there are none.
+// Explains the dashes in the table; "" if there are none.
 std::string unanswered_text(const LifeMonitor& monitor, std::ptrdiff_t ended) {
     std::string out;
     const Study& study = monitor.study();
@@ -237,9 +237,9 @@ std::string lives_text(const LifeMonitor& monitor) {
     if (const std::string holds = assumptions(study, true); !holds.empty()) {
         add_text(out, holds);
     }
-    add_text(out, "a record: " + printable(campaign.record));
+    add_text(out, "record: " + printable(campaign.record));
     if (campaign.failed > 0) {
-        out += fmt::format("{} gearboxes failed and are left out\n", campaign.failed);
+        out += fmt::format("{} gearboxes failed and are ignored\n", campaign.failed);
     }
     for (const std::string& line :
          {interpolation_text(campaign, study.life), costs_text(campaign)}) {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -47,11 +48,31 @@ class Folder {
     std::filesystem::path path_;
 };
 
+// Replaces every line break and the spaces around it by a single space.
+inline std::string without_line_breaks(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        const bool after_break = !out.empty() && out.back() == '\n';
+        if (c == '\n') {
+            out.erase(out.find_last_not_of(" \n") + 1);
+            out += '\n';
+        } else if (c != ' ' || !after_break) {
+            out += c;
+        }
+    }
+    std::replace(out.begin(), out.end(), '\n', ' ');
+    return out;
+}
+
 struct Outcome {
     int code = 0;
     std::string output;  // both streams
 
-    bool mentions(const std::string& text) const { return output.find(text) != std::string::npos; }
+    // True if the output contains the text, perhaps broken into several lines.
+    bool mentions(const std::string& text) const {
+        return output.find(text) != std::string::npos ||
+               without_line_breaks(output).find(text) != std::string::npos;
+    }
 };
 
 inline Outcome shell(const std::string& command) {

@@ -151,7 +151,7 @@ class Statements(unittest.TestCase):
 
     def test_signals_that_cannot_be_recomputed_are_refused(self):
         words_ = said("study_of_another_version")
-        self.assertIn("No example signals: this program cannot build the file's study", words_)
+        self.assertIn("No example signals: this version cannot build the study in the file", words_)
         self.assertIn("gearbox.colour", words_)
 
     def test_every_detection_rate_is_on_the_page(self):

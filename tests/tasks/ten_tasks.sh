@@ -45,7 +45,7 @@ pdf_for_a_manager() {
 }
 sweep() {
     gearpod sweep "$studies/planet-crack-ideal.toml" $few --vary 'sensor.noise_m_s2=[0.5,1,2]' --quiet > out &&
-    has out 'noise_m_s2  boxes'
+    has out 'noise_m_s2  gearboxes'
 }
 more_gearboxes() {
     gearpod run "$studies/planet-crack-ideal.toml" $healthy $more --resume --out a.h5 > out &&

@@ -171,7 +171,7 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.mentions("4 record(s) of 4 gearbox(es)"));
-    CHECK(outcome.mentions("processor seconds"));
+    CHECK(outcome.mentions("s of processor time"));
     CHECK(exported
               .calibrate(exported.records() + prior + "--quiet --json " + folder.file("3.json"),
                          "OMP_NUM_THREADS=3")
@@ -193,7 +193,7 @@ TEST_CASE("Exported recordings give a study file that runs, independent of the n
     // The sensor signal is not sensitive to the encoders.
     CHECK(inputs[3]["told"] == false);
     CHECK(inputs[3]["left"].get<double>() > 0.8);
-    CHECK(outcome.mentions("NOT TOLD by the recordings: this is the prior"));
+    CHECK(outcome.mentions("NOT DETERMINED by the recordings: this is the prior"));
     CHECK(json["features"][0]["name"] == "sensor_rms");
     CHECK(json["features"][0]["reproduced"] == true);
 
@@ -261,8 +261,8 @@ TEST_CASE("Bad input to calibrate gives one message each and exit code 2") {
     const struct {
         std::string options, message;
     } cases[] = {
-        {"", "no records; give one of --healthy REC..., --manifest T.csv, --features T.csv"},
-        {"--healthy a.csv --features b.csv", "more than one source of records"},
+        {"", "no recordings; give one of --healthy REC..., --manifest T.csv, --features T.csv"},
+        {"--healthy a.csv --features b.csv", "more than one source of recordings"},
         {"--healthy no-such.csv", "no such file"},
         {"--healthy '" + folder.file("none*.csv") + "'", "no file matches"},
         {"--healthy " + folder.file("bad.csv"), "\"x\" is not a number"},

@@ -69,7 +69,7 @@ TEST_CASE("A sample that does not determine its rate is reported, one that does 
     const Outcome enough =
         program("describe " + kSmall + " --set ensemble.threshold_instances=100");
     CHECK(!enough.mentions("ew healthy"));
-    CHECK(enough.mentions("100 healthy gearboxes fix it to between"));
+    CHECK(enough.mentions("with 100 healthy gearboxes the true rate is between"));
 }
 
 TEST_CASE("Costs of an alarm and of a miss give a threshold; all three keys are required") {

@@ -11,6 +11,11 @@ using test::write_bytes;
 
 namespace {
 
+const char* const kCommands[] = {"run",   "report",   "compare",  "describe", "stiffness",
+                                 "modes", "accuracy", "simulate", "features", "pod",
+                                 "lives", "merge",    "misses",   "rare",     "calibrate",
+                                 "sweep", "new"};
+
 // Options of a command from its own help: "  --json TEXT ..." begins with two spaces.
 std::vector<std::string> options(const std::string& command) {
     std::istringstream help(program(command + " --help").output);
@@ -38,9 +43,7 @@ TEST_CASE("The man page and the completion hold every option of every command") 
     REQUIRE(man.code == 0);
     REQUIRE(completion.code == 0);
     const std::string page = replaced(man.output);
-    for (const char* command :
-         {"run", "report", "compare", "describe", "stiffness", "modes", "accuracy", "simulate",
-          "features", "pod", "lives", "merge", "misses", "rare", "calibrate", "sweep", "new"}) {
+    for (const char* command : kCommands) {
         INFO(command);
         const auto names = options(command);
         CHECK(names.size() >= 2);
@@ -56,6 +59,19 @@ TEST_CASE("The man page and the completion hold every option of every command") 
             CHECK(section.find(name) != std::string::npos);
             CHECK(words.find(name) != std::string::npos);
         }
+    }
+}
+
+TEST_CASE("Every line of the help fits 80 columns") {
+    std::string all = program("--help").output;
+    for (const char* command : kCommands) {
+        all += program(std::string(command) + " --help").output;
+    }
+    std::istringstream lines(all);
+    for (std::string line; std::getline(lines, line);) {
+        INFO(line);
+        // A usage line names the program by its path.
+        CHECK((line.size() <= 80 || line.starts_with("Usage: ")));
     }
 }
 

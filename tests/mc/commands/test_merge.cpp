@@ -55,7 +55,7 @@ TEST_CASE("Four merged parts equal one run, bit by bit", "[merge]") {
     const Outcome twice =
         program("merge " + merged + " " + whole + " --out " + folder.file("t.h5"));
     CHECK(twice.code == 2);
-    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and others are in "));
+    CHECK(twice.mentions("whole.h5: cannot be merged: rows 0 to 15 and more are also in "));
 }
 
 TEST_CASE("Parts have their own gearboxes and are labelled as parts", "[merge]") {
@@ -74,7 +74,7 @@ TEST_CASE("Parts have their own gearboxes and are labelled as parts", "[merge]")
     CHECK(depth(one, 16) == depth(all, 32));
     CHECK(depth(one, 16 + 3) == depth(all, 35 + 16));
     const Outcome report = program("report " + first);
-    CHECK(report.output.starts_with("Part 1/2 of the study alone"));
+    CHECK(report.output.starts_with("Part 1/2 of the study only"));
     // Examples on the page are gearboxes of the part.
     CHECK(program("report " + second + " --json -").mentions("\"same_bits\": true"));
     // Another part cannot resume this one.
@@ -89,7 +89,7 @@ TEST_CASE("Parts that do not match are refused by name, all at once", "[merge]")
     const std::string out = " --out " + folder.file("m.h5");
     const Outcome gap = program("merge " + first + " " + second + out);
     CHECK(gap.code == 2);
-    CHECK(gap.mentions("rows 32 to 34 the first, are in none of the files"));
+    CHECK(gap.mentions("are in none of the files, first rows 32 to 34; compute them"));
     CHECK(gap.mentions("run --part 3/3"));
     const std::string seed = part(folder, "3/3", "--seed 77");
     const Outcome other = program("merge " + first + " " + second + " " + seed + out);
@@ -158,5 +158,5 @@ TEST_CASE("An interrupted part is resumed before it is merged; progress is avail
     const Outcome refused =
         program("merge " + first + " " + folder.file("b.h5") + " --out " + folder.file("m.h5"));
     CHECK(refused.code == 2);
-    CHECK(refused.mentions("1-2.h5: holds 16 of its 37 gearboxes"));
+    CHECK(refused.mentions("1-2.h5: contains 16 of its 37 gearboxes"));
 }

@@ -67,19 +67,19 @@ TEST_CASE("pod refuses unusable input by name, all at once") {
         refused(written(folder, "bad.csv", "size,hit\n1,2\n-3,1\nx,0\n4,nan\n"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:2: column hit: 2 is neither 1 (hit) nor 0 (miss)"));
     CHECK_THAT(bad, Catch::Contains("bad.csv:3: column size: -3 is negative"));
-    CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is no finite number"));
-    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is no finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:4: column size: \"x\" is not a finite number"));
+    CHECK_THAT(bad, Catch::Contains("bad.csv:5: column hit: \"nan\" is not a finite number"));
     CHECK_THAT(refused(written(folder, "names.csv", "length,seen\n1,1\n")),
                Catch::Contains("no column size; its columns are length, seen"));
     CHECK_THAT(refused(written(folder, "row.csv", "size,hit\n1\n")),
                Catch::Contains("row.csv:2: 1 values, but the header names 2 columns"));
     CHECK_THAT(refused(written(folder, "empty.csv", "")), Catch::Contains("is empty"));
     CHECK_THAT(refused(written(folder, "none.csv", "size,hit\n")),
-               Catch::Contains("no line with a value"));
+               Catch::Contains("no line has a value"));
     CHECK_THAT(refused(written(folder, "binary.csv", std::string("size,hit\n\0\0", 11))),
                Catch::Contains("is not a line of text"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --threshold 3"),
-               Catch::Contains("--threshold is for responses"));
+               Catch::Contains("--threshold is only for responses"));
     CHECK_THAT(refused(kTables + "inspections_responses.csv --response A"),
                Catch::Contains("no threshold"));
     CHECK_THAT(refused(kTables + "inspections_hits.csv --fit-ceiling --firth"),

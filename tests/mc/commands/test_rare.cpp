@@ -123,14 +123,14 @@ TEST_CASE("rare reports the number of gearboxes it simulated and what is unknown
                                         "--quiet");
     INFO(known.output);
     CHECK(known.code == 0);
-    CHECK(known.mentions("false alarms of window_ratio at noise x 1, 0.05 of healthy gearboxes"));
-    CHECK(known.mentions("gearboxes computed, 60 a level"));
+    CHECK(known.mentions("false-alarm rate 0.05 of window_ratio at noise x 1"));
+    CHECK(known.mentions("gearboxes computed, 60 per level"));
     const test::Outcome few = program("rare " + results +
                                       " --feature window_ratio --rate 1e-3 --gearboxes 20 "
                                       "--quiet");
     INFO(few.output);
     CHECK(few.code == 0);
-    CHECK(few.mentions("not known from 20 gearboxes a level"));
+    CHECK(few.mentions("unknown from 20 gearboxes per level"));
 }
 
 TEST_CASE("Invalid requests to rare are refused, every problem at once") {
@@ -142,15 +142,16 @@ TEST_CASE("Invalid requests to rare are refused, every problem at once") {
         return outcome.output;
     };
     CHECK(refused("--feature nothing --rate 0.5 --gearboxes 3") ==
-          "--rate: 0.5 is not between 1e-09 and 0.1\n"
-          "--gearboxes: 3 is not between 20 and 1000000\n"
+          "--rate: must be between 1e-09 and 0.1, but is 0.5\n"
+          "--gearboxes: must be between 20 and 1000000, but is 3\n"
           "--feature: \"nothing\" is not in " +
-              results + ", which has te_kurtosis, te_fm0, window_ratio, window_z\n");
+              results + "; its features are te_kurtosis, te_fm0, window_ratio, window_z\n");
     CHECK(refused("--feature window_ratio --noise-level 3")
-              .find("--rate: or --size says what is asked for") == 0);
+              .find("--rate: missing; give a false-alarm rate") == 0);
     CHECK(refused("--feature window_ratio --size 0 --noise-level 3") ==
-          "--noise-level: 3 is none of the file's levels: 0, 1\n");
-    CHECK(refused("--feature window_ratio --size 0") == "--size: 0 is no fault\n");
+          "--noise-level: 3 is not a noise level of the file; choose from 0, 1\n");
+    CHECK(refused("--feature window_ratio --size 0") ==
+          "--size: must be > 0 and finite, but is 0\n");
     CHECK(refused("--feature window_ratio --size 900").starts_with("--size: "));
     CHECK(program("rare " + results + " --feature window_ratio --size 1 --rate 0.01").code != 0);
     CHECK(program("rare " + folder.file("none.h5") + " --feature fm4 --rate 0.01").code == 2);

@@ -198,11 +198,11 @@ TEST_CASE("The report monitors a gearbox's recordings in sequence") {
     CHECK(detectors ==
           std::set<std::string>{"single", "2 of 3", "ewma 0.2", "cusum 0.5", "trend 100"});
     const Outcome text = program("report " + results);
-    CHECK(text.mentions("Watched over time"));
+    CHECK(text.mentions("Monitoring over time"));
     CHECK(text.mentions("fused"));
 
     recorded.features("--set monitoring.baseline_records=25 --out " + results);
-    CHECK(program("report " + results).mentions("5 healthy recordings behind the first 25"));
+    CHECK(program("report " + results).mentions("5 healthy recordings after the first 25"));
     recorded.features("--set monitoring.torque_regression=true --out " + results);
     CHECK(program("report " + results).mentions("no column torque"));
     const Outcome wrong =
@@ -234,9 +234,10 @@ TEST_CASE("Alarms over time count recordings with a value, and none without a th
     CHECK(last["values"]["te_rms"] == 5);
     CHECK(last["alarms"]["te_rms"].is_null());  // no healthy recording has it
     // Recordings without gearbox names are monitored as one machine, and this is reported.
-    CHECK(json["monitoring"]["note"].get<std::string>().find("one machine's") != std::string::npos);
+    CHECK(json["monitoring"]["note"].get<std::string>().find("of one machine") !=
+          std::string::npos);
     const Outcome text = program("report " + results);
-    CHECK(text.mentions("are taken for one machine's"));
+    CHECK(text.mentions("are assumed to be of one machine"));
     CHECK(text.mentions("100 %"));
 }
 
@@ -320,13 +321,13 @@ TEST_CASE("Invalid manifest entries are reported with their line, all at once") 
         "file,row,label,size,torque\na.csv,x,,,1\nb.csv,,broken,,1\nc.csv,,healthy,2,1\n"
         "d.csv,,,-1,one\n");
     INFO(outcome.output);
-    CHECK(outcome.mentions("m.csv:2: row: \"x\" is no row"));
+    CHECK(outcome.mentions("m.csv:2: row: \"x\" is not a row number"));
     CHECK(outcome.mentions("m.csv:3: label: \"broken\" is neither healthy nor faulty"));
-    CHECK(outcome.mentions("m.csv:4: label: healthy does not fit the size"));
+    CHECK(outcome.mentions("m.csv:4: label: healthy contradicts the size"));
     CHECK(outcome.mentions("m.csv:5: size: is negative"));
-    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is no finite number"));
+    CHECK(outcome.mentions("m.csv:5: torque: \"one\" is not a finite number"));
     CHECK(refused("name\na\n").mentions("has no column file"));
-    CHECK(refused("file\n").mentions("names no recording"));
+    CHECK(refused("file\n").mentions("lists no recording"));
 }
 
 // Data: the recordings of the HUMS 2023 challenge, if present (studies/README.md).

@@ -15,5 +15,5 @@ TEST_CASE("describe shows no share of time out of contact where teeth cannot sep
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(!said.mentions("out of contact"));
-    CHECK(!said.mentions("error of the steps"));
+    CHECK(!said.mentions("time step error"));
 }

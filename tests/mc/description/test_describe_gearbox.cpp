@@ -1,4 +1,6 @@
 // Checks the output of describe about members, fault sizes, omitted damping and rigid bodies.
+#include <sstream>
+
 #include "tests/mc/program.hpp"
 
 using namespace gearpod;
@@ -18,10 +20,30 @@ TEST_CASE("describe shows torque and speed of every member") {
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(said.mentions("221.538 rpm, 200 N m (input)"));
-    CHECK(said.mentions("-130.909 rpm, -190.909 rpm on their pins, each loaded with 5.128 kN"));
-    CHECK(said.mentions("stands, 538.462 N m (held)"));
+    CHECK(
+        said.mentions("-130.909 rpm, -190.909 rpm relative to the carrier, 5.128 kN on each pin"));
+    CHECK(said.mentions("stationary, 538.462 N m (fixed)"));
     CHECK(said.mentions("60 rpm, 738.462 N m (output)"));
     CHECK(!said.mentions("\n  damping "));
+}
+
+TEST_CASE("The description of a study fits 80 columns") {
+    for (const std::string& study : {std::string("planet-life.toml"), std::string("gusts.toml"),
+                                     std::string("planet-crack.toml")}) {
+        const auto said = program("describe " + test::study(study) +
+                                  " --set ensemble.instances=8 --set "
+                                  "ensemble.threshold_instances=20");
+        INFO(said.output);
+        REQUIRE(said.code == 0);
+        // The resolved study before this text is TOML, whose inline tables cannot be broken.
+        const std::size_t begin = said.output.find("\nfalse alarms\n");
+        REQUIRE(begin != std::string::npos);
+        std::istringstream lines(said.output.substr(begin));
+        for (std::string line; std::getline(lines, line);) {
+            INFO(line);
+            CHECK(line.size() <= 80);
+        }
+    }
 }
 
 TEST_CASE("describe states which damping is omitted") {
@@ -31,7 +53,7 @@ TEST_CASE("describe states which damping is omitted") {
                               "gearbox.ring_bearing_damping_N_s_m=0");
     INFO(said.output);
     REQUIRE(said.code == 0);
-    CHECK(said.mentions("0 of bearings of sun and ring, support of the ring"));
+    CHECK(said.mentions("0 for bearings of sun and ring, support of the ring"));
     // Random damping counts as damping.
     const auto drawn = program(kDescribe +
                                "--set gearbox.support_damping_N_s_m=0 --set "

@@ -33,7 +33,7 @@ void check_threads(const std::string& environment, const std::string& more, int 
     INFO(environment << more << "\n" << run.output);
     CHECK(run.code == 0);
     CHECK(run.mentions("(1 rank, " + std::to_string(threads) + " thread" +
-                       (threads == 1 ? "" : "s") + " in all"));
+                       (threads == 1 ? "" : "s") + " in total"));
 }
 
 }  // namespace

@@ -253,7 +253,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
         const test::Outcome described = test::shell(
             "cd " + folder.path() + " && " GEARPOD_PROGRAM " describe " + test::study(name));
         CHECK(described.code == 0);
-        for (const char* entry : {"measured on", "set-up", "gearboxes", "detection and results",
+        for (const char* entry : {"based on", "set-up", "gearboxes", "detection and results",
                                   "estimated time", "estimated memory"}) {
             CHECK(described.mentions(std::string("\n  ") + entry));
         }
@@ -263,7 +263,7 @@ TEST_CASE("A study's description ends with a forecast and writes nothing") {
                              " --set operation.carrier_speed_rpm=60 --set sensor.sampling_Hz=20000"
                              " --set sensor.encoder_sampling_Hz=20000"
                              " --set 'ensemble.until={half_width=0.1,feature=\"te_fc\",size=3}'";
-    CHECK(test::program("describe " + sure).mentions("less if ensemble.until ends it"));
+    CHECK(test::program("describe " + sure).mentions("less if ensemble.until stops the run"));
     const std::string stiff =
         test::study("published/tian-fig-4-6.toml") + " --set numerics.integrator=rk4";
     const test::Outcome described = test::program("describe " + stiff);

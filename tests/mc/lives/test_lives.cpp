@@ -263,7 +263,7 @@ TEST_CASE("Studies without possible lives are refused with the key") {
     CHECK(refused(" --set fault.kind=reduction --set fault.reduction=0").code == 2);
     CHECK(refused(" --set 'sensor.noise_levels=[1,2]'").mentions("one noise"));
     CHECK(refused(" --set numerics.verify=true --set 'sensor.noise_levels=[1,2]'")
-              .mentions("leave out what is for single records (run): numerics.verify\n"));
+              .mentions("`lives` ignores keys that only `run` uses: numerics.verify\n"));
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST_CASE("describe shows the law of inputs per record") {
     INFO(said.output);
     CHECK(said.code == 0);
     CHECK(said.mentions("operation.torque_N_m = { distribution = \"uniform\""));
-    CHECK(said.mentions("of the study's value"));
+    CHECK(said.mentions("times the study's value"));
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST_CASE("The study written by new is described and run unchanged") {
     const auto described = program("describe " + file);
     INFO(described.output);
     CHECK(described.code == 0);
-    CHECK(described.mentions("% of the largest that the tooth holds"));
+    CHECK(described.mentions("% of the largest possible size"));
     CHECK(!described.mentions("  damping  "));
 
     const auto run = program("run " + file +

@@ -32,7 +32,7 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
     const Outcome first = program(sweep(folder, vary + "--json " + folder.file("s.json")));
     INFO(first.output);
     REQUIRE(first.code == 0);
-    CHECK(first.mentions("2 of 2, noise_m_s2=3: begins"));
+    CHECK(first.mentions("2 of 2, noise_m_s2=3: started"));
     const std::string one = folder.file("s/noise_m_s2=1.h5"),
                       three = folder.file("s/noise_m_s2=3.h5");
     for (const auto& [file, value] : {std::pair{one, "1"}, std::pair{three, "3"}}) {
@@ -69,9 +69,9 @@ TEST_CASE("A sweep's points are runs with the same gearboxes, and are computed o
     const Outcome again = program(sweep(folder, "--vary sensor.noise_m_s2=[1,2,3] "));
     INFO(again.output);
     REQUIRE(again.code == 0);
-    CHECK(again.mentions("1 of 3, noise_m_s2=1: is finished"));
-    CHECK(again.mentions("2 of 3, noise_m_s2=2: begins"));
-    CHECK(again.mentions("3 of 3, noise_m_s2=3: is finished"));
+    CHECK(again.mentions("1 of 3, noise_m_s2=1: finished before"));
+    CHECK(again.mentions("2 of 3, noise_m_s2=2: started"));
+    CHECK(again.mentions("3 of 3, noise_m_s2=3: finished before"));
     CHECK(bytes_of(one) == before);
     CHECK(fs::exists(folder.file("s/noise_m_s2=2.h5")));
 }
@@ -88,14 +88,14 @@ TEST_CASE("A stopped sweep resumes, and can be extended by gearboxes") {
     const Outcome on = program(sweep(folder, vary));
     INFO(on.output);
     CHECK(on.code == 0);
-    CHECK(on.mentions("1 of 2, gain=1: is finished"));
-    CHECK(on.mentions("2 of 2, gain=2: goes on"));
+    CHECK(on.mentions("1 of 2, gain=1: finished before"));
+    CHECK(on.mentions("2 of 2, gain=2: continued"));
     CHECK(bits(folder.file("s/gain=2.h5")) == whole);
 
     const Outcome more = program(sweep(folder, vary, 33));
     INFO(more.output);
     CHECK(more.code == 0);
-    CHECK(more.mentions("1 of 2, gain=1: goes on"));
+    CHECK(more.mentions("1 of 2, gain=1: continued"));
     CHECK(mc::read_results(folder.file("s/gain=1.h5")).status.size() == 53);
 }
 
@@ -174,13 +174,13 @@ TEST_CASE("A sweep of lives has the lives of the command, and resumes") {
                ten = mc::read_results(folder.file("s/interval_h=10.h5"));
     CHECK(five.features[0].values[0] == ten.features[0].values[0]);
     const Outcome more = swept("[5,10,20]");
-    CHECK(more.mentions("1 of 3, interval_h=5: is finished"));
-    CHECK(more.mentions("3 of 3, interval_h=20: begins"));
+    CHECK(more.mentions("1 of 3, interval_h=5: finished before"));
+    CHECK(more.mentions("3 of 3, interval_h=20: started"));
 
     const Outcome text = program("sweep --lives " + study + "--quiet --out " + folder.file("s") +
                                  " --vary life.interval_h=[5,10]");
     CHECK(text.code == 0);
-    CHECK(text.mentions("which find most over all points"));
+    CHECK(text.mentions("which finds most cracks over all points"));
     CHECK(text.mentions("found before end"));
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("Keys without effect on a sweep of runs, or of lives, are refused") {
     const Folder folder;
     const Outcome runs = program(sweep(folder, "--vary life.interval_h=[1,2]"));
     CHECK(runs.code == 2);
-    CHECK(runs.mentions("--vary: life.interval_h: is looked at by `lives`, not by `run`"));
+    CHECK(runs.mentions("--vary: life.interval_h: is only used by `lives`, not by `run`"));
     const Outcome lives = program(sweep(folder, "--lives --vary sensor.gain=[1,2]"));
     CHECK(lives.code == 2);
     CHECK(lives.mentions("life.interval_h: missing"));
