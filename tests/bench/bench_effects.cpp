@@ -1,6 +1,6 @@
 // Measures the cost of each effect of a scene: time of one step of one realization against the
-// enabled effects, in three scenes (x, y and rotation of Liang's train; its rotations alone; a
-// fixed-shaft stage), with eight lanes. README.md tabulates `a_step`;
+// enabled effects, with eight lanes. The three scenes are Liang's train in x, y and rotation, its
+// rotations alone, and a fixed-shaft stage. README.md tabulates `a_step`;
 // mc/description/effect_costs.cpp holds it.
 #include <benchmark/benchmark.h>
 

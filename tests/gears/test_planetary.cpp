@@ -114,9 +114,9 @@ TEST_CASE("the published trains can be assembled, and invalid ones give the reas
     for (const auto& train : {kLiang, kPark, kYang, kYangRig})
         CHECK(assembly_problems(train).empty());
     CHECK(assembly_problems({19, 31, 82, 4}).size() == 2);  // ring, spacing
-    // Liang's Table 4.3 has modes for 3 and 5 such planets, which cannot be assembled: 100 / 3 is
-    // no integer, and axes 50 sin 36 = 29.4 modules apart leave no room for tip circles of 33
-    // modules.
+    // Liang's Table 4.3 has modes for 3 and 5 such planets, which cannot be assembled. The number
+    // 100 / 3 is no integer, and axes 50 sin 36 = 29.4 modules apart leave no room for tip circles
+    // of 33 modules.
     CHECK(assembly_problems({19, 31, 81, 3}).size() == 1);
     const auto crowded = assembly_problems({19, 31, 81, 5});
     REQUIRE(crowded.size() == 1);

@@ -1,6 +1,6 @@
-// Two masses coupled by one tooth contact only: the sun and the only planet of a torsional train
-// whose carrier and ring are too heavy to move and whose ring mesh is missing.
-// d = u_s + u_p,   d'' = g - mesh force / m,   1/m = 1/m_s + 1/m_p,   g = F / m_s.
+// Two masses coupled by one tooth contact only. They are the sun and the only planet of a torsional
+// train whose carrier and ring are too heavy to move and whose ring mesh is missing.
+// Equations: d = u_s + u_p, d'' = g - mesh force / m, 1/m = 1/m_s + 1/m_p, g = F / m_s.
 #pragma once
 
 #include <cmath>

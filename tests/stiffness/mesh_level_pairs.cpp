@@ -137,8 +137,9 @@ double without(double stiffness, double compliance) {
     return 1 / (1 / stiffness - compliance);
 }
 
-// Mean over a mesh period of the rows of a case, each with the same compliance removed: Simpson's
-// rule over the rows with more pairs, and over those with fewer, times the length of their stretch.
+// Mean over a mesh period of the rows of a case, each with the same compliance removed. Simpson's
+// rule applies to the rows with more pairs and to those with fewer, times the length of their
+// stretch.
 double mean_of_rows(const LevelPair& pair, double compliance) {
     std::vector<double> more, fewer;
     const double ratio = pair.geometry.contact_ratio();

@@ -72,16 +72,16 @@ TEST_CASE(
     // formulas do not give this at any phase: -11.3 to -15.2 % with two pairs, -13.2 to -13.7 %
     // with one. Module and rounding have no influence (stiffness per face width is independent of
     // scale; radii 45.2 / 46.2 give -13.71 %).
-    // An independent script tried, double / single: dedendum 1.375 m -18.9 / -18.8 %, 1.5 m -24.0 /
-    // -24.2 %; no shear -15.6 / -14.2 %; shear or bending of the straight part doubled or fourfold,
-    // a rigid ring, inv a0 with the wrong sign in beta_2, wrong direction or rate of the ring's
-    // rotation, contact on the planet starting at the tip: some 6,000 combinations. Any change of
-    // the planet's tooth lowers both zones equally, so none comes near a difference of 6 points
-    // without two or three gross errors at once.
-    // One pair is in contact during 6 % of the period only (contact ratio 1.94), a narrow notch in
-    // his Fig. 3.6, from which the two numbers were presumably read. No single error explains them;
-    // the row keeps the result of the formulas. Finite-element teeth with the same simplifications
-    // drop by 16.4 and 16.6 % (test_finite_element_gears.cpp).
+    // An independent script tried some 6,000 combinations, double / single: dedendum 1.375 m
+    // -18.9 / -18.8 %, 1.5 m -24.0 / -24.2 %; no shear -15.6 / -14.2 %. Others were shear or
+    // bending of the straight part doubled or fourfold, a rigid ring, inv a0 with the wrong sign in
+    // beta_2, wrong direction or rate of the ring's rotation, and contact on the planet starting at
+    // the tip. Any change of the planet's tooth lowers both zones equally, so none comes near a
+    // difference of 6 points without two or three gross errors at once. One pair is in contact
+    // during 6 % of the period only (contact ratio 1.94), a narrow notch in his Fig. 3.6, from
+    // which the two numbers were presumably read. No single error explains them; the row keeps the
+    // result of the formulas. Finite-element teeth with the same simplifications drop by 16.4
+    // and 16.6 % (test_finite_element_gears.cpp).
     const gears::MeshGeometry mesh(external(31), internal(81));
     const double c = mesh.contact_ratio();
     CHECK(root_circle_change(mesh, 0, c - 1) == Approx(-0.1371).margin(0.0005));

@@ -105,8 +105,8 @@ Range over_elements(const MeshStiffness& mesh, const std::string& name, int pair
 }
 
 // Ratios for one gear of a case with the elastic ring: the program's compliance over that of the
-// finite elements, as a whole (with half of the linear contact), beyond the flank's centre line,
-// and between the flank and it.
+// finite elements. They are for the whole (with half of the linear contact), for the part beyond
+// the flank's centre line, and for the part between the flank and it.
 struct ToothRatios {
     Range whole, tooth_and_body, contact;
 };

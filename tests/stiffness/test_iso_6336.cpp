@@ -99,8 +99,8 @@ Ratios ratios(const Pair& p) {
 }  // namespace
 
 // Source: KISSsoft's reports on the stages of the NREL 5 MW gearbox (tests/gears), c' and
-// c_gamma_alpha rounded to three decimals, with the gear blank factor of a web of a quarter of the
-// face width.
+// c_gamma_alpha rounded to three decimals. The gear blank factor is that of a web of a quarter of
+// the face width.
 TEST_CASE("ISO 6336's stiffness matches the one printed by KISSsoft for the NREL 5 MW gearbox") {
     const std::vector<mesh_level::LevelPair> pairs = mesh_level::all_pairs();
     struct Printed {

@@ -1,9 +1,9 @@
 // Yang (2022) as printed: the transition curve (Eqs. 10-15), the healthy tooth (Eqs. 16-18) and the
 // section laws of his cracks (Eqs. 28-29, 32-33, 40-41, 44-45) with the limits of their closed
-// forms, integrated over x by Boost's tanh-sinh rule.
-// The evaluation solves his equations by bisection and integrates the involute over x like the
-// fillet, so it shares neither coordinates, formulas nor quadrature with the code. Compliances in
-// m/N.
+// forms.
+// The evaluation solves his equations by bisection and integrates over x by Boost's tanh-sinh rule,
+// the involute like the fillet. It shares neither coordinates, formulas nor quadrature with the
+// code. Compliances in m/N.
 #pragma once
 
 #include <array>

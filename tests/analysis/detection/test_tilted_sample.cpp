@@ -1,6 +1,6 @@
-// Checks thresholds from weighted records where the rate beyond every value is known: gearboxes of
-// a normal or an exponential law with normal noise of variance 1, sampled by exponential tilting
-// towards alarms (shifts of the noise).
+// Checks thresholds from weighted records where the rate beyond every value is known. Gearboxes
+// have a normal or an exponential law with normal noise of variance 1, and records are
+// exponentially tilted towards alarms by shifts of the noise.
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>

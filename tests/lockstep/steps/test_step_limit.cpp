@@ -1,6 +1,6 @@
 // Checks the step limit against the method's known bounds: 2.8284 / omega for an undamped mode and
-// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2); that of central
-// differences against the spectral radius of a step.
+// 2.7853 / rate for an overdamped one (Hairer, Norsett, Wanner, section IV.2). The limit of central
+// differences is compared with the spectral radius of a step.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -107,8 +107,8 @@ double mean_between(const TianGearbox& gearbox, double from, double to) {
     return sum / kParts;
 }
 
-// Eqs. 4.3-4.8 in y1 y2 and the angles of motor, pinion, gear and load with the printed torques
-// (except the sign in Eq. 4.4), by the trapezoidal rule with 1754 equal steps per mesh period,
+// Solves Eqs. 4.3-4.8 in y1 y2 and the angles of motor, pinion, gear and load with the printed
+// torques (except the sign in Eq. 4.4). The trapezoidal rule has 1754 equal steps per mesh period,
 // independent of transitions. Gives pinion's y'' and R1 th1 - R2 th2 over the last of `meshes`
 // periods.
 struct DenseSolution {

@@ -70,9 +70,9 @@ TEST_CASE(
 
 TEST_CASE(
     "A cracked sun tooth adds lines between the healthy ones, at the expected positions only") {
-    // The tooth meets the next planet every Z_s / N meshes, so the signal's lines j f_m / Z_s + m
-    // f_c keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r), including f_scrack = N f_m /
-    // Z_s.
+    // The tooth meets the next planet every Z_s / N meshes. The signal's lines j f_m / Z_s + m f_c
+    // therefore keep j - m divisible by N: multiples of 4 f_m / (Z_s Z_r), including f_scrack = N
+    // f_m / Z_s.
     const int meshes = 19 * 81;
     const mc::Scene healthy(with_crack(mc::Member::sun, 0.0));
     const mc::Scene cracked(with_crack(mc::Member::sun, 3.9e-3));
