@@ -1,4 +1,4 @@
-// The built program, run as a user runs it, and what it left behind.
+// Runs the built program as a user does, and collects its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -22,7 +22,7 @@
 
 namespace gearpod::test {
 
-// A folder of its own that goes with the test.
+// Temporary folder, removed by the destructor.
 class Folder {
   public:
     Folder() {
@@ -87,7 +87,8 @@ inline Outcome shell(const std::string& command) {
     return outcome;
 }
 
-// Before a command: with so many kB of memory. The address sanitizer's shadow takes all there is.
+// Command prefix that limits the memory to so many kB. Empty under the address sanitizer, whose
+// shadow needs all memory.
 inline std::string within_memory([[maybe_unused]] int kilobytes) {
 #ifdef __SANITIZE_ADDRESS__
     return "";
@@ -100,9 +101,9 @@ inline Outcome program(const std::string& arguments) {
     return shell(std::string(GEARPOD_PROGRAM) + " " + arguments);
 }
 
-// As a container's root may, and with more ranks than processors. Nothing in a build without MPI.
-// Open MPI unloads the modules that leave memory behind: the address sanitizer cannot tell it from
-// ours, which programs of one rank are looked at for.
+// Command prefix for that many ranks, allowed as root and with more ranks than processors; empty in
+// a build without MPI. Open MPI unloads modules that leak memory, which the address sanitizer
+// cannot attribute; programs of one rank are checked for leaks.
 inline std::string mpirun(int ranks) {
     if (std::string(GEARPOD_MPIEXEC).empty()) {
         return "";

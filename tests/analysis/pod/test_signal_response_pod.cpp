@@ -25,7 +25,7 @@ TEST_CASE("Lines and checks agree with statsmodels on the standard's a-hat examp
         bool log_size, log_response;
         double intercept, slope, sigma, linearity[2], variance[2], normality[2];
     };
-    // reference/reference_py.txt
+    // Reference: reference/reference_py.txt.
     const Row rows[] = {{false,
                          false,
                          88.7428555,
@@ -85,7 +85,7 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
     REQUIRE(pod.candidates.size() == 4);
     const SignalResponseFit& fit = pod.candidates[pod.chosen];
     CHECK((fit.scale.log_size && fit.scale.power == 0.0));
-    // reference/reference_py.txt
+    // Reference: reference/reference_py.txt.
     CHECK(pod.a50.lower.size == Approx(1.201482904).epsilon(1e-6));
     CHECK(pod.a50.estimate.size == Approx(1.316336108).epsilon(1e-6));
     CHECK(pod.a50.upper.size == Approx(1.420518259).epsilon(1e-6));
@@ -94,7 +94,7 @@ TEST_CASE("A POD from a line with normal scatter agrees with statsmodels and the
     CHECK(pod.a90.upper.size == Approx(1.952244324).epsilon(1e-6));
 }
 
-TEST_CASE("A low alarm on the reciprocal is the same detector") {
+TEST_CASE("A low alarm on the reciprocal gives the same detector") {
     const auto columns = reference_columns("line_60.csv");
     std::vector<double> reciprocal;
     for (const double value : columns[1]) {

@@ -1,4 +1,4 @@
-// The man page and the completion say what --help says, of every command.
+// Checks that the man page and the completion agree with --help for every command.
 #include <sstream>
 
 #include "tests/mc/program.hpp"
@@ -16,7 +16,7 @@ const char* const kCommands[] = {"run",   "report",   "compare",  "describe", "s
                                  "lives", "merge",    "misses",   "rare",     "calibrate",
                                  "sweep", "new"};
 
-// Options of a command by its own help: "  --json TEXT ..." begins with two spaces.
+// Options of a command from its own help: "  --json TEXT ..." begins with two spaces.
 std::vector<std::string> options(const std::string& command) {
     std::istringstream help(program(command + " --help").output);
     std::vector<std::string> names;
@@ -88,7 +88,7 @@ ask gearpod pod t.csv --alarm h
     CHECK(said.output == "compare\n--help --html\nhigh\n");
 }
 
-TEST_CASE("The version says from what and with what the program was built") {
+TEST_CASE("The version states source revision and build") {
     const auto said = program("--version");
     CHECK(said.code == 0);
     for (const char* word : {"gearpod ", "git ", "compiler: ", "kernels: ", "HDF5: "}) {

@@ -1,5 +1,5 @@
-// Two hundred kills at random moments, of one to three ranks, while another starter wants the same
-// output. An hour's test: ctest -C long -R kills.
+// Kills runs of one to three ranks two hundred times at random moments, while another process
+// attempts to write the same output. An hour's test: ctest -C long -R kills.
 #include <csignal>
 #include <random>
 #include <thread>
@@ -14,7 +14,7 @@ using test::Outcome;
 
 namespace {
 
-// A process group of its own, so that a launcher's ranks end with it.
+// Starts a separate process group, so that a launcher's ranks end with it.
 pid_t start(const std::string& command) {
     const pid_t child = fork();
     if (child == 0) {
@@ -28,7 +28,7 @@ pid_t start(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("Killed two hundred times, beside a rival, a run loses nothing", "[.kills]") {
+TEST_CASE("Killed two hundred times with a concurrent rival, a run loses nothing", "[.kills]") {
     const Folder folder;
     const std::string out = folder.file("r.h5");
     const auto command = [&](const std::string& file) {
@@ -65,7 +65,7 @@ TEST_CASE("Killed two hundred times, beside a rival, a run loses nothing", "[.ki
     }
     Outcome last = test::shell(command(out));
     for (int i = 0; i < 50 && last.mentions("is using it"); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks that outlive mpirun
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // ranks may outlive mpirun
         last = test::shell(command(out));
     }
     INFO(last.output << whole << " times whole in between");

@@ -1,5 +1,5 @@
-// gearpod pod: what the program makes of tables of inspections. The statistics are held against
-// other programs in tests/analysis/pod/test_inspection.cpp.
+// Checks gearpod pod on tables of inspections. The statistics are compared with other programs in
+// tests/analysis/pod/test_inspection.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -27,7 +27,7 @@ nlohmann::json pod_of(const std::string& arguments) {
     return nlohmann::json::parse(outcome.output);
 }
 
-TEST_CASE("pod reads hits and misses with units, and says which bound it gives") {
+TEST_CASE("pod reads hits and misses with units, and states the kind of bound") {
     const std::string table = kTables + "inspections_hits.csv --link logit --size-scale linear";
     const auto json = pod_of(table);
     CHECK(json["size"]["unit"] == "mm");
@@ -56,7 +56,7 @@ TEST_CASE("pod takes several columns as repeats, a byte order mark and decimal c
     CHECK(foreign["signal_response"]["a90"] == plain["signal_response"]["a90"]);
 }
 
-TEST_CASE("pod refuses by name what it cannot use, all at once") {
+TEST_CASE("pod refuses unusable input by name, all at once") {
     const Folder folder;
     const auto refused = [](const std::string& arguments) {
         const Outcome outcome = program("pod " + arguments);
@@ -86,7 +86,7 @@ TEST_CASE("pod refuses by name what it cannot use, all at once") {
                Catch::Contains("exclude each other"));
 }
 
-TEST_CASE("pod says what no curve can be drawn from") {
+TEST_CASE("pod reports data that determine no curve") {
     const Folder folder;
     std::string text = "size,hit\n";
     for (int i = 1; i <= 12; ++i) {

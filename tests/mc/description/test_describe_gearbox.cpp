@@ -1,4 +1,4 @@
-// Output of describe about members, fault sizes, omitted damping and rigid bodies.
+// Checks the output of describe about members, fault sizes, omitted damping and rigid bodies.
 #include <sstream>
 
 #include "tests/mc/program.hpp"
@@ -13,8 +13,8 @@ const std::string kDescribe =
 
 }  // namespace
 
-// 13/11/35 teeth of 4 mm, 200 N m on the sun, carrier at 60 rpm: by Willis 60 (1 + 35/13) and 60
-// (1 - 35/11) rpm, by the balance of torques 200 times 35/13 and 48/13; three pins at 48 mm.
+// 13/11/35 teeth of 4 mm, 200 N m on the sun, carrier at 60 rpm. Expected: 60 (1 + 35/13) and 60 (1
+// - 35/11) rpm (Willis), 200 times 35/13 and 48/13 (balance of torques), three pins at 48 mm.
 TEST_CASE("describe shows torque and speed of every member") {
     const auto said = program(kDescribe);
     INFO(said.output);
@@ -35,7 +35,7 @@ TEST_CASE("The description of a study fits 80 columns") {
                                   "ensemble.threshold_instances=20");
         INFO(said.output);
         REQUIRE(said.code == 0);
-        // The resolved study before it is TOML, whose inline tables cannot be broken.
+        // The resolved study before this text is TOML, whose inline tables cannot be broken.
         const std::size_t begin = said.output.find("\nfalse alarms\n");
         REQUIRE(begin != std::string::npos);
         std::istringstream lines(said.output.substr(begin));
@@ -46,7 +46,7 @@ TEST_CASE("The description of a study fits 80 columns") {
     }
 }
 
-TEST_CASE("describe says which damping is left out") {
+TEST_CASE("describe states which damping is omitted") {
     const auto said = program(kDescribe +
                               "--set gearbox.support_damping_N_s_m=0 --set "
                               "gearbox.sun_bearing_damping_N_s_m=0 --set "
@@ -54,7 +54,7 @@ TEST_CASE("describe says which damping is left out") {
     INFO(said.output);
     REQUIRE(said.code == 0);
     CHECK(said.mentions("0 for bearings of sun and ring, support of the ring"));
-    // Drawn damping is some.
+    // Random damping counts as damping.
     const auto drawn = program(kDescribe +
                                "--set gearbox.support_damping_N_s_m=0 --set "
                                "'random.gearbox.support_damping_N_s_m={distribution=\"uniform\","
@@ -64,7 +64,7 @@ TEST_CASE("describe says which damping is left out") {
     CHECK(!drawn.mentions("\n  damping "));
 }
 
-// Liang (2016), Fig. 3.14: a crack at 45 degrees leaves the planet's tooth after 8.60 mm, of
+// Source: Liang (2016), Fig. 3.14; a crack at 45 degrees exits the planet's tooth after 8.60 mm, of
 // which 4.3 mm are half (with a module of 3.2 mm; 3.175 here).
 TEST_CASE("describe shows fault sizes in the file's unit and as shares of the largest") {
     const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
@@ -75,7 +75,7 @@ TEST_CASE("describe shows fault sizes in the file's unit and as shares of the la
 }
 
 // Teeth of 19/31/81 on rigid bodies. Elastic bodies have no such line.
-TEST_CASE("describe says how much stiffer than ISO 6336-1 rigid gear bodies make the meshes") {
+TEST_CASE("describe states how much stiffer rigid gear bodies make the meshes than ISO 6336-1") {
     const auto said = program("describe " + test::study("planet-crack-ideal.toml") +
                               " --set ensemble.instances=7 --set ensemble.threshold_instances=1");
     INFO(said.output);

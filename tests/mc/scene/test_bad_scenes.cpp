@@ -1,4 +1,5 @@
-// What the kinds of gearbox, motion, profile and fault cannot have is refused when a study is read.
+// Checks that keys invalid for a kind of gearbox, degrees of freedom, profile or fault are refused
+// when a study is read.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,8 +18,8 @@ struct BadScene {
     const std::string& study;
     const char* from;
     const char* to;
-    const char* key;    // that the one problem names
-    const char* words;  // in what is wrong or in the remedy
+    const char* key;    // named by the single problem
+    const char* words;  // in the problem or in the remedy
 };
 
 const BadScene kBadScenes[] = {
@@ -51,7 +52,7 @@ const BadScene kBadScenes[] = {
      "only for gearbox.kind = \"fixed-shaft\""},
     {kExampleStudy, "[operation]", "[effects]\npath = \"none\"\n[operation]", "effects.path",
      "use path = \"rectangular\""},
-    // Faults that the gearbox, the tooth or the profile cannot have.
+    // Faults that are impossible for the gearbox, the tooth or the profile.
     {kFixedShaftStudy, "member = \"pinion\"", "member = \"planet\"\nside = \"sun\"", "fault.member",
      "which a fixed-shaft gearbox does not have; use \"pinion\" or \"gear\""},
     {kExampleStudy, "member = \"planet\"\nside = \"ring\"", "member = \"gear\"", "fault.member",
@@ -201,7 +202,7 @@ const BadScene kBadScenes[] = {
     {kFixedShaftStudy, "[sensor]",
      "[sensor]\ntones = [{ frequency_Hz = 30000, amplitude_m_s2 = 1 }]", "sensor.tones",
      "tone 1: 30000 Hz is not below half of sampling_Hz"},
-    // What may not be random.
+    // Inputs that must not be random.
     {kQuasiStaticStudy, "[random]",
      "[random]\ngearbox.helix_angle_deg = { distribution = \"constant\", value = 1 }",
      "random.gearbox.helix_angle_deg", "may not be random (it defines the teeth"},
@@ -229,7 +230,7 @@ std::string pitted(double radius_mm) {
 
 }  // namespace
 
-TEST_CASE("The scenes that bad ones are made from are good") {
+TEST_CASE("The scenes from which invalid ones are made are valid") {
     for (const std::string& text : {kFixedShaftStudy, kQuasiStaticStudy, kSpatialCrackStudy}) {
         const auto reading = read_study_text(text, "good.toml");
         INFO(format(reading.problems));
@@ -237,7 +238,7 @@ TEST_CASE("The scenes that bad ones are made from are good") {
     }
 }
 
-TEST_CASE("Each scene that cannot be is refused with one message on its key") {
+TEST_CASE("Each invalid scene is refused with one message on its key") {
     for (const BadScene& bad : kBadScenes) {
         const std::string text = replaced(bad.study, bad.from, bad.to);
         INFO(bad.from << " -> " << bad.to);
@@ -252,10 +253,10 @@ TEST_CASE("Each scene that cannot be is refused with one message on its key") {
     }
 }
 
-TEST_CASE("A pitted band is refused where the mate does not touch the flank") {
-    // Tian's 19/48 pair, in mm: tips 3.175 off the pitch circles; the gear's tip touches the pinion
-    // where the line of action, (r1 + r2) sin a long between the base circles, is sqrt(ra2^2 -
-    // rb2^2) from the gear's end.
+TEST_CASE("A pitted band is refused outside the contact with the mating flank") {
+    // Dimensions of Tian's 19/48 pair in mm: tips 3.175 from the pitch circles. The gear's tip
+    // meets the pinion where the line of action, (r1 + r2) sin a long between the base circles, is
+    // sqrt(ra2^2 - rb2^2) from the gear's end.
     const double a = M_PI / 9, r1 = 0.5 * 3.175 * 19, r2 = 0.5 * 3.175 * 48;
     const double tip2 = r2 + 3.175, base1 = r1 * std::cos(a), base2 = r2 * std::cos(a);
     const double left = (r1 + r2) * std::sin(a) - std::sqrt(tip2 * tip2 - base2 * base2);

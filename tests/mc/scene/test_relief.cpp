@@ -1,4 +1,4 @@
-// Tip and root relief in a study: the springs of the integration, and refused values.
+// Checks tip and root relief in a study: the springs of the integration, and refused values.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -37,8 +37,8 @@ mc::Study study_of(const std::vector<std::string>& more) {
 
 }  // namespace
 
-// Quasi-static equilibrium: at the loaded approach the springs of the integration carry the nominal
-// force of their pair together.
+// Quasi-static equilibrium at the loaded approach: the springs of the integration together carry
+// the nominal force of their pair.
 TEST_CASE("The springs of relieved teeth carry the force at the loaded approach") {
     for (const std::vector<std::string>& drive :
          {std::vector<std::string>{}, {"operation.fixed='sun'", "operation.input='ring'"}}) {
@@ -75,7 +75,7 @@ TEST_CASE("The springs of relieved teeth carry the force at the loaded approach"
     }
 }
 
-TEST_CASE("Relief has an amount, a length within the contact and a shape, or is refused") {
+TEST_CASE("Relief without an amount, a length within the contact or a shape is refused") {
     const auto names = [](const mc::StudyReading& reading, const std::string& key,
                           const std::string& words) {
         return std::any_of(reading.problems.begin(), reading.problems.end(), [&](const auto& p) {
@@ -94,8 +94,8 @@ TEST_CASE("Relief has an amount, a length within the contact and a shape, or is 
     CHECK(reading_of({"gearbox.sun_tip_relief_um=0"}).study.has_value());
 }
 
-// The study's heading: nearly level at the design load, not below it; short relief keeps light
-// loads even.
+// Statement of the study's heading: nearly level at the design load, not below it; short relief
+// keeps light loads even.
 TEST_CASE("Long relief levels the transmission error of the FZG gears at its design load") {
     const auto varies = [](const std::string& amount, const std::string& length,
                            const std::string& torque) {

@@ -1,4 +1,4 @@
-// What an answer says it takes for granted.
+// Checks the stated assumptions of a result.
 #include <catch2/catch.hpp>
 
 #include "mc/study/assumptions.hpp"
@@ -14,7 +14,7 @@ std::string assumptions(const gearpod::mc::Study& study) {
 
 }  // namespace
 
-TEST_CASE("An answer says which teeth and planets it is for") {
+TEST_CASE("A result states for which teeth and planets it is valid") {
     const std::string ideal = assumptions(shipped_study("planet-crack-ideal.toml"));
     CHECK_THAT(ideal, Catch::Contains("identical teeth, identical planets and pins, rigid gear "
                                       "bodies, steady torque and speed"));
@@ -35,7 +35,7 @@ TEST_CASE("An answer says which teeth and planets it is for") {
                                    "differs by 2 % (rms)"));
 }
 
-TEST_CASE("Cracks grow in an answer on lives, not in one on a run of the same study") {
+TEST_CASE("Crack growth is an assumption of results on lives, not of a run of the same study") {
     const gearpod::mc::Study study = shipped_study("planet-life.toml");
     CHECK_THAT(gearpod::mc::assumptions(study, true), Catch::Contains("grow by Paris' law"));
     CHECK_THAT(gearpod::mc::assumptions(study, false), !Catch::Contains("Paris"));

@@ -1,4 +1,4 @@
-// Every way to get a study file wrong is answered with its file, line, key and what to do.
+// Checks that every kind of error in a study file is reported with file, line, key and remedy.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ using gearpod::tests::kExampleStudy;
 
 namespace {
 
-// 1 for the first line; 0 if the text does not hold `marker`.
+// Line number of `marker`, 1 for the first line; 0 if the text does not hold it.
 int line_of(const std::string& text, const std::string& marker) {
     const std::size_t at = text.find(marker);
     if (at == std::string::npos) {
@@ -28,11 +28,11 @@ int line_of(const std::string& text, const std::string& marker) {
 }
 
 struct BadFile {
-    const char* from;    // what of the example is replaced
-    const char* to;      // by what
-    const char* marker;  // text on the line that the problem names
+    const char* from;    // text of the example to replace
+    const char* to;      // replacement
+    const char* marker;  // text on the line named by the problem
     const char* key;
-    const char* words;  // in what is wrong or in the remedy
+    const char* words;  // in the problem or in the remedy
 };
 
 const BadFile kBadFiles[] = {
@@ -147,7 +147,7 @@ const BadFile kBadFiles[] = {
      "the ring stands still"},
     {"member = \"planet\"", "member = \"sun\"", "side = ", "fault.side",
      "only for fault.member = \"planet\""},
-    // Gears and cracks that cannot be.
+    // Impossible gears and cracks.
     {"ring_teeth = 81", "ring_teeth = 77", "ring_teeth", "gearbox.ring_teeth",
      "cannot be assembled (the ring has 77 teeth"},
     {"planets = 4", "planets = 5", "ring_teeth", "gearbox.ring_teeth", "cannot be assembled"},
@@ -208,7 +208,7 @@ bool mentions(const Problem& problem, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("Each bad study file is refused with the line, the key and what to do") {
+TEST_CASE("Each bad study file is refused with the line, the key and the remedy") {
     for (const BadFile& bad : kBadFiles) {
         const std::string text = example_with(bad.from, bad.to);
         REQUIRE_FALSE(text.empty());
@@ -221,7 +221,7 @@ TEST_CASE("Each bad study file is refused with the line, the key and what to do"
                        p.key == bad.key && mentions(p, bad.words);
             });
         CHECK(found != reading.problems.end());
-        // One mistake, one message.
+        // One mistake gives one message.
         CHECK(reading.problems.size() == 1);
     }
 }
@@ -242,11 +242,11 @@ TEST_CASE("Continuous crack depths need size edges that cover them") {
     CHECK(read_study_text(text + "[detection]\nsize_edges_mm = [0, 1, 4]\n", "good.toml").study);
 }
 
-TEST_CASE("A crack depth is refused from the length on at which the crack leaves the tooth") {
-    // Liang (2016), section 3.2: root chord of the 31-tooth planet at the root circle; twice its
-    // half length over sin 45 degrees. R_b and a2 by hand for m = 3.175 mm, a0 = 20 degrees: the
-    // root circle (45.24 mm) lies below the base circle (46.25 mm), so the half chord is R_b sin
-    // a2.
+TEST_CASE("A crack depth is refused from the length on at which the crack exits the tooth") {
+    // Source: Liang (2016), section 3.2, root chord of the 31-tooth planet at the root circle;
+    // twice its half length over sin 45 degrees. R_b and a2 computed by hand for m = 3.175 mm, a0 =
+    // 20 degrees: the root circle (45.24 mm) lies below the base circle (46.25 mm), so the half
+    // chord is R_b sin a2.
     const double a0 = 20.0 * M_PI / 180.0;
     const double base_mm = 0.5 * 3.175 * 31 * std::cos(a0);
     const double half_angle = M_PI / (2 * 31) + std::tan(a0) - a0;
@@ -303,7 +303,7 @@ TEST_CASE("Every bad entry of a distribution or a list is reported") {
                 "features.use: unknown feature \"te_rmss\""});
 }
 
-TEST_CASE("All problems of a file come at once, sorted by line, overrides last") {
+TEST_CASE("All problems of a file are reported at once, sorted by line, overrides last") {
     std::string text = example_with("planets = 4", "planets = 40");
     text.replace(text.find("seed = 7"), 8, "seed = -1");
     text.replace(text.find("member = \"planet\""), 17, "member = \"plane\"");
@@ -342,7 +342,7 @@ TEST_CASE("Overrides that are no assignments or hold no value are refused") {
     }
 }
 
-TEST_CASE("An empty file lacks each section that has required keys") {
+TEST_CASE("An empty file lacks each section with required keys") {
     const auto reading = read_study_text("", "empty.toml");
     for (const char* section : {"gearbox", "operation", "fault", "sensor", "ensemble"}) {
         CHECK(std::count_if(reading.problems.begin(), reading.problems.end(), [&](const auto& p) {
@@ -360,8 +360,8 @@ TEST_CASE("A file that cannot be read is one problem") {
     }
 }
 
-TEST_CASE("No damage to a study file ends in an exception") {
-    // Truncated anywhere, each byte replaced, each line doubled.
+TEST_CASE("No damage to a study file leads to an exception") {
+    // Truncated at every position, each byte replaced, each line doubled.
     const std::string text = kExampleStudy;
     for (std::size_t i = 0; i < text.size(); i += 3) {
         CHECK_NOTHROW(read_study_text(text.substr(0, i), "cut.toml"));
