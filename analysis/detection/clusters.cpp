@@ -11,8 +11,8 @@
 namespace gearpod::analysis {
 namespace {
 
-// Records of one gearbox without noise are the same: that they share the threshold does not make
-// the feature a constant.
+// True if all values equal to the threshold belong to one gearbox. Noise-free records of one
+// gearbox are equal, which does not make the feature a constant.
 bool tied_within_one(std::span<const double> values, std::span<const std::size_t> gearbox,
                      double threshold) {
     std::set<std::size_t> tied;
@@ -58,7 +58,7 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
             level.tail ? Interval{kNan, kNan}
                        : clustered_rate_interval(values, gearbox, alarm, level.threshold,
                                                  request.false_alarm_rate, request.confidence);
-        // Never narrower than of independent ones.
+        // Never narrower than the interval of independent values.
         level.threshold_rate = {std::min(own.lower, clustered.lower),
                                 std::max(own.upper, clustered.upper)};
         const bool tested = !level.cells.empty() && level.cells.front().size.high == 0.0 &&
@@ -85,7 +85,7 @@ FeatureDetection detect_clustered(const std::string& feature, Alarm alarm,
                               request.false_alarm_rate, level.threshold_rate.lower,
                               level.threshold_rate.upper));
     }
-    // What independent ones would have fixed.
+    // Removes the warnings that assume independent values.
     std::erase_if(result.warnings, [](const std::string& warning) {
         return warning.find("healthy ones fix the false-alarm rate") != std::string::npos;
     });

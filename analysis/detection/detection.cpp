@@ -44,14 +44,14 @@ std::vector<double> column(const FeatureSample& sample, std::size_t level, std::
     return values;
 }
 
-// The cell of the graded gearboxes without a fault, or nullptr.
+// Cell of the graded gearboxes without a fault, or nullptr.
 const DetectionCell* healthy_cell(const LevelDetection& level) {
     return !level.cells.empty() && level.cells.front().size.high == 0.0 ? &level.cells.front()
                                                                         : nullptr;
 }
 
-// Healthy values that equal the threshold raise no alarm: the rate is then below the order
-// statistic's, by an amount that the sample does not tell.
+// True if healthy values equal the threshold. They raise no alarm, so the rate is below that of the
+// order statistic by an unknown amount.
 bool tied(const LevelDetection& level, const DetectionRequest& request) {
     if (level.tilted) {
         return false;
@@ -60,7 +60,7 @@ bool tied(const LevelDetection& level, const DetectionRequest& request) {
     return level.threshold_alarms < level.threshold_sample - rank;
 }
 
-// What fewer of the largest values would have said.
+// Fits to fewer of the largest values, to check that the threshold does not depend on their number.
 TailThreshold tail_threshold(const std::vector<double>& healthy, Alarm alarm,
                              const Threshold& threshold, const DetectionRequest& request) {
     const double sign = alarm_sign(alarm);
@@ -121,7 +121,7 @@ void rate_healthy(LevelDetection& level, const Threshold& threshold, Alarm alarm
     }
 }
 
-// Of a threshold beyond its sample, or from tilted records; how far it lies stands with it.
+// Warnings for a threshold beyond its sample or from importance sampling.
 void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     if (level.tail && !level.tail->steady) {
@@ -162,7 +162,8 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
             level.noise_level, rate));
         return;
     }
-    // A warning in a thousand tables, not in twenty.
+    // Confidence such that the warning appears by chance in one of a thousand tables, not in one of
+    // twenty.
     constexpr double kSurprising = 0.999;
     const DetectionCell* healthy = healthy_cell(level);
     if (healthy == nullptr || std::isnan(level.threshold)) {

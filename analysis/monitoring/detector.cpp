@@ -7,7 +7,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr int kLongest = 10'000;  // records that a rule may remember
+constexpr int kLongest = 10'000;  // limit of the records that a rule remembers
 constexpr std::string_view kTwoSided = " two-sided";
 
 template <class Number>

@@ -48,13 +48,13 @@ Slopes evaluate(const Eigen::MatrixXd& design, std::span<const char> yes, const 
     return slopes;
 }
 
-// Steps from `b` until the gain of a further one is negligible; false if there is no maximum within
-// reach.
+// Fisher scoring from `b` until the gain of a further step is negligible. False if no maximum is
+// found within the limits.
 bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const BinaryModel& model,
             Eigen::VectorXd& b, Slopes& here) {
     constexpr int kMostSteps = 200;
-    constexpr double kConverged = 1e-10;  // of the log likelihood
-    constexpr double kFarthest = 1e3;     // coefficients of covariates of order 1
+    constexpr double kConverged = 1e-10;  // gain of the log likelihood
+    constexpr double kFarthest = 1e3;     // largest coefficient, for covariates of order 1
     for (int step = 0; step < kMostSteps; ++step) {
         const Eigen::VectorXd move = here.information.ldlt().solve(here.score);
         const double gain = here.score.dot(move);
