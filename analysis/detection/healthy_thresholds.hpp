@@ -23,9 +23,9 @@ struct HealthyValues {
 //
 // - Plain values: alarm_threshold().
 // - Several plain records per gearbox: the same order statistics, without extrapolation, because
-// the tail of clustered values is not known (clustered_rate.hpp).
+//   the tail of clustered values is not known (clustered_rate.hpp).
 // - Importance-sampled records: tilted_sample.hpp. Where too few gearboxes contribute to the rate,
-// alarm_threshold() of the first record of each gearbox, which is plain.
+//   alarm_threshold() of the first record of each gearbox, which is plain.
 class HealthyThresholds {
   public:
     HealthyThresholds(const HealthyValues& sample, Alarm alarm);

@@ -17,10 +17,10 @@ namespace gearpod::analysis {
 namespace {
 
 constexpr double kLackOfFit = 0.05;
-constexpr double kSupported = 2.0;  // AIC
+constexpr double kSupported = 2.0;  // difference in AIC
 constexpr double kPod = 0.9;
 
-// Why no curve can be fitted to these outcomes at all, or "".
+// Reason why no curve can be fitted to these outcomes, or "".
 std::string outcome_refusal(const HitMissTable& table,
                             const std::string& tested = HitMissRequest{}.tested) {
     if (table.empty()) {
@@ -40,8 +40,8 @@ std::string outcome_refusal(const HitMissTable& table,
     return {};
 }
 
-// The maximum of the likelihood without a floor exists only if hits and misses overlap:
-// A. Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
+// True if hits and misses do not overlap. Then the likelihood without a floor has no maximum: A.
+// Albert, J. A. Anderson, Biometrika 71 (1984), 1-10.
 bool separated(const HitMissTable& table) {
     const double smallest_miss = [&] {
         for (const HitMissRow& row : table) {
@@ -65,7 +65,7 @@ struct Fitted {
     PodLikelihood::Maximum maximum;
 };
 
-// Sizes and their logarithms, as far as forms ask for them.
+// Standardised sizes and logarithms of sizes, computed on first use.
 class Scales {
   public:
     explicit Scales(const HitMissTable& table) : table_(table) {}
@@ -83,7 +83,7 @@ class Scales {
     std::shared_ptr<const StandardisedSizes> sizes_[2];
 };
 
-// `start`: the maximum of a form with fewer terms of its own, if there is one.
+// Fits one form. `start`: fit of a nested form, to start from.
 Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
                 const Fitted* start = nullptr) {
     Fitted result;
@@ -154,7 +154,7 @@ std::vector<double> band_sizes(const HitMissPod& pod, int points) {
     return sizes;
 }
 
-// Without fitted ceilings.
+// Location and scale of a curve without fitted ceiling.
 LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& request) {
     std::set<long> clusters;
     for (const ClusteredOutcome& outcome : request.outcomes) {
@@ -165,8 +165,8 @@ LocationScale location_scale_of(const PodCurve& curve, const HitMissRequest& req
         curve_covariance(request.outcomes, curve, clusters.size() < request.outcomes.size()));
 }
 
-// How many times the specimens for a90's bound at the target, by Wald's or the likelihood's
-// bounds.
+// Number of specimens for a90's bound at the target, as a factor on the number tested, by Wald or
+// likelihood-ratio bounds.
 double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scales& scales,
                   const HitMissRequest& request) {
     if (pod.rule.method == BoundMethod::likelihood_ratio) {
@@ -177,7 +177,7 @@ double factor_for(double target, const HitMissPod& pod, const Fitted& best, Scal
     return wald_specimens(wald, best.fit.curve.form, kPod, target, pod.rule.limit());
 }
 
-// The first curve's bounds, or those so far widened to one more curve's.
+// Sets the bounds from the first curve, or widens them to one more curve's.
 void add_bounds(HitMissPod& pod, const HitMissTable& table, Scales& scales, const Fitted& fitted,
                 const HitMissRequest& request) {
     const std::vector<double> sizes = band_sizes(pod, request.band_points);

@@ -15,9 +15,9 @@ namespace gearpod::analysis {
 namespace {
 
 struct Scaled {
-    std::vector<double> x, y;  // what is not censored
+    std::vector<double> x, y;  // uncensored values
     std::vector<Response> all;
-    double jacobian = 0.0;  // of the density of the values against that of y, its logarithm
+    double jacobian = 0.0;  // log Jacobian of the density of the values relative to that of y
 };
 
 Scaled scaled(const ResponseRows& rows, const ResponseScale& scale, const CensoringLimits& limits) {
@@ -56,7 +56,7 @@ ResponseModel least_squares_model(const RegressionLine& line) {
     return model;
 }
 
-// The means of specimens, since values that share a deviation are not independent.
+// Means of specimens, because values that share a random effect are not independent.
 Scaled specimen_means(const Scaled& points) {
     std::map<long, std::array<double, 3>> sums;  // count, x, y
     for (const Response& response : points.all) {

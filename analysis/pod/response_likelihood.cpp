@@ -87,7 +87,8 @@ double ResponseLikelihood::of_specimen(std::size_t first, std::size_t last,
         sum += left;
         squares += left * left;
     }
-    // Of the uncensored, and the law of the deviation given them.
+    // Log-likelihood of the uncensored responses, and the conditional distribution of the specimen
+    // effect given them.
     const double ratio = between * between / (within * within);
     const double growth = 1.0 + count * ratio;
     double value = -count * (kLogRootTwoPi + std::log(within)) - 0.5 * std::log(growth) -
@@ -142,7 +143,7 @@ ResponseLikelihood::Maximum ResponseLikelihood::maximise() const {
     const auto value = [&](const Eigen::VectorXd& p) {
         return log_likelihood({p[0], p[1], std::exp(p[2]), by_specimen_ ? std::exp(p[3]) : 0.0});
     };
-    // Least squares with the censored at their limits.
+    // Starts from least squares with censored values at their limits.
     double slope = 0.0;
     for (const Response& r : responses_) {
         slope += r.x * r.y / static_cast<double>(responses_.size());
