@@ -20,7 +20,7 @@ bool varies(std::span<const double> values) {
                        [&](double value) { return value != values.front(); });
 }
 
-// The rank correlation (Spearman's) that differs most from 0.
+// Spearman's rank correlation of largest magnitude.
 struct Dependence {
     std::size_t first = 0, second = 0;
     double rank = 0.0;
@@ -46,7 +46,7 @@ Dependence strongest_dependence(const std::vector<std::vector<double>>& columns)
     return most;
 }
 
-// The terms that have the input, as a share of the variance.
+// Sets the total index: the share of the terms that contain the input in the variance.
 void add_total(SobolIndex& index, int input, const PolynomialSurrogate& surrogate,
                std::span<const double> output, double mean, double confidence) {
     const double variance = surrogate.variance;
@@ -108,7 +108,7 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
         result.refusal = "no input varies";
         return result;
     }
-    // Of independent inputs one pair in 100,000 seems as dependent by chance.
+    // One in 100,000 pairs of independent inputs exceeds this limit by chance.
     constexpr double kChance = 4.5, kSlight = 0.1;
     const Dependence most = strongest_dependence(columns);
     if (std::abs(most.rank) >
