@@ -15,11 +15,11 @@ namespace {
 
 using Features = std::span<const FeatureDetection>;
 
-constexpr std::size_t kSizeWidth = 13;  // "12.00-14.00"
-constexpr std::size_t kCountWidth = 8;  // gearboxes or recordings, failed
+constexpr std::size_t kSizeWidth = 13;  // width of "12.00-14.00" and a gap
+constexpr std::size_t kCountWidth = 8;  // number of gearboxes or recordings, and number failed
 constexpr std::size_t kLabelWidth = kSizeWidth + 2 * kCountWidth;
-constexpr std::size_t kCellWidth = 20;  // "0.98 [0.96, 0.99]" and a gap
-constexpr double kSmallRate = 0.01;     // below it three decimals say too little
+constexpr std::size_t kCellWidth = 20;  // width of "0.98 [0.96, 0.99]" and a gap
+constexpr double kSmallRate = 0.01;     // below it three decimals are too few
 
 std::string size_text(const SizeGroup& size, const SizeUnit& unit) {
     const double low = size.low / unit.per_unit(), high = size.high / unit.per_unit();
@@ -46,7 +46,7 @@ std::size_t column_width(Features features) {
     return width;
 }
 
-// A label and one right-aligned cell per feature.
+// Adds a label and one right-aligned cell per feature.
 template <typename CellText>
 void add_row(std::string& out, const std::string& label, Features features, CellText text) {
     const std::size_t width = column_width(features);
@@ -57,7 +57,7 @@ void add_row(std::string& out, const std::string& label, Features features, Cell
     out += line + '\n';
 }
 
-// Failures may differ between features: the row shows the most, the JSON each.
+// Failures may differ between features: the row shows the largest number, the JSON all.
 long most_failed(Features features, std::size_t level, std::size_t cell) {
     long failed = 0;
     for (const FeatureDetection& feature : features) {
@@ -137,7 +137,7 @@ void add_reliable_sizes(std::string& out, Features features, const SizeUnit& uni
     }
 }
 
-// A warning that several features share is said once.
+// Prints a warning shared by several features once.
 void add_warnings(std::string& out, Features features) {
     std::vector<std::string> order;
     std::map<std::string, std::string> names;
@@ -155,7 +155,7 @@ void add_warnings(std::string& out, Features features) {
     }
 }
 
-// Features side by side, as many as fit the width, blocks apart by an empty line.
+// Prints as many features side by side as fit the width, in blocks separated by an empty line.
 template <typename Block>
 void in_blocks(std::string& out, Features features, Block block) {
     const std::size_t fit =

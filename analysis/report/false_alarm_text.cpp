@@ -25,7 +25,7 @@ long largest_sample(std::span<const FeatureDetection> features, std::size_t leve
     return largest;
 }
 
-// The widest interval that is wider than as many independent recordings have (clusters.hpp); 0 if
+// Widest interval that is wider than that of as many independent recordings (clusters.hpp); 0 if
 // there is none.
 Interval clustered_rate(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
@@ -43,7 +43,7 @@ Interval clustered_rate(std::span<const FeatureDetection> features,
     return widest;
 }
 
-// Of how many thresholds several records of each gearbox leave the rate open.
+// Text on the thresholds whose rate remains undetermined with several records of each gearbox.
 std::string unfixed_text(std::span<const FeatureDetection> features,
                          const DetectionRequest& request, double upper) {
     long open = 0, all = 0;
@@ -70,12 +70,14 @@ std::string beyond_text(double extrapolation, bool tilted) {
                                : "";
 }
 
-// Thresholds of a study whose records are tilted, by what they rest on.
+// Numbers of thresholds by method, for a study with importance-sampled records.
 struct TiltedCounts {
     long all = 0, tilted = 0, gearboxes = 0;
-    long first = 0;            // of the first record of each gearbox: too few have the alarms
-    long plain = 0, none = 0;  // of plain records, as features have that no tilt concerns; without
-    double upper = 0.0;        // the largest rate that these leave open
+    // From the first record of each gearbox, because too few gearboxes have the alarms.
+    long first = 0;
+    // From plain records, for features without importance sampling; of these, without a threshold.
+    long plain = 0, none = 0;
+    double upper = 0.0;  // largest upper bound of the rate among the plain thresholds
 };
 
 TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
@@ -103,7 +105,7 @@ TiltedCounts tilted_counts(std::span<const FeatureDetection> features,
     return counts;
 }
 
-// Of thresholds from plain records, "" if they keep the rate.
+// Text on thresholds from plain records; "" if they keep the rate.
 std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
     std::string text;
     if (counts.none > 0) {
@@ -120,7 +122,7 @@ std::string plain_text(const TiltedCounts& counts, double false_alarm_rate) {
     return text;
 }
 
-// Which thresholds are from tilted records, and what the others rest on.
+// Text on the thresholds from importance sampling, and on the methods of the others.
 std::string tilted_text(std::span<const FeatureDetection> features,
                         const DetectionRequest& request) {
     const TiltedCounts counts = tilted_counts(features, request);
@@ -151,7 +153,8 @@ std::string tilted_text(std::span<const FeatureDetection> features,
     return text.empty() ? "" : text.substr(1);
 }
 
-// Of gearboxes with several records each: nothing is known beyond these, whose tails go together.
+// Shortage of gearboxes with several records each. There is no extrapolation, because their tails
+// are correlated.
 std::string record_shortage(long gearboxes, long records, double false_alarm_rate,
                             double confidence) {
     const long all = gearboxes * records;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kDigits = 4;
 
-// What both kinds of curve say of sizes.
+// Sizes common to both kinds of curve.
 struct Sizes {
     const SizeBounds &a50, &a90;
     double smallest, largest;
@@ -68,8 +68,8 @@ void add_hit_miss(std::string& out, const InspectionRequest& request,
         out,
         fmt::format("curve: {}{}; {}{}; {} curve(s) of {} within the bounds", form_text(curve.form),
                     curve.form.free_ceiling ? fmt::format(" at {:.3g}", curve.ceiling) : "",
-                    fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "", pod.supported.size(),
-                    pod.candidates.size()),
+                    fit_text(pod.chosen.fit), pod.doubtful ? " (rejected)" : "",
+                    pod.supported.size(), pod.candidates.size()),
         4);
     add_curve(out, -curve.intercept / curve.slope, 1.0 / curve.slope, pod.covariance,
               curve.form.log_size);

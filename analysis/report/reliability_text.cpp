@@ -13,7 +13,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr long kFewest = 10;  // healthy and faulty ones for the text to say anything
+constexpr long kFewest = 10;  // fewest healthy and faulty gearboxes for a report
 
 std::string auc_text(const Auc& auc) {
     if (std::isnan(auc.auc)) {
@@ -24,7 +24,7 @@ std::string auc_text(const Auc& auc) {
                                                       auc.bounds.lower, auc.bounds.upper);
 }
 
-// The features in order of rank, those without a rank last.
+// Features in order of rank, those without a rank last.
 std::vector<const FeatureReliability*> in_order(const Reliability& reliability, std::size_t level) {
     std::vector<const FeatureReliability*> order;
     for (const std::size_t f : in_rank_order(reliability, level)) {
@@ -64,7 +64,7 @@ void add_feature(std::string& out, const FeatureReliability& feature, std::size_
     add_wrapped(out, row, name_width + 22);
 }
 
-// What inputs that are not known leave open, beside what the number of gearboxes does.
+// Adds the uncertainty from epistemic inputs, separate from that of the number of gearboxes.
 void add_uncertain(std::string& out, const std::vector<const FeatureReliability*>& features,
                    std::size_t n, const SizeUnit& unit) {
     std::string list;
@@ -139,7 +139,7 @@ void add_ranking(std::string& out, const FeatureRanking& ranking) {
     }
 }
 
-// Of the best ranked feature, and of the feature whose alarms cost least.
+// Adds false alarms of the best ranked feature, and of the feature with the least expected cost.
 void add_false_alarms(std::string& out, const std::vector<const FeatureReliability*>& features,
                       std::size_t n, const DetectionRequest& request) {
     if (!features.empty()) {
@@ -202,8 +202,8 @@ std::string basis_text(const SmallestFault& least) {
                        tested.empty() ? "" : "; " + tested);
 }
 
-// Of faults without a size: no curves.
-// Of how many features nothing is known, as they have no threshold at that level; "" of none.
+// Number of features without a threshold at the level, whose detection is therefore unknown; "" if
+// all have one.
 std::string silent_text(const Reliability& reliability, std::size_t n) {
     const auto silent = std::ranges::count_if(
         reliability.features,
@@ -274,7 +274,7 @@ void add_level(std::string& out, const Reliability& reliability, std::size_t n,
     out += robustness_text(reliability, n, request);
 }
 
-// Gearboxes of the feature and noise level that have most.
+// Gearboxes of the feature and noise level that have the most.
 struct Sample {
     long healthy = 0, faulty = 0;
 };
@@ -290,7 +290,7 @@ Sample largest_sample(const Reliability& reliability) {
     return sample;
 }
 
-// What the figures of all levels are.
+// Description of the figures at all levels.
 std::string figures_text(const DetectionRequest& request) {
     const double percent = 100.0 * request.confidence;
     if (!has_sizes(request)) {
@@ -362,7 +362,7 @@ std::string reliability_text(const Reliability& reliability, const DetectionRequ
         std::string refusal;
         for (const ConditionDetection& detection : reliability.conditions) {
             if (!detection.refusal.empty()) {
-                refusal = detection.refusal;  // the input's, so the same for all features
+                refusal = detection.refusal;  // reason from the input, so the same for all features
                 continue;
             }
             add_condition(out, detection, request.size);

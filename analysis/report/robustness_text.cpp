@@ -10,7 +10,7 @@
 namespace gearpod::analysis {
 namespace {
 
-constexpr double kShare = 0.01;  // of the variance, from which on an input is named
+constexpr double kShare = 0.01;  // smallest share of the variance for which an input is named
 
 std::string a90_text(const HeldOutDetector& detector, const SizeUnit& unit) {
     const HitMissPod& pod = detector.pod;
@@ -80,7 +80,7 @@ void add_effects(std::string& out, const FeatureReliability& feature, const Leve
                     feature.feature, range_text({effects.smallest, effects.largest}, unit),
                     shown.empty() ? "" : " in " + shown),
         4);
-    // Names on lines of their own, with p, where they and the numbers are too wide for one.
+    // Names are on separate lines, with p, if they and the numbers are too wide for one line.
     constexpr std::size_t kNumbers = 84;
     const bool apart = width + kNumbers > text_width();
     const auto row = [&](const std::string& name, const std::string& p, const auto&... numbers) {
