@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Error against time of every rung that `gearpod accuracy STUDY --json F` measured.
+"""Error against time of every solver setting measured by `gearpod accuracy STUDY --json F`.
 
     python3 analysis/figures/accuracy.py F.json figure.svg      # or .png; Debian's python3-matplotlib
 
-Left the worst feature, right the sensor's signal (filled) and the transmission error (open), all
-relative. The line is the frontier: nothing measured is both faster and closer."""
+The left chart shows the worst feature, the right one the sensor signal (filled) and the
+transmission error (open), all as relative errors. The line is the Pareto frontier: no measured
+setting is both faster and more accurate."""
 import json
 import sys
 
@@ -41,7 +42,8 @@ def draw_frontier(axis, report):
 
 
 def draw_others(axes, report):
-    """What is no rung of the ladder: the study as it is, all meshes marched, peers, the limit."""
+    """Draws the results outside the candidate list: the study's own setting, full integration of
+    all meshes, other programs, and the stability limit."""
     def place(label, seconds, worst, sensor, mark):
         for axis, error in zip(axes, (worst, sensor)):
             if error:

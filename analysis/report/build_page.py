@@ -3,8 +3,8 @@
     gearpod report F.h5 --json F.json         (or of gearpod pod, compare, sweep, lives)
     python3 build_page.py F.json > F.html       (- reads the JSON from standard input)
 
-With --figures FOLDER behind it the figures go there too, each as SVG and PNG. With --pdf behind it,
-of a report, what is written is its summary on one sheet, as PDF.
+With a final --figures FOLDER the figures are also written there, each as SVG and PNG. With a final
+--pdf (for a report) its summary on one sheet is written instead, as PDF.
 
 gearpod report F.h5 --html F.html does both. Everything on the page comes from the JSON; the page
 loads nothing and runs no script.
@@ -35,7 +35,7 @@ def state_banner(report):
 
 
 def study_parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     import headline
     import sections
     from report import Report

@@ -1,4 +1,5 @@
-"""Probability of detection, ROC, detection rates over noise, ranking of the features."""
+"""Figures on detection: probability of detection, ROC curve, detection rates over noise, ranking of
+the features."""
 
 import math
 
@@ -27,10 +28,10 @@ def _curve(axes, report, pod, paint, line, label, band):
     if pod["refusal"] or not pod["band"]["size"]:
         return False
     x = [report.sizes.shown(size) for size in pod["band"]["size"]]
-    # The curve may begin where its bounds do; missing bounds are gaps.
+    # The curve may begin where its bounds begin; missing bounds are gaps.
     lower, upper, values = ([math.nan if value is None else value for value in pod["band"][name]]
                             for name in ("lower", "upper", "pod"))
-    poor = pod["doubtful"]  # its bounds promise nothing
+    poor = pod["doubtful"]  # its bounds are not valid
     if band and not poor:
         axes.fill_between(x, lower, upper, color=paint, alpha=0.16, linewidth=0)
     axes.plot(x, values, color=paint, linestyle=(0, (1, 2)) if poor else line,
@@ -39,7 +40,7 @@ def _curve(axes, report, pod, paint, line, label, band):
 
 
 def _open(axes, report, level, paint):
-    """The band that inputs which are not known leave open."""
+    """Draws the band due to epistemic inputs."""
     if level["uncertain"] and level["uncertain"]["band"]["size"]:
         band = level["uncertain"]["band"]
         axes.fill_between([report.sizes.shown(size) for size in band["size"]], band["lower"],
@@ -48,7 +49,8 @@ def _open(axes, report, level, paint):
 
 
 def uncertain_text(report, n):
-    """What is not known of the machine, and what that leaves open of the first feature's a90."""
+    """Text on the epistemic inputs and the resulting range of a90 of the first feature with a
+    band."""
     for f in report.order(n) if report.reliability else []:
         level = report.reliable(f, n)
         found = level["uncertain"]
@@ -76,7 +78,7 @@ def _rates(axes, report, cells, paint, mark, label=None, bars=True):
 
 
 def _state(report, f, n):
-    """What the curve of a feature says, for a description."""
+    """Curve of a feature in words, for a description."""
     pod = report.reliable(f, n)["hit_miss"]
     if pod["refusal"]:
         return f"{report.names[f]}: no curve ({pod['refusal']})"
@@ -165,7 +167,7 @@ def _comparison(report, page):
 
 
 def of_feature(axes, report, f):
-    """Rates of a feature at all noise levels, with the curves where there are any."""
+    """Draws the rates of a feature at all noise levels, with the curves where they exist."""
     axes.axhline(0.9, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     for n, level in enumerate(report.levels):
         paint = shade(n / max(1, len(report.levels) - 1))
@@ -252,7 +254,7 @@ def heat_maps(report, page):
 
 
 def roc(report, page):
-    """One chart a noise level."""
+    """ROC curves, one chart per noise level."""
     charts, rows = [], []
     for n, level in enumerate(report.levels):
         figure, axes = panel(3.9)
@@ -370,7 +372,7 @@ def pod(report, page):
 
 
 def over_time(report, page, groups):
-    """Share of recordings with an alarm, by time, of the three best features."""
+    """Share of recordings with an alarm over time, for the three best features."""
     names = [report.names[f] for f in report.order(report.reference)[:3]]
     middle = [0.5 * (group["first"] + group["last"]) for group in groups]
 

@@ -1,4 +1,5 @@
-"""The answer: the smallest fault found, by which feature, at which noise, and what limits it."""
+"""Headline answer: the smallest fault found, with its feature and noise level, and what limits
+it."""
 
 import math
 
@@ -9,7 +10,7 @@ from words import (TESTED_ALONE, count, escape, input_name, joined, noise, numbe
 
 CARRIED = '<abbr title="the bound of a feature or noise level that finds no more">†</abbr>'
 TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
-ARCSECONDS = 180 * 3600 / math.pi  # in a radian
+ARCSECONDS = 180 * 3600 / math.pi  # per radian
 
 
 def promise(report):
@@ -17,7 +18,7 @@ def promise(report):
 
 
 def a_fault(report):
-    """With its article, if it has one: "a crack", "pitting"."""
+    """Name of the fault with its article, if it has one: "a crack", "pitting"."""
     return report.data.get("fault") or "a fault"
 
 
@@ -26,7 +27,7 @@ def fault(report):
 
 
 def _best_rate(report, level):
-    """Of all features, the one that finds most of the largest faults, with its cell."""
+    """Feature that finds most of the largest faults, with its cell."""
     best = None
     for f, name in enumerate(report.names):
         cells = [c for c in report.cells(f, level) if c["size_high"] > 0 and c["pd"] is not None]
@@ -36,7 +37,7 @@ def _best_rate(report, level):
 
 
 def sentence(report):
-    """The headline, as text."""
+    """Headline as text."""
     silence = report.silence()
     if silence:
         return silence
@@ -62,7 +63,7 @@ def sentence(report):
 
 
 def _noise_limit(report):
-    """How the smallest fault found depends on noise."""
+    """Text on how the smallest fault found depends on noise."""
     sizes = [(report.levels[n], report.smallest_fault(n)) for n in range(len(report.levels))]
     here = report.smallest_fault(report.reference)
     if len(sizes) < 2:
@@ -89,7 +90,7 @@ def _noise_limit(report):
 
 
 def influences(misses):
-    """Inputs that are told apart from chance, the strongest first."""
+    """Inputs with a significant influence on misses, in the given order."""
     return [i for i in misses["inputs"] if i["p_value"] is not None and i["p_value"] < 0.05]
 
 
@@ -146,7 +147,7 @@ def _sample_limit(report, found):
 
 
 def limits(report):
-    """What limits the answer, as sentences; empty where there is none."""
+    """Sentences on what limits the answer; empty where there is none."""
     if report.silence():
         return []
     found = report.smallest_fault(report.reference)
@@ -169,7 +170,8 @@ def threshold(report, name, n):
 
 
 def narrow_note(report):
-    """Where the table's last column has no room: the false alarms of the answer."""
+    """False alarms of the answer in words, for narrow screens where the table's last column has no
+    room."""
     found = report.smallest_fault(report.reference)
     if found is None:
         return ""
@@ -179,7 +181,7 @@ def narrow_note(report):
 
 
 def footnotes(report):
-    """What the marks in the table mean, below what limits the answer."""
+    """Explanation of the marks in the table, shown below the limits."""
     faults = [found for n in range(len(report.levels)) if (found := report.smallest_fault(n))]
     notes = []
     if not all(found["from_curve"] for found in faults):
@@ -220,7 +222,7 @@ def table(report):
 
 
 def noise_unit(report):
-    """What noise x 1 is."""
+    """Text on the noise that x 1 stands for."""
     given = report.data["noise"]
     texts = []
     if not given["sensor_m_s2"] and given["encoder_rad"] == 0:
@@ -251,7 +253,8 @@ def facts(report):
 
 
 def answers(report):
-    """The headline with what it takes for granted and what is not known, as texts."""
+    """Headline texts: shortage of healthy gearboxes, answer, assumptions, and epistemic
+    uncertainty."""
     speaks = report.silence() is None
     texts = [report.data["detection"]["shortage"] if speaks else None, sentence(report),
              report.data.get("assumptions"),

@@ -1,4 +1,5 @@
-"""Which random inputs decide what is missed, and numerical against statistical error."""
+"""Figures on the influence of random inputs on misses, thresholds by condition, and a90 by
+false-alarm rate."""
 
 import math
 
@@ -11,7 +12,8 @@ MOST_CHARTS = 4
 
 
 def misses(report, page):
-    """One chart for each of the best features that has misses to look at."""
+    """Inputs of missed gearboxes, one chart for each of the best features that has enough
+    misses."""
     n = report.reference
     with_misses = [f for f in report.order(n) if not report.reliable(f, n)["misses"]["refusal"]]
     charts = [_miss_chart(report, page, f) for f in with_misses[:MOST_CHARTS]]
@@ -73,7 +75,7 @@ def _miss_table(report, f, n):
 
 
 def conditions(report):
-    """Thresholds for each value of one input, where the report was asked for them."""
+    """Thresholds for each value of one input, if the report was made with them."""
     given = (report.reliability or {}).get("conditions") or []
     if not given:
         return ""
@@ -97,7 +99,7 @@ def conditions(report):
 
 
 def _sizes(points, report, which):
-    """Open bounds are gaps."""
+    """Sizes of a bound over the points; NaN where the bound is open."""
     return [report.sizes.shown(p["a90"][which]["size"])
             if p["a90"][which]["where"] == "reached" else math.nan for p in points]
 
@@ -108,7 +110,7 @@ def _size_text(report, estimate):
 
 
 def false_alarm_curves(report, page):
-    """a90 over the false-alarm rate, of the best ranked features that have one."""
+    """a90 over the false-alarm rate, for the best ranked features that have one."""
     n = report.reference
     shown = [f for f in report.order(n)
              if any(p["a90"]["estimate"]["where"] == "reached"

@@ -1,16 +1,16 @@
-"""How detection depends on every random input: shares of the variance, rates in bins, a90 as a map
-over noise and input."""
+"""Figures on the dependence of detection on every random input: shares of the variance, rates in
+bins, and a90 as a map over noise and input."""
 
 from blocks import note, table
 from charts import GAP, MUTED, between, cell, colour, legend_below, panel, to_svg
 from words import input_name, joined, noise, number, p_value, percent, quantity, rate_with_bounds
 
 MOST_CHARTS = 6
-SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # of a90
+SMALL, LARGE = (0.93, 0.95, 0.98), (0.45, 0.13, 0.20)  # colours of small and large a90
 
 
 def _headline_feature(report):
-    """Number of the feature that the headline names, else of the best ranked."""
+    """Number of the feature in the headline, otherwise of the best ranked feature."""
     found = report.smallest_fault(report.reference)
     return report.feature_number(found["feature"]) if found else report.order(report.reference)[0]
 
@@ -73,7 +73,7 @@ def _index_chart(report, page, feature, what, indices):
 
 
 def _effects(report, f, n):
-    """The inputs of a feature at a noise level, those with the clearest influence first."""
+    """Inputs of a feature at a noise level, the most significant first."""
     robustness = report.reliability.get("robustness") or {}
     effects = []
     for name, entry in robustness.items():
@@ -133,7 +133,7 @@ def _bin_chart(report, page, f, effect):
 
 
 def _axis_scale(bins, unit):
-    """A factor that keeps the axis' numbers short, and the unit with it."""
+    """Factor that keeps the numbers of the axis short, and the unit with its prefix."""
     largest = max((abs(b["high"]) for b in bins), default=0.0)
     shown = quantity(1, unit).removeprefix("1").strip()
     for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k")):
@@ -157,7 +157,7 @@ def _bin_table(report, f, effect):
 
 
 def a90_maps(report, page):
-    """a90 over noise and one input, for the inputs that matter."""
+    """a90 over noise and one input, for the inputs with a significant influence."""
     maps = report.reliability.get("a90_maps")
     if not maps:
         return ""
@@ -234,7 +234,7 @@ def _map_table(report, f, name, entry):
 
 
 def combined(report, page):
-    """All features as one detector against the best single one."""
+    """All features combined compared with the best single feature."""
     given = [level.get("combined") for level in report.reliability["levels"]]
     if not any(given):
         return ""

@@ -1,10 +1,10 @@
-"""Numerical error beside the statistical one."""
+"""Numerical error compared with the statistical one."""
 
 from blocks import bullets, note, paragraph, table
 from charts import colour, legend_below, panel, to_svg
 from words import joined, noise, number, quantity
 
-LEAST = 1e-6  # smaller shares are drawn here
+LEAST = 1e-6  # smaller shares are drawn at this value
 
 
 def numerical(report, page):
@@ -72,7 +72,7 @@ def _table(report, shares):
 
 
 def limit(report, name):
-    """For the answer: which of the two errors of that feature is larger; None if not known."""
+    """Sentence for the answer with the two errors of a feature; None if they are not known."""
     for s in (report.data.get("numerical") or {"shares": []})["shares"]:
         if (s["feature"] == name and s["noise_level"] == report.levels[report.reference]
                 and s["pd"] is not None and s["pd_half_width"] is not None):

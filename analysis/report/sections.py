@@ -1,4 +1,4 @@
-"""The sections of the page below the answer."""
+"""Sections of the page below the answer."""
 
 import detection_figures
 import influence_figures
@@ -86,7 +86,7 @@ def _tail_row(feature, level, choice):
 
 
 def _costs(report):
-    """The threshold of least expected cost at the noise shown, if costs were given."""
+    """Thresholds of least expected cost at the noise shown, if costs were given."""
     n = report.reference
     rows = []
     for f in report.order(n):
@@ -195,12 +195,12 @@ def failures(report, page):
     return page.section("failures", "Failures and warnings", body)
 
 
-# Too long for a table.
+# Entries too long for a table.
 _LONG = ["study", "measured_by_study", "recordings", "recorded_gearboxes"]
 
 
 def _watched(report):
-    """What a monitor says that sees the recordings one after another."""
+    """HTML on monitoring the recordings in sequence."""
     data = report.data.get("monitoring")
     if not data:
         return ""
@@ -228,7 +228,7 @@ def _watched(report):
 
 
 def over_time(report, page):
-    """Of measured recordings whose times are known."""
+    """Section on measured recordings with known times."""
     groups = report.data.get("over_time")
     if not groups:
         return ""

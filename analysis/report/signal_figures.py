@@ -1,4 +1,4 @@
-"""What the two example gearboxes send, and how stiff their teeth are."""
+"""Figures of the signals of the two example gearboxes, and of the mesh stiffness."""
 
 from blocks import note, paragraph, table
 from charts import INK, NOISY, colour, dash, legend_above, panel, shade, to_svg
@@ -23,7 +23,7 @@ def _turn(gearbox, key):
 
 
 def _time_charts(report, page, key, scale, axis, what):
-    """One chart a gearbox, on one scale."""
+    """One chart per gearbox, all with the same scale."""
     gearboxes = [g for g in report.data["examples"]["gearboxes"] if g[key]]
     level = report.data["examples"]["noise_level"]
     largest = max(abs(v) for g in gearboxes for part in ("clean", "noisy")
@@ -70,7 +70,7 @@ def sensor(report, page):
 
 
 def contact_loss(report):
-    """Share of time out of contact of every mesh; nothing where teeth cannot part."""
+    """Table of the contact loss ratio of every mesh; empty where teeth cannot separate."""
     meshes = report.data.get("contact_loss")
     if not meshes:
         return ""
@@ -196,7 +196,7 @@ def _median(values):
 
 
 def gearbox_table(report):
-    """Which gearboxes the examples are."""
+    """Inputs and features of the example gearboxes."""
     gearboxes = report.data["examples"]["gearboxes"]
     level = report.data["examples"]["noise_level"]
     rows = []
@@ -212,7 +212,8 @@ def gearbox_table(report):
 
 
 def stiffness(report, page):
-    """Healthy pairs over a mesh period, and the faulty pair while its faulty tooth passes."""
+    """Stiffness of healthy pairs over a mesh period, and of the faulty pair while its faulty tooth
+    is engaged."""
     given = report.data["stiffness"]
     out, charts, rows = "", [], []
     figure, axes = panel(3.0)
@@ -282,7 +283,8 @@ def _passage(report, page, passage):
 
 
 def same_bits(report):
-    """Whether what was computed again is what the results hold."""
+    """Text that tells whether the gearboxes computed again have the features of the results
+    file."""
     gearboxes = report.data["examples"]["gearboxes"]
     other = [str(g["row"]) for g in gearboxes if not g["same_bits"]]
     if other:

@@ -1,11 +1,11 @@
-"""Published figures beside this program's numbers, with one command:
+"""Compares published figures with this program's results, with one command:
 
     python3 -m gearpod.published [NAME ...] [--out FOLDER] [--list]
 
-Runs the study of each figure (all, or those named), draws FOLDER/NAME.svg and .png, and puts what
-the source prints beside what comes out, on the terminal and in FOLDER/published.csv. What is
-published, with its source, is in studies/published/figures.json; studies/README.md says why some
-differ. matplotlib is needed.
+Runs the study of each figure (all, or those named) and draws FOLDER/NAME.svg and .png. Lists the
+published values next to the computed ones on the terminal and in FOLDER/published.csv. The
+published values and their sources are in studies/published/figures.json; studies/README.md explains
+why some differ. matplotlib is needed.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ DASHES = ["-", "--", ":", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 3))]
 
 
 class Row(NamedTuple):
-    """What the source says and what comes out; `published` is None where it prints no number."""
+    """Published and computed value; `published` is None where the source prints no number."""
 
     figure: str
     what: str
@@ -45,7 +45,7 @@ Figure = Dict[str, Any]
 
 
 def studies_folder() -> pathlib.Path:
-    """Their studies beside the program: of its checkout or its installation."""
+    """Folder of the published studies in the program's checkout or installation."""
     program = pathlib.Path(find_program()).resolve()
     for folder in (*program.parents, *pathlib.Path(__file__).resolve().parents):
         for place in ("studies/published", "share/gearpod/studies/published"):
@@ -56,7 +56,7 @@ def studies_folder() -> pathlib.Path:
 
 
 def figures() -> List[Figure]:
-    """All figures, as studies/published/figures.json has them."""
+    """All figures in studies/published/figures.json."""
     text = (studies_folder() / "figures.json").read_text(encoding="utf-8")
     read: List[Figure] = json.loads(text)
     return read
@@ -78,7 +78,7 @@ def _line(axes: Any, number: int, x: Array, y: Array, label: str, marks: bool = 
 
 
 def _trend(panel: Dict[str, Any], axes: Any) -> None:
-    """What the source says of a panel in words."""
+    """Sets the trend that the source states in words as the title of a panel."""
     words = []
     if "rises" in panel:
         words.append("rises" if panel["rises"] else "falls")
@@ -89,7 +89,7 @@ def _trend(panel: Dict[str, Any], axes: Any) -> None:
 
 
 def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """Features over an input, a line a value of another one."""
+    """Features over an input, one line per value of another input."""
     results = run(folder / figure["study"], out=os.path.join(work, "run.h5"), progress=False)
     rows = results.rows("graded")
     x = figure["scale"] * results.input(figure["along"])[rows]
@@ -121,7 +121,8 @@ def _features(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, Lis
 
 
 def _stiffness(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """The faulty pair over the mesh periods in which its faulty tooth works, a line a level."""
+    """Stiffness of the faulty pair over the mesh periods in which its faulty tooth is engaged, one
+    line per fault level."""
     text = call(["stiffness", str(folder / figure["study"]), "--csv", "-"]).stdout
     head = text.split("\n", 1)[0].split(",")
     values = np.loadtxt(io.StringIO(text), delimiter=",", skiprows=1)
@@ -161,13 +162,13 @@ def _signals(figure: Figure, folder: pathlib.Path, work: str, row: int) -> Dict[
 
 
 def _spikes(away: Array, count: int) -> Array:
-    """The largest value of each of `count` equal parts of the record, in order."""
+    """Indices of the largest value in each of `count` equal parts of the record, in order."""
     parts = np.array_split(np.arange(len(away)), count)
     return np.array([part[np.argmax(away[part])] for part in parts])
 
 
 def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """How far signals are from the healthy gearbox's, over mesh periods."""
+    """Deviation of signals from those of the healthy gearbox over mesh periods."""
     drawing, (axes,) = _panels(1)
     healthy: Optional[Dict[str, Array]] = None
     table: List[Row] = []
@@ -195,7 +196,7 @@ def _motion(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[
 
 
 def _orders(figure: Figure, folder: pathlib.Path, work: str) -> Tuple[Any, List[Row]]:
-    """One-sided amplitudes over the record; the published largest one is marked."""
+    """One-sided amplitude spectrum over the record, with the published largest line marked."""
     values = _signals(figure, folder, work, figure["row"])[figure["signal"]]
     lines = 2 * figure["scale"] * np.abs(np.fft.rfft(values))[:figure["shown"] + 1] / len(values)
     lines[0] = 0.0
@@ -213,13 +214,13 @@ KINDS = {"features": _features, "stiffness": _stiffness, "motion": _motion, "ord
 
 
 def draw(figure: Figure) -> Tuple[Any, List[Row]]:
-    """The matplotlib figure of an entry of figures(), and its rows."""
+    """matplotlib figure of an entry of figures(), and its rows."""
     import matplotlib.pyplot as plt
 
     with tempfile.TemporaryDirectory() as work, plt.rc_context(
             {"axes.grid": True, "grid.color": "0.88", "axes.axisbelow": True}):
         drawing, table = KINDS[figure["kind"]](figure, studies_folder(), work)
-    letters = int(13 * drawing.get_figwidth())  # of a line of the title
+    letters = int(13 * drawing.get_figwidth())  # letters per line of the title
     drawing.suptitle(textwrap.fill(f"{figure['source']}: {figure['title']}", letters), fontsize=10,
                      color=INK)
     if "says" in figure:

@@ -1,11 +1,11 @@
-"""Figures of the page of gearpod lives: lives that fan out, warning times, false alarms' price."""
+"""Figures of the page of gearpod lives: crack growth, warning times, false alarms against depth."""
 
 import blocks
 from charts import INK, MUTED, NOISY, colour, dash, legend_below, marker, panel, to_svg
 from lives.campaign_data import millimetres
 from words import number
 
-DRAWN = 32  # lives with lines of their own; gearpod lives --json gives deviations of as many
+DRAWN = 32  # lives drawn as single lines; gearpod lives --json gives deviations of as many
 
 
 def fan(campaign, page):
@@ -28,7 +28,7 @@ def fan(campaign, page):
 
 
 def _panel_of(lines):
-    """With room for a legend of so many lines below."""
+    """Chart with room for a legend of the given number of lines below."""
     return panel(2.9 + 0.22 * lines)
 
 
@@ -93,7 +93,8 @@ def _deviations(campaign, best, page):
 
 
 def _set_decades(axes):
-    """Linear to 5, then by decades, with marks from 10 on: those below would touch 0."""
+    """Sets a scale that is linear to 5, then logarithmic, with marks from 10 on, because smaller
+    ones would overlap 0."""
     axes.set_yscale("symlog", linthresh=5.0)
     low, high = axes.get_ylim()
     decades = [10.0 ** k for k in range(1, 12)]

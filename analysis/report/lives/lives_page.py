@@ -1,4 +1,4 @@
-"""The page of gearpod lives: cracks that grow under a monitor."""
+"""Page of gearpod lives: cracks that grow in monitored gearboxes."""
 
 import blocks
 from lives import lives_figures
@@ -59,7 +59,7 @@ def _about(campaign):
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     campaign = CampaignData(data)
     sentence = campaign.sentence()
     body = page.section("fan", "Lives", lives_figures.fan(campaign, page))

@@ -1,4 +1,4 @@
-"""The page of gearpod compare: what a change does to detection."""
+"""Page of gearpod compare: effect of a change on detection."""
 
 import blocks
 from charts import INK, MUTED, colour, marker, panel, to_svg
@@ -17,7 +17,7 @@ class Compared:
         self.files = data["files"]
 
     def shown(self, file):
-        """The features of a file at the noise level that is shown."""
+        """Features of a file at the noise level shown."""
         return [f for f in self.files[file]["features"] if f["noise_level"] == self.level]
 
     def names(self):
@@ -31,13 +31,13 @@ class Compared:
         return None
 
     def nothing_found(self, file):
-        """What a file without a smallest fault says."""
+        """Text for a file without a smallest fault."""
         unknown = any(at["noise_level"] == self.level and at["without_threshold"]
                       for at in self.files[file]["smallest_faults"])
         return "no threshold" if unknown else "no tested size"
 
     def shortages(self):
-        """What files' healthy samples do not carry, each with its letter."""
+        """Shortages of the files' healthy samples, each with the letter of its file."""
         return [f"{letter(k)}: {f['shortage']}" for k, f in enumerate(self.files)
                 if f["shortage"]]
 
@@ -68,7 +68,7 @@ def _difference(entry, text):
 
 
 def _forest(compared, page, key, title, axis, scale):
-    """A mark with its interval a feature and file."""
+    """Forest plot: a mark with its interval per feature and file."""
     rows = [(name, k, next((f for f in compared.shown(k) if f["name"] == name), None))
             for name in compared.names() for k in range(1, len(compared.files))]
     rows = [(name, k, f[key]) for name, k, f in rows if f]
@@ -163,7 +163,7 @@ def _other_levels(compared, k):
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     compared = Compared(data)
     answer = "".join(f'<p class="answer">{escape(text)}</p>'
                      for text in [*compared.shortages(), compared.sentence()])

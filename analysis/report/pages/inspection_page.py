@@ -1,4 +1,4 @@
-"""The page of gearpod pod: POD from a table of inspections."""
+"""Page of gearpod pod: POD from a table of inspections."""
 
 import math
 
@@ -35,7 +35,7 @@ class Inspection:
 
 
 def _bars(points, parts=12):
-    """Rates of hits in groups of about equal count, by size."""
+    """Hit rates in groups of about equal count, by size."""
     points = sorted(points)
     step = max(1, round(len(points) / parts))
     for first in range(0, len(points), step):
@@ -174,7 +174,7 @@ def _facts(inspection):
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     inspection = Inspection(data)
     pod = inspection.pod
     answer = f'<p class="answer">{escape(inspection.sentence())}</p>'

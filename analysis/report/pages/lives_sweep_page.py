@@ -1,4 +1,4 @@
-"""The page of gearpod sweep --lives: what is found in time, along the values of some keys."""
+"""Page of gearpod sweep --lives: cracks found in time over the values of some keys."""
 
 import blocks
 from pages import sweep_grid
@@ -16,7 +16,7 @@ class SweptLives(Grid):
                      and (one["feature"], one["detector"]) == (feature, detector)), None)
 
     def best(self, point):
-        """By the feature and detector that find most over all points."""
+        """Entry of the feature and detector that find most over all points."""
         best = self.data["best"]
         return best and self.of(point, best["feature"], best["detector"])
 
@@ -137,7 +137,7 @@ def _figure(swept, page, title, axis, how, value, limits=None):
 
 
 def parts(data, page):
-    """Title, one sentence, HTML of the answer, HTML of the sections."""
+    """Title, headline sentence, HTML of the answer, HTML of the sections."""
     swept = SweptLives(data)
     answer = f'<p class="answer">{escape(swept.sentence())}</p>' + _answer(swept)
     body = ""
