@@ -1,5 +1,4 @@
-"""Figures on detection: probability of detection, ROC curve, detection rates over noise, ranking of
-the features."""
+"""Figures on detection: POD, ROC curve, detection rates over noise, ranking of the features."""
 
 import math
 
@@ -49,8 +48,7 @@ def _open(axes, report, level, paint):
 
 
 def uncertain_text(report, n):
-    """Text on the epistemic inputs and the resulting range of a90 of the first feature with a
-    band."""
+    """Text on the epistemic inputs and the range of a90 of the first feature with a band."""
     for f in report.order(n) if report.reliability else []:
         level = report.reliable(f, n)
         found = level["uncertain"]
