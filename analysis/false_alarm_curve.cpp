@@ -134,8 +134,8 @@ FalseAlarmCurve false_alarm_curve(const GradedValues& values, std::span<const Po
         }
     }
     if (curve.points.empty()) {
-        curve.refusal = curve.unfitted.empty() ? "too few healthy ones for a threshold"
-                                               : "the curve fits at none of the rates";
+        curve.refusal = curve.unfitted.empty() ? "too few healthy values for a threshold"
+                                               : "no curve fits at any of the rates";
         curve.unfitted.clear();
     }
     make_monotone(curve.points);

@@ -143,8 +143,8 @@ void add_responses(const Inspections& data, const InspectionRequest& request,
             threshold_of(result.noise.front(), *request.false_call_rate, request.alarm);
     } else {
         result.refusal =
-            "no threshold: give one, or a false-call rate and lines of size 0 (three at least) "
-            "to find it from";
+            "no threshold: give one, or a false-call rate and at least three lines of size 0 to "
+            "derive it from";
         return;
     }
     for (const double value : without) {

@@ -137,7 +137,7 @@ Reliability assess_reliability(const ReliabilityData& data,
                                const std::vector<FeatureDetection>& detections,
                                const DetectionRequest& request, int threads) {
     if (detections.size() != data.features.size()) {
-        throw std::invalid_argument("reliability: one detection a feature is needed");
+        throw std::invalid_argument("reliability: needs one detection per feature");
     }
     const std::size_t levels = request.noise_levels.size();
     const std::vector<std::size_t> group = groups_of(data.graded_size, request.groups);

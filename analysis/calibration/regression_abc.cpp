@@ -197,10 +197,10 @@ AbcPosterior regression_abc(const AbcDraws& draws, std::span<const double> obser
     if (draws.unit.size() != draws.size() * draws.parameters ||
         draws.summary.size() != draws.size() * draws.summaries ||
         observed.size() != draws.summaries || draws.parameters == 0 || draws.summaries == 0) {
-        throw std::invalid_argument("abc: draws and observation disagree in shape");
+        throw std::invalid_argument("abc: samples and observation differ in shape");
     }
     if (draws.size() < kFewest * draws.parameters) {
-        throw std::invalid_argument("abc: fewer than ten draws for a parameter");
+        throw std::invalid_argument("abc: fewer than ten samples per parameter");
     }
     const auto count = static_cast<Eigen::Index>(draws.size());
     const Matrix unit = Rows(draws.unit.data(), count, static_cast<Eigen::Index>(draws.parameters));

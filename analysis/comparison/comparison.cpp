@@ -140,7 +140,7 @@ std::string a90_refusal(const HitMissPod& pod, const char* which) {
         case SizeEstimate::Where::reached:
             return "";
         case SizeEstimate::Where::below_tested:
-            return name + ": a90 lies below the sizes tested";
+            return name + ": a90 is below the tested sizes";
         case SizeEstimate::Where::not_reached:
             break;
     }
@@ -229,7 +229,7 @@ Comparison compare_detection(const ComparedSample& a, const ComparedSample& b,
     if (request.paired && (a.healthy.size() != b.healthy.size() ||
                            !std::equal(a.graded_size.begin(), a.graded_size.end(),
                                        b.graded_size.begin(), b.graded_size.end()))) {
-        throw std::invalid_argument("comparison: paired samples are not the same gearboxes");
+        throw std::invalid_argument("comparison: paired samples have different gearboxes");
     }
     const Detected of_a = detected(a, request), of_b = detected(b, request);
     const Resampled resampled = resample(a, b, of_a, of_b, request, threads);

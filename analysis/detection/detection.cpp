@@ -126,8 +126,8 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
                   std::vector<std::string>& warnings) {
     if (level.tail && !level.tail->steady) {
         warnings.push_back(fmt::format(
-            "noise level {:g}: fewer of the most extreme healthy ones give the threshold a rate "
-            "outside its interval: the law does not hold, do not trust the threshold",
+            "noise level {:g}: the extrapolated threshold depends on how many extreme healthy "
+            "values are fitted; the Pareto tail does not fit, do not trust the threshold",
             level.noise_level));
     }
     const DetectionCell* healthy = healthy_cell(level);
@@ -135,8 +135,8 @@ void warn_of_tail(const LevelDetection& level, const DetectionRequest& request,
         !(clopper_pearson_interval(healthy->detected, healthy->tested, request.confidence).lower <=
           level.threshold_rate.upper)) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} graded healthy ones alarm, more than its "
-                        "interval explains",
+            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, more than the "
+                        "threshold's interval allows",
                         level.noise_level, healthy->detected, healthy->tested));
     }
 }
@@ -148,18 +148,17 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
         return warn_of_tail(level, request, warnings);
     }
     if (level.threshold_rate.upper > 2.0 * rate) {
-        warnings.push_back(
-            fmt::format("noise level {:g}: {} healthy ones fix the false-alarm rate of {:g} "
-                        "only to within "
-                        "[{:.2g}, {:.2g}]; it takes {} for an upper bound of twice the rate",
-                        level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
-                        level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
+        warnings.push_back(fmt::format(
+            "noise level {:g}: {} healthy records determine the false-alarm rate of {:g} only to "
+            "within [{:.2g}, {:.2g}]; {} are needed for an upper bound of twice the rate",
+            level.noise_level, level.threshold_sample, rate, level.threshold_rate.lower,
+            level.threshold_rate.upper, sample_for_rate(rate, request.confidence)));
     }
     if (!std::isnan(level.threshold) && tied(level, request)) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: healthy ones share the threshold's value, the feature is "
-            "constant there or nearly so; the false-alarm rate is below {:g}",
-            level.noise_level, rate));
+        warnings.push_back(
+            fmt::format("noise level {:g}: healthy records equal the threshold, so the feature is "
+                        "constant or nearly so; the false-alarm rate is below {:g}",
+                        level.noise_level, rate));
         return;
     }
     // Confidence such that the warning appears by chance in one of a thousand tables, not in one of
@@ -172,13 +171,12 @@ void warn_of_rate(const LevelDetection& level, const DetectionRequest& request,
     const Interval expected = expected_rate_interval(level.threshold_sample, healthy->detected,
                                                      healthy->tested, kSurprising);
     if (expected.lower > rate || expected.upper < rate) {
-        warnings.push_back(fmt::format(
-            "noise level {:g}: {} of {} graded healthy ones alarm, which a false-alarm rate "
-            "of "
-            "{:g} does not explain even with the threshold's own scatter (it would be in "
-            "[{:.2g}, {:.2g}])",
-            level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
-            expected.upper));
+        warnings.push_back(
+            fmt::format("noise level {:g}: {} of {} graded healthy records alarm, which does not "
+                        "agree with a false-alarm rate of {:g} even within the threshold's "
+                        "uncertainty (expected rate in [{:.2g}, {:.2g}])",
+                        level.noise_level, healthy->detected, healthy->tested, rate, expected.lower,
+                        expected.upper));
     }
 }
 
@@ -186,19 +184,19 @@ void warn(const LevelDetection& level, std::size_t healthy, double rate,
           std::vector<std::string>& warnings) {
     if (std::isnan(level.threshold)) {
         const bool tied_tail = tail_reaches(level.threshold_sample, rate);
-        warnings.push_back(fmt::format(
-            "noise level {:g}: no threshold, {} healthy ones are too few for a false-alarm "
-            "rate of {:g}{}; it takes {}",
-            level.noise_level, level.threshold_sample, rate,
-            tied_tail ? ", and the most extreme are equal" : "",
-            tied_tail ? sample_for_threshold(rate)
-                      : std::min(sample_for_threshold(rate), sample_for_tail(rate))));
+        warnings.push_back(
+            fmt::format("noise level {:g}: no threshold, because {} healthy records are too few "
+                        "for a false-alarm rate of {:g}{}; at least {} are needed",
+                        level.noise_level, level.threshold_sample, rate,
+                        tied_tail ? ", and the most extreme are equal" : "",
+                        tied_tail ? sample_for_threshold(rate)
+                                  : std::min(sample_for_threshold(rate), sample_for_tail(rate))));
     }
     const long without = static_cast<long>(healthy) - level.threshold_sample;
     if (without > 0) {
         warnings.push_back(
-            fmt::format("noise level {:g}: {} of {} healthy ones gave no value and do not count "
-                        "in the threshold",
+            fmt::format("noise level {:g}: {} of {} healthy records have no value and are not used "
+                        "for the threshold",
                         level.noise_level, without, healthy));
     }
 }
@@ -254,7 +252,7 @@ FeatureDetection detect(const std::string& feature, Alarm alarm, const FeatureSa
     }
     if (const auto outside = std::count(group.begin(), group.end(), kNoGroup); outside > 0) {
         result.warnings.push_back(fmt::format(
-            "{} of {} gearboxes have a fault size outside all size groups and do not count",
+            "{} of {} gearboxes have a fault size outside all size groups and are not counted",
             outside, group.size()));
     }
     return result;

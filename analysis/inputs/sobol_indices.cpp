@@ -86,11 +86,11 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
     output = output.first(std::min(output.size(), kMost));
     result.count = static_cast<long>(output.size());
     if (output.size() < kFewest) {
-        result.refusal = fmt::format("{} gearboxes, {} are needed", output.size(), kFewest);
+        result.refusal = fmt::format("only {} gearboxes, {} are needed", output.size(), kFewest);
         return result;
     }
     if (!varies(output)) {
-        result.refusal = "all gearboxes give the same";
+        result.refusal = "all gearboxes have the same value";
         return result;
     }
     std::vector<std::vector<double>> columns;
@@ -114,7 +114,7 @@ SobolIndices sobol_indices(std::span<const double> output, const std::vector<Inp
     if (std::abs(most.rank) >
         std::max(kSlight, kChance / std::sqrt(static_cast<double>(output.size())))) {
         result.refusal = fmt::format(
-            "{} and {} go together (rank correlation {:.2f}), and the indices are of independent "
+            "{} and {} are correlated (rank correlation {:.2f}), but the indices need independent "
             "inputs",
             result.inputs[most.first].name, result.inputs[most.second].name, most.rank);
         result.inputs.clear();

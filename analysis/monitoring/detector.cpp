@@ -81,8 +81,8 @@ std::string detector_text(const Detector& detector) {
 }
 
 std::string detector_forms() {
-    return "single, 2 of 3, ewma 0.1 (weight of the latest), cusum 0.5 (reference value), trend "
-           "100 (records it looks back), each with two-sided behind it or not";
+    return "single, 2 of 3, ewma 0.1 (weight of the latest record), cusum 0.5 (reference value), "
+           "trend 100 (records in its window), each optionally followed by two-sided";
 }
 
 DetectorState::DetectorState(const Detector& detector)

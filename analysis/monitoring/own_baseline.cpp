@@ -88,7 +88,7 @@ std::vector<double> residuals(std::span<const double> values, std::span<const do
 
 void check(std::size_t values, std::span<const double> condition) {
     if (!condition.empty() && condition.size() != values) {
-        throw std::invalid_argument("baseline: as many conditions as values");
+        throw std::invalid_argument("baseline: needs one condition per value");
     }
 }
 

@@ -82,14 +82,14 @@ GoodnessOfFit goodness_of_fit(const HitMissTable& table, const PodCurve& curve) 
 std::string fit_text(const GoodnessOfFit& fit) {
     switch (fit.test) {
         case GoodnessOfFit::Test::saturated:
-            return fmt::format("likelihood ratio against every size's own rate: p = {:.2g}",
+            return fmt::format("likelihood ratio against separate rates of all sizes: p = {:.2g}",
                                fit.p_value);
         case GoodnessOfFit::Test::hosmer_lemeshow:
             return fmt::format("Hosmer-Lemeshow: p = {:.2g}", fit.p_value);
         case GoodnessOfFit::Test::none:
             break;
     }
-    return "fit not testable, too few sizes";
+    return "fit not testable: too few sizes";
 }
 
 }  // namespace gearpod::analysis

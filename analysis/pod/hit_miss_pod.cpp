@@ -24,18 +24,18 @@ constexpr double kPod = 0.9;
 std::string outcome_refusal(const HitMissTable& table,
                             const std::string& tested = HitMissRequest{}.tested) {
     if (table.empty()) {
-        return fmt::format("no {} gave a value", tested);
+        return fmt::format("no {} has a value", tested);
     }
     const double hits = total_hits(table);
     if (hits == 0.0) {
-        return fmt::format("no {} was detected: not reached at any tested size", tested);
+        return fmt::format("no {} was detected: a90 is not reached at any tested size", tested);
     }
     if (hits == total_tests(table)) {
-        return fmt::format("every {} was detected: the tested sizes do not show where a90 lies",
+        return fmt::format("every {} was detected: smaller sizes must be tested to locate a90",
                            tested);
     }
     if (table.size() < 2) {
-        return "one fault size only, a curve needs two at least";
+        return "only one fault size, a curve needs at least two";
     }
     return {};
 }
@@ -95,7 +95,7 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
         return result;
     }
     if (form.floor == 0.0 && !form.free_ceiling && !form.firth && separated(table)) {
-        fit.refusal = "hits and misses do not overlap, any slope from some value on fits";
+        fit.refusal = "hits and misses do not overlap, so any steep enough slope fits";
         return result;
     }
     if (static_cast<int>(table.size()) < form.parameters()) {
@@ -117,11 +117,11 @@ Fitted fit_form(const HitMissTable& table, Scales& scales, const PodForm& form,
     fit.log_likelihood = maximum.log_likelihood;
     fit.aic = 2.0 * form.parameters() - 2.0 * (maximum.log_likelihood - maximum.penalty);
     if (!form.firth && likelihood.sizes_in_transition(maximum.parameters) < 2) {
-        fit.refusal = "the rate steps up between two tested sizes, any steeper slope fits as well";
+        fit.refusal = "the rate rises between two tested sizes, so any steeper slope fits as well";
     } else if (!maximum.converged) {
-        fit.refusal = "the likelihood has no maximum within reach";
+        fit.refusal = "the maximum-likelihood fit does not converge";
     } else if (form.free_ceiling && fit.curve.ceiling >= 1.0 - 1e-9) {
-        fit.refusal = "the ceiling is 1";
+        fit.refusal = "the fitted ceiling is 1";
     } else {
         fit.fit = goodness_of_fit(table, fit.curve);
     }
@@ -230,7 +230,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     }
     if (pod.rule.method == BoundMethod::wald && (request.fit_ceiling || request.outcomes.empty())) {
         throw std::invalid_argument(
-            "hit/miss POD: Wald's bounds need the outcomes, and no ceiling");
+            "hit/miss POD: Wald bounds need the individual outcomes and no fitted ceiling");
     }
     Scales scales(table);
     std::vector<Fitted> fitted;
@@ -252,7 +252,7 @@ HitMissPod hit_miss_pod(const HitMissTable& table, const HitMissRequest& request
     }
     pod.chosen = best->fit;
     if (!(best->fit.curve.slope > 0.0)) {
-        pod.refusal = "the rate does not rise with the fault size";
+        pod.refusal = "the detection rate does not rise with the fault size";
         return pod;
     }
     pod.doubtful = best->fit.fit.p_value < kLackOfFit;

@@ -38,10 +38,11 @@ struct Transition {
 PodLikelihood::PodLikelihood(std::shared_ptr<const StandardisedSizes> sizes, const PodForm& form)
     : sizes_(std::move(sizes)), form_(form) {
     if (sizes_->sizes().size() < 2) {
-        throw std::invalid_argument("POD likelihood: needs two fault sizes at least");
+        throw std::invalid_argument("POD likelihood: needs at least two fault sizes");
     }
     if (form_.firth && form_.free_ceiling) {
-        throw std::invalid_argument("POD likelihood: a penalised ceiling is not defined here");
+        throw std::invalid_argument(
+            "POD likelihood: Firth's penalty cannot be combined with a fitted ceiling");
     }
 }
 

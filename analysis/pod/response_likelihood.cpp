@@ -57,7 +57,7 @@ ResponseLikelihood::ResponseLikelihood(std::vector<Response> responses, bool by_
     std::tie(x_centre_, x_spread_) = moments(responses_, [](const Response& r) { return r.x; });
     std::tie(y_centre_, y_spread_) = moments(responses_, [](const Response& r) { return r.y; });
     if (responses_.size() < 3 || !(x_spread_ > 0.0 && y_spread_ > 0.0)) {
-        throw std::invalid_argument("response likelihood: needs three values that differ");
+        throw std::invalid_argument("response likelihood: needs at least three values that differ");
     }
     for (Response& response : responses_) {
         response.x = (response.x - x_centre_) / x_spread_;

@@ -46,11 +46,11 @@ std::string data_refusal(const ResponseRows& rows, const std::set<double>& disti
         return "no threshold";
     }
     if (rows.size.size() < kFewest) {
-        return fmt::format("{} {} with a value, the checks need {}", rows.size.size(),
+        return fmt::format("only {} {} with a value, the checks need {}", rows.size.size(),
                            request.tested, kFewest);
     }
     if (distinct.size() < 3) {
-        return fmt::format("{} fault sizes, linearity needs three", distinct.size());
+        return fmt::format("only {} fault sizes, the linearity check needs three", distinct.size());
     }
     return "";
 }

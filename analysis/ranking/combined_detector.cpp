@@ -110,7 +110,7 @@ std::string fit_covariate(Covariate& covariate, const Half& half,
 std::string sample_refusal(long healthy, long faulty) {
     return std::min(healthy, faulty) >= kFewest
                ? ""
-               : fmt::format("{} healthy and {} faulty ones to train on, {} of each are needed",
+               : fmt::format("{} healthy and {} faulty training gearboxes, {} of each are needed",
                              healthy, faulty, kFewest);
 }
 

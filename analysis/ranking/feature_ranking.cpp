@@ -69,7 +69,7 @@ FeatureRanking rank_features(const std::vector<RankedFeature>& features, double 
         }
     }
     if (used.empty()) {
-        ranking.refusal = "no feature has values for nine tenths of the gearboxes";
+        ranking.refusal = "no feature has values for at least 90 % of the gearboxes";
         return ranking;
     }
     const auto healthy = complete_rows(used, &RankedFeature::healthy);

@@ -86,14 +86,14 @@ bool ascend(const Eigen::MatrixXd& design, std::span<const char> yes, const Bina
 BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
                      const BinaryModel& model, const Eigen::VectorXd& start) {
     if (design.rows() != static_cast<Eigen::Index>(yes.size()) || design.cols() == 0) {
-        throw std::invalid_argument("binary regression: a row of the design for each outcome");
+        throw std::invalid_argument("binary regression: needs one row of the design per outcome");
     }
     BinaryFit fit;
     const auto count = static_cast<double>(yes.size());
     const auto hits = static_cast<double>(
         std::count_if(yes.begin(), yes.end(), [](char outcome) { return outcome != 0; }));
     if (hits == 0.0 || hits == count) {
-        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are alike";
+        fit.refusal = count == 0.0 ? "no gearboxes" : "all outcomes are equal";
         return fit;
     }
     const double share =
@@ -103,7 +103,7 @@ BinaryFit fit_binary(const Eigen::MatrixXd& design, std::span<const char> yes,
     b.head(start.size()) = start;
     Slopes here = evaluate(design, yes, model, b);
     if (!ascend(design, yes, model, b, here)) {
-        fit.refusal = "the likelihood has no maximum within reach";
+        fit.refusal = "the maximum-likelihood fit does not converge";
         return fit;
     }
     const Eigen::LDLT<Eigen::MatrixXd> solver(here.information);

@@ -51,7 +51,7 @@ double RegressionLine::leverage(double x) const {
 
 RegressionLine regression_line(std::span<const double> x, std::span<const double> y) {
     if (x.size() != y.size() || x.size() < 3) {
-        throw std::invalid_argument("regression line: needs three points at least");
+        throw std::invalid_argument("regression line: needs at least three points");
     }
     const auto n = static_cast<double>(x.size());
     RegressionLine line;

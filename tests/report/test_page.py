@@ -146,7 +146,7 @@ class Statements(unittest.TestCase):
         self.assertIn("0 (diverged), 1 (not settled)", said("all_failed"))
 
     def test_a_constant_feature_is_named(self):
-        self.assertIn("the feature is constant there or nearly so",
+        self.assertIn("the feature is constant or nearly so",
                       said("constant_feature"))
 
     def test_signals_that_cannot_be_made_again_are_refused(self):
