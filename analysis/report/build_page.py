@@ -29,7 +29,7 @@ def state_banner(report):
     state = report.data["provenance"].get("state", "complete")
     if state == "running" or state.startswith("interrupted"):
         asked = report.data["provenance"].get("gearboxes_asked_for", "?")
-        return (f'<p class="banner" role="note">Not the whole study: {report.data["gearboxes"]} of '
+        return (f'<p class="banner" role="note">Incomplete study: {report.data["gearboxes"]} of '
                 f"{asked} gearboxes ({state}).</p>")
     return ""
 
@@ -109,7 +109,7 @@ def main(arguments):
         return 2
     missing = missing_packages()
     if missing:
-        print(f"{sys.executable} lacks what figures are drawn with: apt-get install "
+        print(f"{sys.executable} lacks packages for drawing figures: apt-get install "
               + " ".join(missing), file=sys.stderr)
         return 2
     if arguments[0] == "-":

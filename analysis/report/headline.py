@@ -8,8 +8,10 @@ import numerical_figures
 from words import (TESTED_ALONE, count, escape, input_name, joined, noise, number, percent, plural, quantity,
                    rate_with_bounds)
 
-CARRIED = '<abbr title="the bound of a feature or noise level that finds no more">†</abbr>'
-TESTED_SIZE = '<abbr title="a tested size: no detection curve vouches for one between">*</abbr>'
+CARRIED = ('<abbr title="the bound of another feature or noise level that finds no more faults">'
+           "†</abbr>")
+TESTED_SIZE = ('<abbr title="a tested size; there is no detection curve for sizes in between">*'
+               "</abbr>")
 ARCSECONDS = 180 * 3600 / math.pi  # per radian
 
 
@@ -105,7 +107,7 @@ def _input_limit(report, found):
     sizes = report.sizes.group(misses["smallest"], misses["largest"])
     if not strong:
         return (f"Misses at {sizes} ({misses['misses']} of {misses['misses'] + misses['hits']}): "
-                "no random input has an influence told apart from chance.")
+                "no random input has a significant influence.")
     texts = []
     for i in strong[:3]:
         larger = i["larger_in_misses"] >= 0.5
@@ -124,20 +126,20 @@ def _source(found):
 
 def _sample_limit(report, found):
     if not report.reliability:
-        return ("Sizes: the study is too large for detection curves, so this is one of the sizes "
-                "tested, not a size between them.")
+        return ("Sizes: the study is too large for detection curves, so this is one of the "
+                "tested sizes, not a size between them.")
     f = report.feature_number(found["feature"])
     pod = report.reliable(f, report.reference)["hit_miss"]
     if found["source"]:
-        return (f"Sizes: this is the bound of {_source(found)}, which finds no more of any tested "
-                f"size, so that it holds for {found['feature']} here as well"
-                + ("." if found["from_curve"] else "; one of the sizes tested, not a size between "
-                   "them."))
+        return (f"Sizes: this is the bound of {_source(found)}, which finds no more faults of any "
+                f"tested size, so it also holds for {found['feature']} here"
+                + ("." if found["from_curve"] else
+                   "; one of the tested sizes, not a size between them."))
     if not found["from_curve"]:
         why = pod["refusal"] or ("its goodness of fit is rejected" if pod["doubtful"]
                                  else "its curve does not reach that far")
-        return ("Sizes: no detection curve vouches for it "
-                f"({found['feature']}: {why}), so it is one of the sizes tested, not a size between them.")
+        return (f"Sizes: there is no detection curve for it ({found['feature']}: {why}), so it is "
+                "one of the tested sizes, not a size between them.")
     estimate = pod["a90"]["estimate"]
     if estimate["where"] != "reached":
         return None
@@ -188,8 +190,8 @@ def footnotes(report):
         notes.append(TESTED_ALONE)
     carried = list(dict.fromkeys(_source(found) for found in faults if found["source"]))
     if carried:
-        notes.append(f"† the bound of {escape(joined(carried))}, which finds no more of any tested "
-                     "size.")
+        notes.append(f"† the bound of {escape(joined(carried))}, which finds no more faults of "
+                     "any tested size.")
     return "".join(f'<p class="small">{text}</p>' for text in notes)
 
 
@@ -241,7 +243,7 @@ def facts(report):
     healthy, faulty = report.sample()
     set_ = any(level["threshold"] is not None for f in report.detection for level in f["levels"])
     recorded = bool(report.data["provenance"].get("recordings"))
-    sample = "those healthy ones" if recorded else "an independent healthy sample"
+    sample = "these healthy recordings" if recorded else "an independent healthy sample"
     thresholds = (f" Thresholds from {sample} at a false-alarm rate of "
                   f"{percent(report.data['detection']['false_alarm_rate'])}." if set_ else "")
     if recorded:

@@ -78,16 +78,16 @@ class Report:
         if not self.names or not self.levels:
             return "The study computes no feature, so there is nothing to detect a fault with."
         if healthy == 0 and faulty == 0:
-            return "No gearbox has a value of any feature, so nothing can be said of detection."
+            return "No gearbox has a value of any feature, so detection cannot be assessed."
         if faulty == 0:
-            return ("No gearbox of this study has a fault, so it says nothing of detection: only "
-                    "what healthy gearboxes look like.")
+            return ("No gearbox of this study has a fault, so detection cannot be assessed; only "
+                    "healthy gearboxes are shown.")
         if healthy == 0:
-            return ("No healthy gearbox has a value, so no alarm threshold can be set and nothing "
-                    "can be said of detection.")
+            return ("No healthy gearbox has a value, so no alarm threshold can be set and "
+                    "detection cannot be assessed.")
         if all(self.without_threshold(n) for n in range(len(self.levels))):
             return self.data["detection"]["shortage"]
         if min(healthy, faulty) < FEWEST:
-            return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; fewer than "
-                    f"{FEWEST} of a kind say too little of detection to be judged.")
+            return (f"Only {healthy} healthy and {faulty} faulty gearboxes have values; at least "
+                    f"{FEWEST} of each are needed to assess detection.")
         return None

@@ -100,7 +100,7 @@ def input_name(name, unit):
     return name.replace("_", " ")
 
 
-TESTED_ALONE = "* a tested size; no detection curve vouches for one between."
+TESTED_ALONE = "* a tested size; there is no detection curve for sizes in between."
 
 _SHOWN = {"order": "", "m/s^2": "m/s²", "kg m^2": "kg m²", "1": "", "N/m": "N/m"}
 

@@ -56,7 +56,7 @@ def _level(results: "Results", feature: str, noise: Optional[float]) -> Dict[str
             at = results.level(results.reference if noise is None else noise)
             level: Dict[str, Any] = entry["levels"][at]
             return level
-    raise KeyError(f"no {feature}; there are {', '.join(results.features)}")
+    raise KeyError(f"no feature {feature}; available: {', '.join(results.features)}")
 
 
 def pod(results: "Results", feature: str, noise: Optional[float] = None,
@@ -115,7 +115,7 @@ def signal(results: "Results", row: int, name: str = "sensor", axes: Optional[An
     """One signal of one gearbox over time, or over the sample number if there is no time."""
     signals = results.signals(row)
     if name not in signals:
-        raise KeyError(f"no {name}; there are {', '.join(signals)}")
+        raise KeyError(f"no signal {name}; available: {', '.join(signals)}")
     axes = _axes(axes)
     time = next((n for n in ("time_s", "time") if n in signals), None)
     x = signals[time] if time else np.arange(len(signals[name]))

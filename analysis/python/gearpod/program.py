@@ -24,7 +24,7 @@ class Failed(RuntimeError):
     the program's own."""
 
     def __init__(self, code: int, message: str) -> None:
-        super().__init__(message.strip() or f"gearpod ended with {code}")
+        super().__init__(message.strip() or f"gearpod exited with code {code}")
         self.code = code
 
 
@@ -40,7 +40,7 @@ def find_program() -> str:
                 return str(folder / place)
     found = shutil.which("gearpod")
     if found is None:
-        raise FileNotFoundError("no program gearpod: build it, put it into PATH, or name it in "
+        raise FileNotFoundError("program gearpod not found: build it, add it to PATH, or set "
                                 "GEARPOD_PROGRAM")
     return found
 
@@ -101,5 +101,5 @@ def run(study: PathLike, *, set: Optional[Mapping[str, Any]] = None, out: Option
     shown = sys.stderr.isatty() if progress is None else progress
     done = call(arguments + ([] if shown else ["--quiet"]), shown)
     if done.returncode == SOME_FAILED:
-        warnings.warn(f"{target}: some gearboxes failed; results.status says which", stacklevel=2)
+        warnings.warn(f"{target}: some gearboxes failed; results.status shows which", stacklevel=2)
     return open_results(target)

@@ -51,8 +51,8 @@ def studies_folder() -> pathlib.Path:
         for place in ("studies/published", "share/gearpod/studies/published"):
             if (folder / place / "figures.json").is_file():
                 return folder / place
-    raise FileNotFoundError("no studies/published/figures.json beside the program; name the program "
-                            "of a checkout or an installation in GEARPOD_PROGRAM")
+    raise FileNotFoundError("studies/published/figures.json not found near the program; set "
+                            "GEARPOD_PROGRAM to the program of a checkout or an installation")
 
 
 def figures() -> List[Figure]:
@@ -237,14 +237,16 @@ def _text(row: Row) -> str:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     known = {figure["name"]: figure for figure in figures()}
     parser = argparse.ArgumentParser(prog="python3 -m gearpod.published", description=(
-        "Published figures beside this program's numbers."))
-    parser.add_argument("names", nargs="*", metavar="NAME", help="figures; without any, all")
-    parser.add_argument("--out", default="published", help="folder of pictures (default: published)")
-    parser.add_argument("--list", action="store_true", help="what there is")
+        "Compares published figures with this program's results."))
+    parser.add_argument("names", nargs="*", metavar="NAME", help="names of figures (default: all)")
+    parser.add_argument("--out", default="published",
+                        help="folder for the figures (default: published)")
+    parser.add_argument("--list", action="store_true", help="list the figures")
     options = parser.parse_args(arguments)
     unknown = [name for name in options.names if name not in known]
     if unknown:
-        print(f"no figure {', '.join(unknown)}; there are {', '.join(known)}", file=sys.stderr)
+        print(f"unknown figure {', '.join(unknown)}; available: {', '.join(known)}",
+              file=sys.stderr)
         return 2
     if options.list:
         for figure in known.values():
@@ -260,7 +262,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
 
     out = pathlib.Path(options.out)
     table: List[Row] = []
-    print(f"{'figure':<16}{'published':>10}{'ours':>12}  what")
+    print(f"{'figure':<16}{'published':>10}{'computed':>12}  what")
     try:
         out.mkdir(parents=True, exist_ok=True)
         for name in options.names or known:

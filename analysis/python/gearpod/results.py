@@ -43,8 +43,8 @@ class Results:
             if int(self.attributes["format_version"]) > NEWEST:
                 raise ValueError(f"{self.path}: written by a newer gearpod")
             if self.attributes.get("kind") == "lives":
-                raise ValueError(f"{self.path}: holds lives; read it with h5py (/features are "
-                                 "gearboxes x records, /hours when)")
+                raise ValueError(f"{self.path}: contains lives; read it with h5py (/features: "
+                                 "gearboxes x records, /hours: their times)")
             self.noise_levels: Array = file["noise_levels"][()]
             self.group: Array = file["instances/group"][()]
             self.status: Array = file["status"][()]
@@ -98,7 +98,7 @@ class Results:
         """Index of a noise level. Raises KeyError with the available levels."""
         at = np.flatnonzero(np.isclose(self.noise_levels, noise))
         if at.size == 0:
-            raise KeyError(f"no noise level {noise:g}; there are "
+            raise KeyError(f"no noise level {noise:g}; available: "
                            + ", ".join(f"{level:g}" for level in self.noise_levels))
         return int(at[0])
 
@@ -185,7 +185,7 @@ class Results:
 
     def _read(self, folder: str, name: str, names: List[str]) -> Array:
         if name not in names:
-            raise KeyError(f"no {name}; there are {', '.join(names)}")
+            raise KeyError(f"no {name}; available: {', '.join(names)}")
         with h5py.File(self.path, "r") as file:
             values: Array = file[folder][name][()]
         return values

@@ -58,22 +58,23 @@ class CampaignData:
         best, ends = self.best(), len(self.ended)
         rate = number(self.data["false_alarms_per_1000_h"])
         if best is None:
-            return (f"The healthy lives are too few for a threshold at {rate} false alarms in "
+            return (f"The healthy lives are too few for a threshold at {rate} false alarms per "
                     "1000 hours.")
         if not ends:
-            return "No tooth goes within its records: nothing can be found before the end."
+            return "No tooth breaks within its records, so nothing can be found before the end."
         low, high = best["share_bounds"]
         text = (f"{best['feature']} by {best['detector']} finds {count(best['found'])} of "
-                f"{count(ends)} cracks before the tooth goes ({percent(low)} to {percent(high)})")
+                f"{count(ends)} cracks before the tooth breaks ({percent(low)} to {percent(high)})")
         if best["warning_50_h"] is not None:
-            text += (f", half of those found {number(best['warning_50_h'])} hours before or "
-                     f"earlier, nine in ten {number(best['warning_90_h'])}")
+            text += (f", half of those found at least {number(best['warning_50_h'])} hours "
+                     f"before, 90\u00a0% at least {number(best['warning_90_h'])} hours")
         alarms = best["false_alarms"]
         if alarms["per_1000_h"] is None:
-            return text + f", at {rate} false alarms in 1000 hours, which no healthy lives count."
+            return text + (f", at {rate} false alarms per 1000 hours (not counted, for lack of "
+                           "healthy lives).")
         low, high = (number(bound) for bound in alarms["bounds"])
-        return text + (f", at {number(alarms['per_1000_h'])} false alarms in 1000 hours ({low} to "
-                       f"{high}; set to {rate}).")
+        return text + (f", at {number(alarms['per_1000_h'])} false alarms per 1000 hours ({low} "
+                       f"to {high}; set to {rate}).")
 
 
 def _order(monitored):

@@ -96,9 +96,10 @@ def _forest(compared, page, key, title, axis, scale):
     svg = to_svg(figure, title, "; ".join(
         f"{name}, {letter(k)}: {_difference(e, lambda v: number(v * scale))}"
         for name, k, e in drawn), page.names)
-    return page.figure(title, [svg], "Each file's value less A's, with its interval at "
-                       f"{percent(compared.data['confidence'])}; right of the dashed line it is "
-                       "larger than A's. An open end is drawn at the mark.", data)
+    return page.figure(title, [svg], "Each file's value minus A's, with its interval at "
+                                     f"{percent(compared.data['confidence'])}; right of the "
+                                     "dashed line it is larger than A's. An open end is drawn at "
+                                     "the mark.", data)
 
 
 def _rates(compared, page, k):
@@ -118,9 +119,9 @@ def _rates(compared, page, k):
         reach = max(0.05, *(abs(v) for s in sizes for v in (s["lower"], s["upper"])))
         axes.set_ylim(-1.05 * reach, 1.05 * reach)
         axes.set_xlabel(compared.sizes.axis())
-        axes.set_ylabel(f"Detection rate, {letter(k)} less A")
+        axes.set_ylabel(f"Detection rate, {letter(k)} minus A")
         axes.set_title(feature["name"], fontsize=10, color=INK, loc="left")
-        charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} less A",
+        charts.append(to_svg(figure, f"{feature['name']}: detection rate, {letter(k)} minus A",
                              "; ".join(f"{compared.sizes.group(s['size_low'], s['size_high'])}: "
                                        f"{s['difference']:+.3f}" for s in sizes), page.names))
         rows = [[compared.sizes.group(s["size_low"], s["size_high"]), *map(count, s["tested"]),
@@ -132,7 +133,7 @@ def _rates(compared, page, k):
                                     f"only {letter(k)} found", "p"], rows))
     if not charts:
         return ""
-    return page.figure(f"Detection rates, {letter(k)} less A, at {noise(compared.level)}", charts,
+    return page.figure(f"Detection rates, {letter(k)} minus A, at {noise(compared.level)}", charts,
                        "Difference of the share found, by fault size, with its interval. Above the "
                        "dashed line more are found than in A.", "".join(tables))
 
@@ -158,7 +159,7 @@ def _other_levels(compared, k):
              _difference(f["auc"], _fixed), p_value(f["auc"]["p_value"])]
             for f in compared.files[k]["features"]]
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
-    return blocks.table(f"All noise levels: {letter(k)} less A",
+    return blocks.table(f"All noise levels: {letter(k)} minus A",
                         ["feature", "noise", f"a90{unit}", "AUC", "p"], rows)
 
 
@@ -171,8 +172,8 @@ def parts(data, page):
                            [[letter(k), f["path"], f["title"], count(f["gearboxes"])]
                             for k, f in enumerate(compared.files)])
     if data.get("first_records"):
-        answer += ('<p class="small">Thresholds of the differences are those of the first record '
-                   "of each healthy gearbox; the smallest faults rest on all records.</p>")
+        answer += ('<p class="small">The differences use thresholds set by the first record of '
+                   "each healthy gearbox; the smallest faults use all records.</p>")
     unit = f", {compared.sizes.unit}" if compared.sizes.unit else ""
     body = page.section("sizes", "Sizes and areas", _forest(
         compared, page, "a90", f"Difference of a90 at {noise(compared.level)}",

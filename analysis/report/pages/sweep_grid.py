@@ -162,7 +162,8 @@ def charts_of(swept, page, title, axis, lines, limits=None):
             for (name, _), line in zip(lines, series))
         charts.append(to_svg(figure, f"{title}{', ' if text else ''}{text}", about, page.names))
     left = len(panels) - len(drawn)
-    return charts, (f" Drawn are the first {MOST_CHARTS} of {len(panels)} combinations." if left
+    return charts, (f" The charts show the first {MOST_CHARTS} of {len(panels)} "
+                    "combinations." if left
                     else "")
 
 
@@ -184,8 +185,8 @@ def files(grid, page, how_to_compare):
     listed = blocks.table("Results files", [key.name for key in grid.keys] + ["file"],
                           [values(grid, p) + [p["results"]] for p in grid.points[:MOST_ROWS]])
     return page.section("files", "The studies", blocks.bullets([
-        "Every study draws the same gearboxes (common random numbers): chance moves points together, "
-        "but not alike. Intervals are each point's own, so they may overlap where a pair "
-        f"differs surely{how_to_compare}.",
+        "Every study draws the same gearboxes (common random numbers), so the points are "
+        "correlated. Each interval is for one point; intervals may overlap although two points "
+        f"differ significantly{how_to_compare}.",
         "Varied: " + "; ".join(f"{k.key} = {', '.join(map(clipped, k.values[:50]))}"
                                for k in grid.keys) + "."]) + listed)

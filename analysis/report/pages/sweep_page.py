@@ -122,13 +122,13 @@ def _by_noise(swept, page):
     title = f"Smallest fault found over {swept.along.name}"
     charts, left = sweep_grid.charts_of(swept, page, title, swept.sizes.axis(), [line(v) for v in chosen])
     if not charts:
-        return blocks.note("No fault size is found in any of them.")
+        return blocks.note("No fault size is found in any study.")
     data = sweep_grid.table(swept, title, [key.name for key in swept.keys] + [noise(v) for v in levels],
                   [sweep_grid.values(swept, p) + [swept.smallest_text(p, v) for v in levels]
                    for p in swept.points])
     return page.figure(title, charts, "Lower is better: the smallest fault found with 90\u00a0% "
-                       f"probability at {percent(swept.confidence)} confidence by any feature. No "
-                       "mark: none of the tested sizes is." + left, data)
+                                      f"probability at {percent(swept.confidence)} confidence by "
+                                      "any feature. No mark: no tested size is found." + left, data)
 
 
 def _by_feature(swept, page, key, title, axis, how, shown):
@@ -152,7 +152,7 @@ def _by_feature(swept, page, key, title, axis, how, shown):
                     number(entry[k]) for k in (key, *shown)])
     data = sweep_grid.table(swept, title, [k.name for k in swept.keys]
                   + ["feature", "value", "lower", "upper"], rows)
-    some = (f" Drawn are the {len(names)} features that lead most often."
+    some = (f" The chart shows the {len(names)} features that are best most often."
             if len(swept.names()) > len(names) else "")
     return page.figure(title, charts, how + some + left, data)
 
@@ -176,8 +176,9 @@ def parts(data, page):
             "no curve, or it does not reach 90\u00a0% within the tested sizes.",
             ("a90_lower", "a90_bound")) + _by_feature(
             swept, page, "auc", f"Area under the ROC over {swept.along.name} at {at}",
-            "Area under the ROC", "Share of pairs of a faulty and a healthy gearbox that the feature "
-            f"ranks rightly, all fault sizes together, with its interval at {sure}; 0.5 is chance.",
+            "Area under the ROC", "Share of pairs of a faulty and a healthy gearbox that the "
+                                  "feature ranks correctly, all fault sizes together, with its "
+                                  f"interval at {sure}; 0.5 is chance.",
             ("auc_lower", "auc_upper")))
     body += sweep_grid.files(
         swept, page, ": gearpod compare takes the difference gearbox by gearbox")

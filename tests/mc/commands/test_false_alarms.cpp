@@ -135,7 +135,7 @@ TEST_CASE("What a calibration left open is a band of its own, in text, data and 
     CHECK(band["band"]["lower"].size() == level["hit_miss"]["band"]["size"].size());
     REQUIRE(program("report " + results + " --html " + folder.file("r.html")).code == 0);
     const std::string page = test::bytes_of(folder.file("r.html"));
-    CHECK(page.find("Not known of the machine") != std::string::npos);
+    CHECK(page.find("Unknown for this machine") != std::string::npos);
     const Outcome unknown = program("describe " + study("planet-crack-ideal.toml") +
                                     " --set 'detection.uncertain_inputs=[\"sensor.gain\"]'");
     CHECK(unknown.code == 2);
