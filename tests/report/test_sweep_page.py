@@ -81,9 +81,9 @@ class MadeUp(unittest.TestCase):
 
     def test_lives_are_named_with_their_monitor(self):
         said = parsed("lives_sweep_one").text().replace("\u00a0", " ")
-        self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth goes "
+        self.assertIn("change_window_ratio by single finds 100 % of the cracks before the tooth breaks "
                       "at interval_h = 1, 80 % at interval_h = 100", said)
-        self.assertIn("480 h before or earlier at interval_h = 100, 600 h at interval_h = 1", said)
+        self.assertIn("at least 480 h before at interval_h = 100, 600 h at interval_h = 1", said)
         html = build_page.page_html(MADE["lives_sweep_two"])
         table = html[html.index("<tbody>"):html.index("</tbody>")]
         rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]

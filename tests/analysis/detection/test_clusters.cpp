@@ -170,7 +170,7 @@ TEST_CASE("Detection uses the gearbox of each recording for its intervals and re
     // The upper bound of the largest of four is 1 - 0.025^(1/4).
     CHECK(four.levels[0].threshold_rate.upper == Approx(1.0 - std::pow(0.025, 0.25)));
     REQUIRE(four.warnings.size() == 1);
-    CHECK_THAT(four.warnings[0], Catch::Contains("200 healthy ones are of 4 gearboxes"));
+    CHECK_THAT(four.warnings[0], Catch::Contains("200 healthy records come from only 4 gearboxes"));
 }
 
 TEST_CASE("Equal records of one gearbox do not make a feature constant") {

@@ -85,10 +85,10 @@ TEST_CASE("Conditions without a threshold do not count; continuous inputs are no
     CHECK(own.levels[0].without == 1);
     CHECK(own.levels[0].cells[0].tested == 8);
     REQUIRE(own.warnings.size() == 2);
-    CHECK_THAT(own.warnings[0], Catch::Contains("3 of 3 conditions of torque_N_m have too few"));
+    CHECK_THAT(own.warnings[0], Catch::Contains("3 of 3 values of torque_N_m have too few"));
     const ConditionColumn continuous{"f", "1", healthy.value, faulty.value};
     CHECK_THAT(detect_by_condition("f", Alarm::high, one, other, continuous, request()).refusal,
-               Catch::Contains("conditions are levels"));
+               Catch::Contains("must have few levels"));
     const ConditionColumn none{"torque_N_m", "N m", {}, {}};
     CHECK(detect_by_condition("f", Alarm::high, {}, {}, none, request()).refusal ==
           "no healthy gearboxes");

@@ -101,7 +101,7 @@ TEST_CASE("Alarms are counted per size and noise level, failures apart") {
     CHECK(cells[2].lower == Approx(2.0 / (2.0 + 3.841458820694124)));  // n/(n + z^2) at p = 1
     CHECK(result.levels[1].cells[2].detected == 0);
     REQUIRE(result.warnings.size() == 2);  // one per noise level
-    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 100"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("100 are needed"));
 }
 
 TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
@@ -113,7 +113,7 @@ TEST_CASE("Continuous sizes fall into half-open groups, the last one closed") {
     CHECK(result.levels[0].cells[0].tested == 2);
     CHECK(result.levels[0].cells[1].tested == 3);
     REQUIRE(result.warnings.size() == 2);
-    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy ones fix"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("19 healthy records determine"));
     CHECK_THAT(result.warnings[1], Catch::Contains("1 of 6 gearboxes"));
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("A healthy sample too small for the rate gives no rates and a reason")
     CHECK(std::isnan(result.levels[0].cells[0].pd));
     CHECK(result.levels[0].cells[0].tested == 2);
     REQUIRE(result.warnings.size() == 1);
-    CHECK_THAT(result.warnings[0], Catch::Contains("it takes 19"));
+    CHECK_THAT(result.warnings[0], Catch::Contains("at least 19 are needed"));
 }
 
 TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported") {
@@ -140,7 +140,7 @@ TEST_CASE("Failed healthy gearboxes leave the threshold sample and are reported"
     CHECK(result.levels[0].threshold == 1.0);
     REQUIRE(result.warnings.size() == 2);
     CHECK_THAT(result.warnings[0], Catch::Contains("1 of 20 healthy"));
-    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy ones fix"));
+    CHECK_THAT(result.warnings[1], Catch::Contains("19 healthy records determine"));
 }
 
 TEST_CASE("Samples and groups of inconsistent shape are refused") {

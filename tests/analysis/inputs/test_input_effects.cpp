@@ -145,7 +145,7 @@ TEST_CASE("One outcome class, no gearboxes or no curve: a reason instead of a nu
     const HitMissPod pod = pod_of_form({Link::logit, false, 0.0, false}, 0.01, 4.0);
     for (const int outcome : {0, 1}) {
         const InputEffects same = effects(std::vector<int>(200, outcome), pod);
-        CHECK(same.inputs[0].refusal == "all outcomes are alike");
+        CHECK(same.inputs[0].refusal == "all outcomes are equal");
         CHECK(std::isnan(same.inputs[0].p_value));
         CHECK(same.inputs[0].a90.empty());
         CHECK(same.inputs[0].bins.size() == 5);

@@ -140,11 +140,11 @@ TEST_CASE("Responses without scatter, sizes or values are refused") {
     const auto refusal = [](const std::vector<double>& a, const std::vector<double>& y, double t) {
         return signal_response_pod(a, y, {t, Alarm::high, 0.95}).refusal;
     };
-    CHECK_THAT(refusal(size, constant, 2.0), Catch::Contains("the values do not scatter"));
+    CHECK_THAT(refusal(size, constant, 2.0), Catch::Contains("the values have no scatter"));
     CHECK_THAT(refusal(size, none, 2.0), Catch::Contains("0 faulty gearboxes with a value"));
     CHECK(refusal(size, constant, nan) == "no threshold");
     const std::vector<double> one_size(40, 1.0);
-    CHECK_THAT(refusal(one_size, constant, 2.0), Catch::Contains("linearity needs three"));
+    CHECK_THAT(refusal(one_size, constant, 2.0), Catch::Contains("linearity check needs three"));
 }
 
 }  // namespace

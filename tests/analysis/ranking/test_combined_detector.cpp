@@ -159,7 +159,7 @@ TEST_CASE("Constant or missing features and single classes are reported") {
 
     study = disturbed(600, 0.7, 4);
     study.graded_size.assign(600, 0.0);
-    CHECK_THAT(study.combine().refusal, Catch::Contains("0 faulty ones to train on"));
+    CHECK_THAT(study.combine().refusal, Catch::Contains("0 faulty training gearboxes"));
 
     CHECK_THAT(Study(2, {1.0}).combine().refusal, Catch::Contains("0 healthy and 0 faulty"));
 }

@@ -40,8 +40,8 @@ TEST_CASE("The smallest sample with a threshold has the requested expected rate"
 
 TEST_CASE("A sample without a threshold reports the required number") {
     const std::string none = sample_shortage(200, 0.001, 0.95, Subject::gearboxes);
-    CHECK_THAT(none,
-               Catch::Contains("Too few healthy gearboxes") && Catch::Contains("It takes 999"));
+    CHECK_THAT(none, Catch::Contains("Too few healthy gearboxes") &&
+                         Catch::Contains("At least 999 are needed"));
     const long enough = sample_for_rate(0.001, 0.95);
     CHECK_THAT(none, Catch::Contains("and " + std::to_string(enough)));
     CHECK_THAT(sample_shortage(999, 0.001, 0.95, Subject::recordings),
@@ -58,8 +58,8 @@ TEST_CASE("Several records of each gearbox count, and the text does not mention 
     CHECK(of(2000, 400).empty());
     CHECK_THAT(of(2000, 4),
                Catch::StartsWith("Few records (4 of each of 2000 healthy gearboxes)") &&
-                   Catch::Contains("rarer than one") && Catch::Contains("It takes 5 of each"));
-    CHECK_THAT(of(2000, 6), Catch::Contains("fix a false-alarm rate of 0.0001 to between"));
+                   Catch::Contains("rarer than one") && Catch::Contains("At least 5 of each"));
+    CHECK_THAT(of(2000, 6), Catch::Contains("a false-alarm rate of 0.0001 only to between"));
 }
 
 TEST_CASE(
@@ -87,23 +87,25 @@ TEST_CASE("A report counts the exponentially tilted thresholds and the gearboxes
     std::vector<FeatureDetection> features{with_samples(request, {640, 640})};
     features[0].feature = "window_ratio";
     CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
-               Catch::StartsWith("Too few gearboxes have the alarms") &&
+               Catch::StartsWith("Too few gearboxes have alarms") &&
                    Catch::Contains("640 give no threshold"));
     features[0].levels[1].threshold_sample = 640 * 32;
     features[0].levels[1].tilted = {640, 100.0, 15.6};
     CHECK_THAT(
         sample_shortage(features, request, Subject::gearboxes),
-        Catch::StartsWith("1 of the 2 thresholds is from 32 tilted records of each of 640") &&
-            Catch::Contains("16-fold rarer") && Catch::Contains("Of 1 other too"));
+        Catch::StartsWith(
+            "1 of the 2 thresholds is from importance sampling with 32 records of each of 640") &&
+            Catch::Contains("16 times rarer") && Catch::Contains("For 1 other, too"));
     CHECK_THAT(sample_shortage(640, 1e-4, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records carry") && Catch::Contains("640 give no"));
+               Catch::StartsWith("Importance sampling supports") && Catch::Contains("640 give no"));
 }
 
 TEST_CASE("A rate is not claimed from exponentially tilted records of too few gearboxes") {
     CHECK_THAT(sample_shortage(19, 0.01, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records set thresholds from 20 gearboxes on. Too few"));
+               Catch::StartsWith(
+                   "Importance sampling needs at least 20 gearboxes to set thresholds. Too few"));
     CHECK_THAT(sample_shortage(20, 0.01, 0.95, Subject::gearboxes, 32, true),
-               Catch::StartsWith("Tilted records carry"));
+               Catch::StartsWith("Importance sampling supports"));
 }
 
 TEST_CASE(
@@ -124,13 +126,12 @@ TEST_CASE(
     }
     // All accelerometer thresholds exist; the rates of the te_rms thresholds are undetermined.
     CHECK(sample_shortage(features, request, Subject::gearboxes) ==
-          "2 of the 4 thresholds are from 32 tilted records of each of 200 healthy gearboxes, for "
-          "a false-alarm rate 5-fold rarer than one in these. 2 are from plain records: the rate "
-          "may be up to 0.018.");
+          "2 of the 4 thresholds are from importance sampling with 32 records of each of 200 "
+          "healthy gearboxes, for a false-alarm rate 5 times rarer than one in these. 2 are from "
+          "records without importance sampling: the rate may be up to 0.018.");
     features[0] = with_samples(request, {480, 480});
     CHECK_THAT(sample_shortage(features, request, Subject::gearboxes),
-               Catch::EndsWith("2 of features that the accelerometer's noise does not reach have "
-                               "too few records."));
+               Catch::EndsWith("2 for features without accelerometer noise have too few records."));
 }
 
 TEST_CASE("A report names the noise levels without a threshold") {

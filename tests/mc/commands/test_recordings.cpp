@@ -254,7 +254,8 @@ TEST_CASE(
     CHECK(sized.mentions("a90/95"));
     CHECK(!sized.mentions(" boxes"));
     CHECK(!sized.mentions("Noise x"));
-    CHECK(sized.output.starts_with("Recordings of few gearboxes for a false-alarm rate of 0.1"));
+    CHECK(
+        sized.output.starts_with("Recordings of too few gearboxes for a false-alarm rate of 0.1"));
 
     std::string table = "file,label\n";
     for (int i = 0; i < 60; ++i) {
