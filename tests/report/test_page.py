@@ -94,9 +94,8 @@ class Answers(unittest.TestCase):
             f"95 % confidence by {found['feature']} at noise × 1.")
 
     def test_nothing_is_made_up(self):
-        for name, said in (("no_rows", "detection cannot be assessed"),
-                           ("no_features", "computes no feature"),
-                           ("all_failed", "detection cannot be assessed"),
+        for name, said in (("no_rows", "cannot be assessed"), ("no_features", "computes no feature"),
+                           ("all_failed", "cannot be assessed"),
                            ("no_fault", "No gearbox of this study has a fault"),
                            ("no_graded", "No gearbox of this study"), ("only_faulty", "no alarm threshold"),
                            ("few", "Too few healthy gearboxes for a false-alarm rate of 0.05: 5 give"),
@@ -376,8 +375,7 @@ class Program(unittest.TestCase):
         for words_ in ("Holds for identical teeth", "the lives of other gearboxes"):
             self.assertIn(words_, data["assumptions"])
         for words_ in (data["assumptions"], f"of {ended} cracks before the tooth breaks",
-                       "Warning times", "Depth at detection against false alarms",
-                       "each of the 31 teeth in all its 81 meetings"):
+                       "Depth at detection against", "each of the 31 teeth in all its 81 meetings"):
             self.assertIn(words_, parsed.text())
         self.assertNotIn("nan", re.findall(r"<td>(.*?)</td>", html))
         os.remove(self.html())
