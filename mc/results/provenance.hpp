@@ -9,7 +9,7 @@
 
 namespace gearpod::mc {
 
-// "gearpod 0.1.0 (git 0123abc)".
+// "gearpod 0.3.0 (git 0123abc)".
 std::string version_text();
 
 // The same of a results file's attributes code_version and git_hash.
