@@ -21,7 +21,7 @@ except ImportError:
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
 source_suffix = {".md": "markdown"}
-exclude_patterns = ["tools/**", "_generated/**"]
+exclude_patterns = ["tools/**", "reference/_generated/**"]
 nitpicky = True
 graphviz_output_format = "svg"
 
