@@ -66,25 +66,28 @@ def exit_codes(reference):
 
 
 def allowed(key):
+    """Type, range and unit of a key's value."""
     if key["type"] == "choice":
-        return " ".join(code(f'"{choice}"') for choice in key["choices"])
+        return " or ".join(code(f'"{choice}"') for choice in key["choices"])
     kind = TYPES[key["type"]]
     if key.get("ascending"):
         kind = "ascending " + kind
-    return cell(f"{kind} {key['range']}".strip())
+    unit = f", in {key['unit']}" if key["unit"] != "1" else ""
+    return cell(f"{kind} {key['range']}".strip() + unit)
 
 
-def default_text(key):
+def key_entry(key):
+    """One entry of a definition list: the key, what it may hold, what it means."""
+    facts = [allowed(key)]
     if key["required"]:
-        return "required"
-    return code(value_text(key["default"])) if "default" in key else ""
-
-
-def meaning(key):
-    text = cell(sentence(key["meaning"]))
+        facts.append("required")
+    elif "default" in key:
+        facts.append("default " + code(value_text(key["default"])))
+    if key["random"]:
+        facts.append("may be random")
     if key["condition"]:
-        text += f" *Condition: {cell(key['condition'])}.*"
-    return text
+        facts.append(cell(key["condition"]))
+    return f"{code(key['name'])}\n: *Value:* {'; '.join(facts)}.\\\n  {cell(sentence(key['meaning']))}\n"
 
 
 def keys(reference):
@@ -92,12 +95,9 @@ def keys(reference):
     for section in reference["sections"]:
         if section == "random":
             continue
-        rows = [[code(key["name"]), cell(key["unit"]) if key["unit"] != "1" else "",
-                 allowed(key), default_text(key), "yes" if key["random"] else "", meaning(key)]
-                for key in reference["keys"] if key["section"] == section]
+        entries = [key_entry(key) for key in reference["keys"] if key["section"] == section]
         title = SECTION_TITLES.get(section, "")
-        parts.append(f"({section}-keys)=\n## [{section}]: {title}\n\n"
-                     + table(["key", "unit", "values", "default", "random", "meaning"], rows))
+        parts.append(f"({section}-keys)=\n## [{section}]: {title}\n\n" + "\n".join(entries))
     return "\n".join(parts)
 
 
@@ -115,11 +115,9 @@ def features(reference):
     parts = []
     for title, chosen in groups:
         rows = [[code(feature["name"]), cell(feature["unit"]), feature["alarm"],
-                 "sensor" if feature["from_sensor"] else "transmission error",
                  cell(sentence(feature["definition"]))]
                 for feature in reference["features"] if chosen(feature)]
-        parts.append(f"## {title}\n\n" + table(["feature", "unit", "alarm side", "signal",
-                                               "definition and source"], rows))
+        parts.append(f"## {title}\n\n" + table(["feature", "unit", "alarm side", "definition and source"], rows))
     return "\n".join(parts)
 
 
