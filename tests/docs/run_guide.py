@@ -21,16 +21,21 @@ LINKED = ("studies", "analysis", "tests", "docs", "cmake")
 # Options that make a command quick where the block does not give them.
 SMALL = {
     "run": ["--instances", "7", "--set", "ensemble.threshold_instances=19"],
+    # Studies that integrate every mesh period.
+    "run real teeth": ["--instances", "7", "--set", "ensemble.threshold_instances=8"],
     "sweep": ["--instances", "7", "--set", "ensemble.threshold_instances=19"],
     "lives": ["--instances", "2", "--set", "ensemble.threshold_instances=2",
               "--set", "life.healthy_lives=2", "--set", "life.records=40"],
 }
+REAL_TEETH = ("studies/planet-crack.toml", "stage.toml")
 LAUNCHER = """#!/usr/bin/python3 -Bs
 import os, sys
 small = {small!r}
 command, *rest = sys.argv[1:] or [""]
 if command == "sweep" and "--lives" in rest:
     added = small["lives"]
+elif command == "run" and rest and rest[0] in {real!r}:
+    added = small["run real teeth"]
 else:
     added = small.get(command, [])
 given = " ".join(rest)
@@ -56,7 +61,7 @@ def make_tree(folder, program, sources):
     for name in LINKED:
         (folder / name).symlink_to(sources / name)
     launcher = folder / "gearpod"
-    launcher.write_text(LAUNCHER.format(small=SMALL, program=str(program)), encoding="utf-8")
+    launcher.write_text(LAUNCHER.format(small=SMALL, real=REAL_TEETH, program=str(program)), encoding="utf-8")
     launcher.chmod(0o755)
 
 
